@@ -1,0 +1,1 @@
+"""Gait: walking on plantar feedback, and the analysis of recorded gait."""

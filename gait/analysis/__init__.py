@@ -1,0 +1,1 @@
+"""Analysis of recorded gait: events, parameters, figures, report."""

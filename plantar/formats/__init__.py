@@ -1,0 +1,1 @@
+"""Readers of recordings, one vendor a file."""

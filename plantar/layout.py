@@ -1,0 +1,332 @@
+"""Sole layout: where the taxels of one sole are.
+
+Frames: the sole frame lies on the outer contact face of the sole, x forward, y left, z up. A taxel's own frame has
+its z axis pointing INTO the body, so the force the world exerts on it is [0, 0, f] with f >= 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import LayoutError
+from plantar.hex_lattice import HexLattice
+
+__all__ = ["DEFAULT_RANGES", "DEFAULT_THRESHOLDS", "MODALITIES", "Side", "SoleLayout", "hex_layout", "mirrored"]
+
+Side = Literal["left", "right"]
+
+MODALITIES: tuple[str, ...] = ("force", "proximity", "temperature", "acceleration")
+"""What a taxel can sense (T 4.2.1)."""
+
+DEFAULT_RANGES: Mapping[str, tuple[float, float]] = {
+    "force": (0.0, 785.0),
+    "proximity": (0.0, 0.05),
+    "temperature": (0.0, 60.0),
+    "acceleration": (-19.62, 19.62),
+}
+"""Sensing range of each modality in N, m, degC and m/s^2: 80 kg a taxel (T 4.2.1), 50 mm of proximity."""
+
+DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * 9.81, "proximity": 0.05}
+"""Activation thresholds: 0.15 kg of force (T Table 2) in N, and the proximity range in m."""
+
+
+@dataclass(frozen=True, eq=False)
+class SoleLayout:
+    """The taxels of one sole. Arrays are read-only; n taxels, v vertices.
+
+    Attributes:
+        name: Name of the sole, for example of the robot that wears it.
+        side: "left" or "right".
+        positions: Taxel centres (n, 3) in the sole frame in m.
+        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame.
+        vertices: Corner points (v, 3) in the sole frame in m, shared between cells that meet.
+        corners: For each taxel the indices of its corners in `vertices`, counter-clockwise seen from above.
+        neighbours: For each taxel the indices of the taxels that share an edge with it.
+        areas: Cell areas (n,) in m^2.
+        outline: Outline (k, 2) of the sole in m, counter-clockwise.
+        ids: Taxel ids (n,), unique.
+        cell_shape: "hexagon", "rectangle", "polygon" or "mixed".
+        cell_area: Area of one whole cell in m^2 (the median where sizes are mixed).
+        modalities: What each taxel senses, out of MODALITIES.
+        ranges: Sensing range (low, high) of each modality in SI.
+        thresholds: Activation threshold of each modality in SI.
+
+    Raises:
+        LayoutError: If a field is not valid; the message names it.
+    """
+
+    name: str
+    side: Side
+    positions: NDArray[np.float64]
+    rotations: NDArray[np.float64]
+    vertices: NDArray[np.float64]
+    corners: tuple[tuple[int, ...], ...]
+    neighbours: tuple[tuple[int, ...], ...]
+    areas: NDArray[np.float64]
+    outline: NDArray[np.float64]
+    ids: NDArray[np.int64]
+    cell_shape: str = "hexagon"
+    cell_area: float = 691e-6
+    modalities: tuple[str, ...] = ("force", "proximity")
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=lambda: dict(DEFAULT_RANGES))
+    thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
+
+    def __post_init__(self) -> None:
+        n = len(self.corners)
+        shapes: dict[str, tuple[int | None, ...]] = {
+            "positions": (n, 3),
+            "rotations": (n, 3, 3),
+            "vertices": (None, 3),
+            "areas": (n,),
+            "outline": (None, 2),
+            "ids": (n,),
+        }
+        for name, shape in shapes.items():
+            wanted = np.int64 if name == "ids" else np.float64
+            try:
+                array = np.array(getattr(self, name), dtype=wanted)
+            except (TypeError, ValueError, OverflowError):
+                raise LayoutError(f"layout field '{name}' is not numeric") from None
+            if array.size == 0 and n == 0:
+                array = array.reshape([0 if s is None else s for s in shape])
+            if array.ndim != len(shape) or any(s is not None and s != a for s, a in zip(shape, array.shape, strict=True)):
+                text = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
+                raise LayoutError(f"layout field '{name}' has shape {array.shape}; expected {text}")
+            if wanted is np.float64 and not np.isfinite(array).all():
+                raise LayoutError(f"layout field '{name}' holds a value that is not finite")
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+        self._check(n)
+
+    def _check(self, n: int) -> None:
+        if self.side not in ("left", "right"):
+            raise LayoutError(f"layout field 'side' is {self.side!r}; allowed: left, right")
+        if len(np.unique(self.ids)) != n:
+            raise LayoutError("layout field 'ids' holds an id twice; every taxel needs its own")
+        if len(self.neighbours) != n:
+            raise LayoutError(f"layout field 'neighbours' has {len(self.neighbours)} rows; expected {n}")
+        if not (self.areas > 0.0).all():
+            raise LayoutError("layout field 'areas' holds an area that is not above 0")
+        if not (math.isfinite(self.cell_area) and self.cell_area > 0.0):
+            raise LayoutError(f"layout field 'cell_area' is {self.cell_area}; allowed: above 0")
+        if len(self.outline) < 3:
+            raise LayoutError(f"layout field 'outline' has {len(self.outline)} points; expected 3 or more")
+        for i, (corner, near) in enumerate(zip(self.corners, self.neighbours, strict=True)):
+            if len(corner) < 3:
+                raise LayoutError(f"layout field 'corners' of taxel {i} has {len(corner)} points; expected 3 or more")
+            if min(corner) < 0 or max(corner) >= len(self.vertices):
+                raise LayoutError(f"layout field 'corners' of taxel {i} names a vertex that does not exist")
+            if any(not 0 <= j < n or j == i for j in near):
+                raise LayoutError(f"layout field 'neighbours' of taxel {i} names a taxel that does not exist")
+        gram = np.einsum("nij,nkj->nik", self.rotations, self.rotations) - np.eye(3)
+        if n and (np.abs(gram).max() > 1e-6 or (np.linalg.det(self.rotations) < 0).any()):
+            raise LayoutError("layout field 'rotations' holds a matrix that is not a rotation")
+        for name in self.modalities:
+            if name not in MODALITIES:
+                raise LayoutError(f"layout field 'modalities' holds {name!r}; allowed: {', '.join(MODALITIES)}")
+
+    def __len__(self) -> int:
+        return len(self.corners)
+
+    @property
+    def force_threshold(self) -> float:
+        """Force in N at which a taxel counts as active (epsilon_f of T 4.22)."""
+        return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
+
+    @cached_property
+    def sole_area(self) -> float:
+        """Area A_s of the sole's outline in m^2."""
+        x, y = (self.outline - self.outline[0]).T
+        return 0.5 * abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
+
+    @cached_property
+    def corner_start(self) -> NDArray[np.int64]:
+        """Offsets (n + 1,) of each taxel's corners in `corner_vertex`."""
+        return np.concatenate([[0], np.cumsum([len(c) for c in self.corners])]).astype(np.int64)
+
+    @cached_property
+    def corner_vertex(self) -> NDArray[np.int64]:
+        """Vertex indices of all corners, taxel by taxel."""
+        return np.array([i for c in self.corners for i in c], dtype=np.int64)
+
+    @cached_property
+    def wrench_map(self) -> NDArray[np.float64]:
+        """Matrix (6, n) that takes taxel normal forces to the wrench at the sole frame's origin (T 4.23)."""
+        normal = self.rotations[:, :, 2]
+        out = np.vstack([normal.T, np.cross(self.positions, normal).T])
+        out.flags.writeable = False
+        return out
+
+    def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
+        """Corners (k, 2) of one cell in the sole plane in m, counter-clockwise."""
+        return self.vertices[list(self.corners[taxel]), :2]
+
+
+def _shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
+    """Give points of cell rings that agree within a tolerance one shared index."""
+    points: list[NDArray[np.float64]] = []
+    index: dict[tuple[int, int], int] = {}
+    corners: list[tuple[int, ...]] = []
+    for ring in rings:
+        ids: list[int] = []
+        for p in np.asarray(ring, dtype=float):
+            kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
+            hit = next(
+                (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
+                None,
+            )
+            if hit is None:
+                hit = len(points)
+                points.append(p)
+                index[(kx, ky)] = hit
+            if not ids or (hit != ids[-1] and hit != ids[0]):
+                ids.append(hit)
+        corners.append(tuple(ids))
+    return np.array(points).reshape(-1, 2), corners
+
+
+def _edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
+    """Taxels that share an edge (two consecutive vertices)."""
+    owners: dict[tuple[int, int], list[int]] = {}
+    for i, ring in enumerate(corners):
+        for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
+            owners.setdefault((min(a, b), max(a, b)), []).append(i)
+    near: list[set[int]] = [set() for _ in corners]
+    for cells in owners.values():
+        for a in cells:
+            near[a].update(b for b in cells if b != a)
+    return tuple(tuple(sorted(s)) for s in near)
+
+
+def hex_layout(
+    outline: ArrayLike,
+    *,
+    name: str = "sole",
+    side: Side = "left",
+    cell_area: float = 691e-6,
+    origin: tuple[float, float] = (0.0, 0.0),
+    angle: float = 0.0,
+    clip: bool = True,
+    minimum_fraction: float = 0.5,
+    cells: ArrayLike | None = None,
+) -> SoleLayout:
+    """Lay a hexagonal lattice over a sole and keep the cells that fit.
+
+    Args:
+        outline: Outline (k, 2) of the sole in m in the sole frame, either orientation, not self-crossing.
+        name: Name of the sole.
+        side: "left" or "right".
+        cell_area: Area of a whole cell in m^2.
+        origin: Centre of lattice cell (0, 0) in m.
+        angle: Rotation of the lattice rows against x in rad.
+        clip: Cut cells that cross the outline; False keeps whole cells inside only.
+        minimum_fraction: With clip, a cut cell is kept when at least this fraction of it is inside, 0..1.
+        cells: Axial coordinates (m, 2) to take instead; these are kept whole, even across the outline.
+
+    Returns:
+        The layout; a clipped cell's position is the centroid of what is left of it.
+
+    Raises:
+        LayoutError: If the outline is not a simple polygon, or no cell fits.
+
+    Example:
+        >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
+        >>> len(layout), bool(abs(layout.areas - 691e-6).max() < 1e-12)
+        (33, True)
+    """
+    import shapely  # 0.2 s: only where a layout is made
+
+    ring = np.asarray(outline, dtype=float)
+    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
+        raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
+    polygon = shapely.Polygon(ring)
+    if not polygon.is_valid or polygon.area <= 0.0:
+        raise LayoutError("outline is not a simple polygon: it crosses itself or has no area")
+    polygon = shapely.geometry.polygon.orient(polygon)
+    lattice = HexLattice(cell_area, origin, angle)
+    if cells is not None:
+        axial = np.asarray(cells, dtype=np.int64).reshape(-1, 2)
+        rings = list(lattice.corners(axial))
+        centres = lattice.centres(axial)
+    else:
+        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
+        axial = lattice.cells_near(low, high)
+        rings, kept_centres = [], []
+        for centre, corner in zip(lattice.centres(axial), lattice.corners(axial), strict=True):
+            hexagon = shapely.Polygon(corner)
+            if polygon.covers(hexagon):
+                rings.append(corner)
+                kept_centres.append(centre)
+            elif clip:
+                part = polygon.intersection(hexagon)
+                if part.geom_type != "Polygon" or part.area < max(minimum_fraction, 1e-9) * cell_area:
+                    continue
+                part = shapely.geometry.polygon.orient(part)
+                rings.append(np.array(part.exterior.coords)[:-1])
+                kept_centres.append(np.array(part.centroid.coords[0]))
+        centres = np.array(kept_centres).reshape(-1, 2)
+    if not len(rings):
+        raise LayoutError(
+            f"no cell of {cell_area * 1e6:.0f} mm^2 fits the outline ({polygon.area * 1e6:.0f} mm^2); use a smaller cell area"
+        )
+    vertices, corners = _shared_vertices(rings, tolerance=1e-4 * lattice.side)
+    areas = np.array([shapely.Polygon(vertices[list(c)]).area for c in corners])
+    n = len(corners)
+    return SoleLayout(
+        name=name,
+        side=side,
+        positions=np.column_stack([centres, np.zeros(n)]),
+        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
+        vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
+        corners=tuple(corners),
+        neighbours=_edge_neighbours(corners),
+        areas=areas,
+        outline=np.array(polygon.exterior.coords)[:-1],
+        ids=np.arange(n),
+        cell_shape="hexagon",
+        cell_area=cell_area,
+    )
+
+
+def mirrored(layout: SoleLayout) -> SoleLayout:
+    """The same sole for the other foot: y changes sign, ids stay.
+
+    Args:
+        layout: Layout of one side.
+
+    Returns:
+        Layout of the other side; taxel i of one is the mirror image of taxel i of the other.
+
+    Example:
+        >>> left = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> right = mirrored(left)
+        >>> right.side, bool((right.positions[:, 1] == -left.positions[:, 1]).all())
+        ('right', True)
+    """
+    flip = np.array([1.0, -1.0, 1.0])
+    return SoleLayout(
+        name=layout.name,
+        side=cast(Side, "right" if layout.side == "left" else "left"),
+        positions=layout.positions * flip,
+        rotations=layout.rotations * np.outer(flip, flip),
+        vertices=layout.vertices * flip,
+        corners=tuple((c[0], *reversed(c[1:])) for c in layout.corners),
+        neighbours=layout.neighbours,
+        areas=layout.areas,
+        outline=(layout.outline * flip[:2])[::-1],
+        ids=layout.ids,
+        cell_shape=layout.cell_shape,
+        cell_area=layout.cell_area,
+        modalities=layout.modalities,
+        ranges=layout.ranges,
+        thresholds=layout.thresholds,
+    )
+
+

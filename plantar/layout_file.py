@@ -1,0 +1,166 @@
+"""The layout file: one JSON per sole, written by `shoes`, read by everything else."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+from plantar.atomic import write_text
+from plantar.errors import LayoutError
+from plantar.layout import Side, SoleLayout
+
+__all__ = ["SCHEMA", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
+
+SCHEMA = "plantar.layout/1"
+"""Schema name and version that a layout file states."""
+
+
+def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
+    """A layout as plain JSON values, SI units, sole frame.
+
+    Args:
+        layout: The layout.
+
+    Returns:
+        A dict that `layout_from_dict` reads back without loss.
+    """
+    return {
+        "schema": SCHEMA,
+        "name": layout.name,
+        "side": layout.side,
+        "units": "m, N, degC; sole frame: x forward, y left, z up, on the outer contact face",
+        "cell_shape": layout.cell_shape,
+        "cell_area": layout.cell_area,
+        "modalities": list(layout.modalities),
+        "ranges": {k: list(v) for k, v in layout.ranges.items()},
+        "thresholds": dict(layout.thresholds),
+        "outline": layout.outline.tolist(),
+        "vertices": layout.vertices.tolist(),
+        "taxels": [
+            {
+                "id": int(layout.ids[i]),
+                "position": layout.positions[i].tolist(),
+                "rotation_taxel_to_sole": layout.rotations[i].tolist(),
+                "corners": list(layout.corners[i]),
+                "area": float(layout.areas[i]),
+                "neighbours": [int(layout.ids[j]) for j in layout.neighbours[i]],
+            }
+            for i in range(len(layout))
+        ],
+    }
+
+
+def _take(source: Mapping[str, Any], key: str, kind: type | tuple[type, ...], where: str) -> Any:
+    if key not in source:
+        raise LayoutError(f"{where}: field '{key}' is missing")
+    value = source[key]
+    if isinstance(value, bool) or not isinstance(value, kind):
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        raise LayoutError(
+            f"{where}: field '{key}' is {type(value).__name__}; expected {' or '.join(k.__name__ for k in kinds)}"
+        )
+    return value
+
+
+def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLayout:
+    """A layout from plain JSON values.
+
+    Args:
+        source: What `layout_to_dict` gave.
+        where: Name of the source, for error messages.
+
+    Returns:
+        The checked layout.
+
+    Raises:
+        LayoutError: If a field is missing or wrong; the message names it.
+    """
+    if not isinstance(source, Mapping):
+        raise LayoutError(f"{where}: not a JSON object")
+    schema = _take(source, "schema", str, where)
+    if schema != SCHEMA:
+        raise LayoutError(f"{where}: field 'schema' is {schema!r}; this version reads {SCHEMA!r}")
+    taxels = _take(source, "taxels", list, where)
+    rows: dict[str, list[Any]] = {k: [] for k in ("id", "position", "rotation_taxel_to_sole", "corners", "area", "neighbours")}
+    for i, taxel in enumerate(taxels):
+        at = f"{where}: taxel {i}"
+        if not isinstance(taxel, Mapping):
+            raise LayoutError(f"{at} is not a JSON object")
+        rows["id"].append(_take(taxel, "id", int, at))
+        rows["area"].append(_take(taxel, "area", (int, float), at))
+        for key in ("position", "rotation_taxel_to_sole", "corners", "neighbours"):
+            rows[key].append(_take(taxel, key, list, at))
+        for key in ("corners", "neighbours"):
+            if not all(isinstance(v, int) and not isinstance(v, bool) for v in taxel[key]):
+                raise LayoutError(f"{at}: field '{key}' holds a value that is not an integer")
+    index = {v: i for i, v in enumerate(rows["id"])}
+    try:
+        neighbours = tuple(tuple(index[j] for j in near) for near in rows["neighbours"])
+    except KeyError as missing:
+        raise LayoutError(f"{where}: field 'neighbours' names taxel {missing}, which does not exist") from None
+    ranges = _take(source, "ranges", dict, where)
+    for key, value in ranges.items():
+        if not (isinstance(value, list) and len(value) == 2 and all(isinstance(v, (int, float)) for v in value)):
+            raise LayoutError(f"{where}: field 'ranges.{key}' is not [low, high]")
+    thresholds = _take(source, "thresholds", dict, where)
+    for key, value in thresholds.items():
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise LayoutError(f"{where}: field 'thresholds.{key}' is not a number")
+    try:
+        return SoleLayout(
+            name=_take(source, "name", str, where),
+            side=cast(Side, _take(source, "side", str, where)),
+            positions=rows["position"],  # type: ignore[arg-type]
+            rotations=rows["rotation_taxel_to_sole"],  # type: ignore[arg-type]
+            vertices=_take(source, "vertices", list, where),
+            corners=tuple(tuple(c) for c in rows["corners"]),
+            neighbours=neighbours,
+            areas=rows["area"],  # type: ignore[arg-type]
+            outline=_take(source, "outline", list, where),
+            ids=rows["id"],  # type: ignore[arg-type]
+            cell_shape=_take(source, "cell_shape", str, where),
+            cell_area=float(_take(source, "cell_area", (int, float), where)),
+            modalities=tuple(_take(source, "modalities", list, where)),
+            ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
+            thresholds={k: float(v) for k, v in thresholds.items()},
+        )
+    except LayoutError as error:
+        raise LayoutError(f"{where}: {error}") from None
+
+
+def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
+    """Read a layout file.
+
+    Args:
+        path: A JSON file as `write_layout` makes it.
+
+    Returns:
+        The checked layout.
+
+    Raises:
+        LayoutError: If the file cannot be read, is no JSON, or has a bad field; the message names file and field.
+    """
+    try:
+        source = json.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise LayoutError(f"{path}: cannot be read ({error.strerror})") from None
+    except ValueError as error:
+        raise LayoutError(f"{path}: not a JSON layout file ({error})") from None
+    return layout_from_dict(source, where=str(path))
+
+
+def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
+    """Write a layout file; it appears whole or not at all.
+
+    Args:
+        layout: The layout.
+        path: Where to; replaced if it exists.
+
+    Returns:
+        The path.
+    """
+    return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
+

@@ -1,0 +1,56 @@
+"""One reading of a sole: what its taxels said at one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import ReadingError
+
+__all__ = ["Reading"]
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """What n taxels of one sole measured at one time.
+
+    Attributes:
+        time: Time in s.
+        force: Normal force (n,) on each taxel in N; NaN marks a dead taxel.
+        proximity: Distance (n,) from each taxel to the nearest surface in m, inf where nothing is in range, or None.
+        temperature: Temperature (n,) in degC, or None.
+        acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
+
+    Raises:
+        ReadingError: If an array's shape does not agree with the number of taxels.
+
+    Example:
+        >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()
+        np.float64(3.0)
+    """
+
+    time: float
+    force: NDArray[np.float64]
+    proximity: NDArray[np.float64] | None = None
+    temperature: NDArray[np.float64] | None = None
+    acceleration: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        force = np.asarray(self.force, dtype=np.float64)
+        if force.ndim != 1:
+            raise ReadingError(f"reading field 'force' has shape {force.shape}; expected (taxels,)")
+        object.__setattr__(self, "force", force)
+        for name, shape in (
+            ("proximity", force.shape),
+            ("temperature", force.shape),
+            ("acceleration", (*force.shape, 3)),
+        ):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            value = np.asarray(value, dtype=np.float64)
+            if value.shape != shape:
+                raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")
+            object.__setattr__(self, name, value)

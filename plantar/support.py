@@ -1,0 +1,48 @@
+"""Support polygon of one or two feet in a common frame."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.polygon import convex_hull
+
+__all__ = ["feet_support_polygon", "polygon_in_world"]
+
+
+def polygon_in_world(
+    polygon_in_sole: NDArray[np.float64],
+    rotation_sole_to_world: NDArray[np.float64],
+    position_sole_in_world: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """A polygon of the sole plane, seen from above in the world frame.
+
+    Args:
+        polygon_in_sole: Polygon (k, 2) in the sole frame in m.
+        rotation_sole_to_world: Rotation (3, 3).
+        position_sole_in_world: Position (3,) of the sole frame's origin in m.
+
+    Returns:
+        Polygon (k, 2) in m in the world's x-y plane.
+    """
+    return np.asarray(polygon_in_sole @ rotation_sole_to_world[:2, :2].T + position_sole_in_world[:2])
+
+
+def feet_support_polygon(polygons_in_world: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Convex support polygon of all feet (T 4.25).
+
+    Args:
+        polygons_in_world: Support polygon (k, 2) of each foot in the world frame; empty for a foot in the air.
+
+    Returns:
+        Convex polygon (m, 2), counter-clockwise, empty where no foot has contact.
+
+    Example:
+        >>> left = np.array([[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]])
+        >>> feet_support_polygon([left, left * [1, -1]]).tolist()
+        [[0.0, -0.2], [0.2, -0.2], [0.2, 0.2], [0.0, 0.2]]
+    """
+    parts = [p for p in polygons_in_world if len(p)]
+    return convex_hull(np.concatenate(parts)) if parts else np.empty((0, 2))
