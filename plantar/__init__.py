@@ -50,8 +50,8 @@ __all__ = [
     "hex_layout",
     "mirrored",
     "read_layout",
-    "write_layout",
     "wrench_at",
+    "write_layout",
     "zmp_of_feet",
     "zmp_of_wrench",
 ]

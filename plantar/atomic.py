@@ -31,7 +31,9 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     try:
         handle, name = tempfile.mkstemp(prefix=f".{final.stem}.", suffix=final.suffix, dir=final.parent)
     except OSError as error:
-        raise InputError(f"cannot write {final}: {error.strerror}; choose a folder that exists and is writable") from None
+        raise InputError(
+            f"cannot write {final}: {error.strerror}; choose a folder that exists and is writable"
+        ) from None
     os.close(handle)
     temporary = Path(name)
     try:
@@ -79,9 +81,7 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary = Path(tempfile.mkdtemp(prefix=".plantar-", dir=final))
     except OSError as error:
         _remove_empty(made)
-        raise InputError(
-            f"output folder {final} cannot be written to ({error.strerror}); choose one with -o"
-        ) from None
+        raise InputError(f"output folder {final} cannot be written to ({error.strerror}); choose one with -o") from None
     try:
         yield temporary
         for source in sorted(p for p in temporary.rglob("*") if p.is_file()):

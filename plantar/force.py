@@ -83,9 +83,7 @@ def zmp_of_wrench(wrench: NDArray[np.float64], minimum_force: float = 1.0) -> ND
     return np.array([-wrench[4] / wrench[2], wrench[3] / wrench[2]])
 
 
-def zmp_of_feet(
-    points: list[NDArray[np.float64] | None], vertical_forces: list[float]
-) -> NDArray[np.float64] | None:
+def zmp_of_feet(points: list[NDArray[np.float64] | None], vertical_forces: list[float]) -> NDArray[np.float64] | None:
     """Composite ZMP of the feet (T 4.7-4.8).
 
     Args:

@@ -96,7 +96,9 @@ class SoleLayout:
                 raise LayoutError(f"layout field '{name}' is not numeric") from None
             if array.size == 0 and n == 0:
                 array = array.reshape([0 if s is None else s for s in shape])
-            if array.ndim != len(shape) or any(s is not None and s != a for s, a in zip(shape, array.shape, strict=True)):
+            if array.ndim != len(shape) or any(
+                s is not None and s != a for s, a in zip(shape, array.shape, strict=True)
+            ):
                 text = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
                 raise LayoutError(f"layout field '{name}' has shape {array.shape}; expected {text}")
             if wanted is np.float64 and not np.isfinite(array).all():
@@ -328,5 +330,3 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
         ranges=layout.ranges,
         thresholds=layout.thresholds,
     )
-
-

@@ -84,7 +84,9 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
     if schema != SCHEMA:
         raise LayoutError(f"{where}: field 'schema' is {schema!r}; this version reads {SCHEMA!r}")
     taxels = _take(source, "taxels", list, where)
-    rows: dict[str, list[Any]] = {k: [] for k in ("id", "position", "rotation_taxel_to_sole", "corners", "area", "neighbours")}
+    rows: dict[str, list[Any]] = {
+        k: [] for k in ("id", "position", "rotation_taxel_to_sole", "corners", "area", "neighbours")
+    }
     for i, taxel in enumerate(taxels):
         at = f"{where}: taxel {i}"
         if not isinstance(taxel, Mapping):
@@ -163,4 +165,3 @@ def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
         The path.
     """
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")
-
