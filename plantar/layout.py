@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, cast
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -276,7 +276,8 @@ def hex_layout(
         centres = np.array(kept_centres).reshape(-1, 2)
     if not len(rings):
         raise LayoutError(
-            f"no cell of {cell_area * 1e6:.0f} mm^2 fits the outline ({polygon.area * 1e6:.0f} mm^2); use a smaller cell area"
+            f"no cell of {cell_area * 1e6:.0f} mm^2 fits the outline ({polygon.area * 1e6:.0f} mm^2); "
+            "use a smaller cell area"
         )
     vertices, corners = _shared_vertices(rings, tolerance=1e-4 * lattice.side)
     areas = np.array([shapely.Polygon(vertices[list(c)]).area for c in corners])
@@ -315,7 +316,7 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
     flip = np.array([1.0, -1.0, 1.0])
     return SoleLayout(
         name=layout.name,
-        side=cast(Side, "right" if layout.side == "left" else "left"),
+        side="right" if layout.side == "left" else "left",
         positions=layout.positions * flip,
         rotations=layout.rotations * np.outer(flip, flip),
         vertices=layout.vertices * flip,

@@ -214,4 +214,4 @@ def _clip_inwards(polygon: NDArray[np.float64], distance: float) -> NDArray[np.f
         ring = out
         if not ring:
             return np.empty((0, 2))
-    return np.array(ring) + base
+    return np.asarray(np.array(ring) + base)
