@@ -1,0 +1,54 @@
+# Two commands matter: `make demo` and `make test`. Each sets up what it needs, once, in .venv.
+
+VENV := .venv
+PYTHON_IN_VENV := $(VENV)/bin/python
+PLANTAR := $(VENV)/bin/plantar
+INSTALLED := $(VENV)/.installed
+OUT ?= out
+PYTEST_OPTIONS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test test-all bench lint format clean
+
+help:
+	@echo "make demo      build the H1 shoe, walk on plantar feedback, analyse the recording (into $(OUT)/)"
+	@echo "make test      run the tests, without the long ones"
+	@echo "make test-all  run every test"
+	@echo "make bench     measure run time against error (into $(OUT)/bench/)"
+	@echo "make lint      ruff, mypy and the layering test"
+	@echo "make format    let ruff format the code"
+	@echo "make setup     only create .venv (about 2.5 GB: cadquery brings VTK)"
+	@echo "make clean     delete .venv, caches and $(OUT)/"
+
+setup: $(INSTALLED)
+
+demo: $(INSTALLED)
+	$(PLANTAR) demo -o $(OUT)
+
+test: $(INSTALLED)
+	$(PYTHON_IN_VENV) -m pytest -m "not long" $(PYTEST_OPTIONS)
+
+test-all: $(INSTALLED)
+	$(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
+
+bench: $(INSTALLED)
+	$(PLANTAR) bench all -o $(OUT)/bench
+
+lint: $(INSTALLED)
+	$(PYTHON_IN_VENV) -m ruff check .
+	$(PYTHON_IN_VENV) -m ruff format --check .
+	$(PYTHON_IN_VENV) -m mypy
+	$(PYTHON_IN_VENV) -m pytest tests/test_layering.py
+
+format: $(INSTALLED)
+	$(PYTHON_IN_VENV) -m ruff check --fix .
+	$(PYTHON_IN_VENV) -m ruff format .
+
+clean:
+	rm -rf $(VENV) $(OUT) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# Made anew when the dependencies change; the stamp is written last, so a stopped installation is taken up again.
+$(INSTALLED): pyproject.toml constraints.txt
+	@sh tools/make-venv $(VENV)
+	@touch $@
