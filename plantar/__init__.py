@@ -28,11 +28,12 @@ if TYPE_CHECKING:
     )
     from plantar.force import center_of_pressure, ground_reaction_wrench, wrench_at, zmp_of_feet, zmp_of_wrench
     from plantar.hex_lattice import HexLattice
-    from plantar.layout import SoleLayout, hex_layout, mirrored
+    from plantar.layout import SoleLayout, mirrored
     from plantar.layout_file import read_layout, write_layout
     from plantar.percept import Percept
     from plantar.reading import Reading
     from plantar.support import feet_support_polygon
+    from plantar.tiling import hex_layout
 
 __version__ = "0.1.0"
 
@@ -75,7 +76,7 @@ _MODULE_OF_NAME = {
     "center_of_pressure": "force",
     "feet_support_polygon": "support",
     "ground_reaction_wrench": "force",
-    "hex_layout": "layout",
+    "hex_layout": "tiling",
     "mirrored": "layout",
     "read_layout": "layout_file",
     "wrench_at": "force",

@@ -71,12 +71,12 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         InputError: If the folder cannot be made or written to.
     """
     final = Path(path)
-    if final.exists() and not final.is_dir():
-        raise InputError(f"output folder {final} is a file; choose another name")
-    made: list[Path] = [p for p in (final, *final.parents) if not p.exists()]
-    temporary: Path | None = None
+    made: list[Path] = []
     done = False
     try:
+        if final.exists() and not final.is_dir():
+            raise InputError(f"output folder {final} is a file; choose another name")
+        made = [p for p in (final, *final.parents) if not p.exists()]
         final.mkdir(parents=True, exist_ok=True)
         temporary = Path(tempfile.mkdtemp(prefix=".plantar-", dir=final))
     except OSError as error:
@@ -84,10 +84,16 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise InputError(f"output folder {final} cannot be written to ({error.strerror}); choose one with -o") from None
     try:
         yield temporary
-        for source in sorted(p for p in temporary.rglob("*") if p.is_file()):
-            target = final / source.relative_to(temporary)
-            target.parent.mkdir(parents=True, exist_ok=True)
-            os.replace(source, target)
+        moves = [(p, final / p.relative_to(temporary)) for p in sorted(temporary.rglob("*")) if p.is_file()]
+        for _, target in moves:  # before the first move, so that all files appear or none
+            if target.is_dir():
+                raise InputError(f"cannot write {target}: a folder of this name is in the way; choose another with -o")
+        try:
+            for source, target in moves:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                os.replace(source, target)
+        except OSError as error:
+            raise InputError(f"output folder {final} cannot be written to ({error.strerror})") from None
         done = True
     finally:
         shutil.rmtree(temporary, ignore_errors=True)

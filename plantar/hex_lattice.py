@@ -71,6 +71,8 @@ class HexLattice:
 
     def __post_init__(self) -> None:
         hexagon_side(self.area)  # raises on a bad area
+        if not all(math.isfinite(v) for v in (*self.origin, self.angle)):
+            raise InputError(f"lattice origin {self.origin} m or angle {self.angle} rad is not finite")
 
     @property
     def side(self) -> float:

@@ -7,18 +7,26 @@ its z axis pointing INTO the body, so the force the world exerts on it is [0, 0,
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from plantar.errors import LayoutError
-from plantar.hex_lattice import HexLattice
 
-__all__ = ["DEFAULT_RANGES", "DEFAULT_THRESHOLDS", "MODALITIES", "Side", "SoleLayout", "hex_layout", "mirrored"]
+__all__ = [
+    "CELL_SHAPES",
+    "DEFAULT_RANGES",
+    "DEFAULT_THRESHOLDS",
+    "LARGEST_COORDINATE",
+    "MODALITIES",
+    "Side",
+    "SoleLayout",
+    "mirrored",
+]
 
 Side = Literal["left", "right"]
 
@@ -32,6 +40,12 @@ DEFAULT_RANGES: Mapping[str, tuple[float, float]] = {
     "acceleration": (-19.62, 19.62),
 }
 """Sensing range of each modality in N, m, degC and m/s^2: 80 kg a taxel (T 4.2.1), 50 mm of proximity."""
+
+CELL_SHAPES: tuple[str, ...] = ("hexagon", "rectangle", "polygon", "mixed")
+"""What a layout's cells are; clipped cells keep the name of the whole cell."""
+
+LARGEST_COORDINATE = 50.0
+"""Largest coordinate of a layout in m: a sole in millimetres is found out, a long walkway is not."""
 
 DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * 9.81, "proximity": 0.05}
 """Activation thresholds: 0.15 kg of force (T Table 2) in N, and the proximity range in m."""
@@ -52,7 +66,7 @@ class SoleLayout:
         areas: Cell areas (n,) in m^2.
         outline: Outline (k, 2) of the sole in m, counter-clockwise.
         ids: Taxel ids (n,), unique.
-        cell_shape: "hexagon", "rectangle", "polygon" or "mixed".
+        cell_shape: One of CELL_SHAPES.
         cell_area: Area of one whole cell in m^2 (the median where sizes are mixed).
         modalities: What each taxel senses, out of MODALITIES.
         ranges: Sensing range (low, high) of each modality in SI.
@@ -103,6 +117,11 @@ class SoleLayout:
                 raise LayoutError(f"layout field '{name}' has shape {array.shape}; expected {text}")
             if wanted is np.float64 and not np.isfinite(array).all():
                 raise LayoutError(f"layout field '{name}' holds a value that is not finite")
+            if name in ("positions", "vertices", "outline") and np.abs(array).max(initial=0.0) > LARGEST_COORDINATE:
+                raise LayoutError(
+                    f"layout field '{name}' reaches {np.abs(array).max():.3g} m; "
+                    f"allowed: within {LARGEST_COORDINATE:.0f} m of the origin"
+                )
             array.flags.writeable = False
             object.__setattr__(self, name, array)
         self._check(n)
@@ -120,19 +139,34 @@ class SoleLayout:
             raise LayoutError(f"layout field 'cell_area' is {self.cell_area}; allowed: above 0")
         if len(self.outline) < 3:
             raise LayoutError(f"layout field 'outline' has {len(self.outline)} points; expected 3 or more")
+        if not self.sole_area > 0.0:
+            raise LayoutError("layout field 'outline' encloses no area")
+        if self.cell_shape not in CELL_SHAPES:
+            raise LayoutError(f"layout field 'cell_shape' is {self.cell_shape!r}; allowed: {', '.join(CELL_SHAPES)}")
         for i, (corner, near) in enumerate(zip(self.corners, self.neighbours, strict=True)):
             if len(corner) < 3:
                 raise LayoutError(f"layout field 'corners' of taxel {i} has {len(corner)} points; expected 3 or more")
             if min(corner) < 0 or max(corner) >= len(self.vertices):
                 raise LayoutError(f"layout field 'corners' of taxel {i} names a vertex that does not exist")
+            if len(set(corner)) != len(corner):
+                raise LayoutError(f"layout field 'corners' of taxel {i} names a vertex twice")
             if any(not 0 <= j < n or j == i for j in near):
-                raise LayoutError(f"layout field 'neighbours' of taxel {i} names a taxel that does not exist")
-        gram = np.einsum("nij,nkj->nik", self.rotations, self.rotations) - np.eye(3)
-        if n and (np.abs(gram).max() > 1e-6 or (np.linalg.det(self.rotations) < 0).any()):
+                raise LayoutError(f"layout field 'neighbours' of taxel {i} names itself or a taxel that does not exist")
+            if any(i not in self.neighbours[j] for j in near):
+                raise LayoutError(f"layout field 'neighbours' of taxel {i} names a taxel that does not name it back")
+        rotations = np.clip(self.rotations, -2.0, 2.0)  # no rotation holds more than 1; the square stays finite
+        gram = np.einsum("nij,nkj->nik", rotations, rotations) - np.eye(3)
+        if n and (np.abs(gram).max() > 1e-6 or (np.linalg.det(rotations) < 0).any()):
             raise LayoutError("layout field 'rotations' holds a matrix that is not a rotation")
         for name in self.modalities:
             if name not in MODALITIES:
                 raise LayoutError(f"layout field 'modalities' holds {name!r}; allowed: {', '.join(MODALITIES)}")
+        for name, (low, high) in self.ranges.items():
+            if not (math.isfinite(low) and math.isfinite(high) and low < high):
+                raise LayoutError(f"layout field 'ranges.{name}' is [{low}, {high}]; allowed: finite, low below high")
+        for name, value in self.thresholds.items():
+            if not (math.isfinite(value) and value >= 0.0):
+                raise LayoutError(f"layout field 'thresholds.{name}' is {value}; allowed: finite, 0 or more")
 
     def __len__(self) -> int:
         return len(self.corners)
@@ -171,133 +205,6 @@ class SoleLayout:
         return self.vertices[list(self.corners[taxel]), :2]
 
 
-def _shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
-    """Give points of cell rings that agree within a tolerance one shared index."""
-    points: list[NDArray[np.float64]] = []
-    index: dict[tuple[int, int], int] = {}
-    corners: list[tuple[int, ...]] = []
-    for ring in rings:
-        ids: list[int] = []
-        for p in np.asarray(ring, dtype=float):
-            kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
-            hit = next(
-                (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
-                None,
-            )
-            if hit is None:
-                hit = len(points)
-                points.append(p)
-                index[(kx, ky)] = hit
-            if not ids or (hit != ids[-1] and hit != ids[0]):
-                ids.append(hit)
-        corners.append(tuple(ids))
-    return np.array(points).reshape(-1, 2), corners
-
-
-def _edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
-    """Taxels that share an edge (two consecutive vertices)."""
-    owners: dict[tuple[int, int], list[int]] = {}
-    for i, ring in enumerate(corners):
-        for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
-            owners.setdefault((min(a, b), max(a, b)), []).append(i)
-    near: list[set[int]] = [set() for _ in corners]
-    for cells in owners.values():
-        for a in cells:
-            near[a].update(b for b in cells if b != a)
-    return tuple(tuple(sorted(s)) for s in near)
-
-
-def hex_layout(
-    outline: ArrayLike,
-    *,
-    name: str = "sole",
-    side: Side = "left",
-    cell_area: float = 691e-6,
-    origin: tuple[float, float] = (0.0, 0.0),
-    angle: float = 0.0,
-    clip: bool = True,
-    minimum_fraction: float = 0.5,
-    cells: ArrayLike | None = None,
-) -> SoleLayout:
-    """Lay a hexagonal lattice over a sole and keep the cells that fit.
-
-    Args:
-        outline: Outline (k, 2) of the sole in m in the sole frame, either orientation, not self-crossing.
-        name: Name of the sole.
-        side: "left" or "right".
-        cell_area: Area of a whole cell in m^2.
-        origin: Centre of lattice cell (0, 0) in m.
-        angle: Rotation of the lattice rows against x in rad.
-        clip: Cut cells that cross the outline; False keeps whole cells inside only.
-        minimum_fraction: With clip, a cut cell is kept when at least this fraction of it is inside, 0..1.
-        cells: Axial coordinates (m, 2) to take instead; these are kept whole, even across the outline.
-
-    Returns:
-        The layout; a clipped cell's position is the centroid of what is left of it.
-
-    Raises:
-        LayoutError: If the outline is not a simple polygon, or no cell fits.
-
-    Example:
-        >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
-        >>> len(layout), bool(abs(layout.areas - 691e-6).max() < 1e-12)
-        (33, True)
-    """
-    import shapely  # 0.2 s: only where a layout is made
-
-    ring = np.asarray(outline, dtype=float)
-    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
-        raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
-    polygon = shapely.Polygon(ring)
-    if not polygon.is_valid or polygon.area <= 0.0:
-        raise LayoutError("outline is not a simple polygon: it crosses itself or has no area")
-    polygon = shapely.geometry.polygon.orient(polygon)
-    lattice = HexLattice(cell_area, origin, angle)
-    if cells is not None:
-        axial = np.asarray(cells, dtype=np.int64).reshape(-1, 2)
-        rings = list(lattice.corners(axial))
-        centres = lattice.centres(axial)
-    else:
-        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
-        axial = lattice.cells_near(low, high)
-        rings, kept_centres = [], []
-        for centre, corner in zip(lattice.centres(axial), lattice.corners(axial), strict=True):
-            hexagon = shapely.Polygon(corner)
-            if polygon.covers(hexagon):
-                rings.append(corner)
-                kept_centres.append(centre)
-            elif clip:
-                part = polygon.intersection(hexagon)
-                if part.geom_type != "Polygon" or part.area < max(minimum_fraction, 1e-9) * cell_area:
-                    continue
-                part = shapely.geometry.polygon.orient(part)
-                rings.append(np.array(part.exterior.coords)[:-1])
-                kept_centres.append(np.array(part.centroid.coords[0]))
-        centres = np.array(kept_centres).reshape(-1, 2)
-    if not len(rings):
-        raise LayoutError(
-            f"no cell of {cell_area * 1e6:.0f} mm^2 fits the outline ({polygon.area * 1e6:.0f} mm^2); "
-            "use a smaller cell area"
-        )
-    vertices, corners = _shared_vertices(rings, tolerance=1e-4 * lattice.side)
-    areas = np.array([shapely.Polygon(vertices[list(c)]).area for c in corners])
-    n = len(corners)
-    return SoleLayout(
-        name=name,
-        side=side,
-        positions=np.column_stack([centres, np.zeros(n)]),
-        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
-        vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
-        corners=tuple(corners),
-        neighbours=_edge_neighbours(corners),
-        areas=areas,
-        outline=np.array(polygon.exterior.coords)[:-1],
-        ids=np.arange(n),
-        cell_shape="hexagon",
-        cell_area=cell_area,
-    )
-
-
 def mirrored(layout: SoleLayout) -> SoleLayout:
     """The same sole for the other foot: y changes sign, ids stay.
 
@@ -308,6 +215,7 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
         Layout of the other side; taxel i of one is the mirror image of taxel i of the other.
 
     Example:
+        >>> from plantar import hex_layout
         >>> left = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
         >>> right = mirrored(left)
         >>> right.side, bool((right.positions[:, 1] == -left.positions[:, 1]).all())

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, cast
+
+import numpy as np
 
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
@@ -65,6 +68,22 @@ def _take(source: Mapping[str, Any], key: str, kind: type | tuple[type, ...], wh
     return value
 
 
+def _numbers(value: Any, shape: tuple[int | None, ...], field: str, where: str) -> Any:
+    """Check that nested lists hold finite numbers in a shape; None is any length."""
+    if not shape:
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise LayoutError(f"{where}: field '{field}' holds {type(value).__name__}; expected numbers")
+        if not abs(value) <= sys.float_info.max:  # also large integers, which no float can hold
+            raise LayoutError(f"{where}: field '{field}' holds a value that is not finite")
+        return value
+    if not isinstance(value, list) or shape[0] not in (None, len(value)):
+        text = " x ".join("any" if s is None else str(s) for s in shape)
+        raise LayoutError(f"{where}: field '{field}' is not a list of {text} numbers")
+    for item in value:
+        _numbers(item, shape[1:], field, where)
+    return value
+
+
 def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLayout:
     """A layout from plain JSON values.
 
@@ -92,10 +111,10 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
         if not isinstance(taxel, Mapping):
             raise LayoutError(f"{at} is not a JSON object")
         rows["id"].append(_take(taxel, "id", int, at))
-        rows["area"].append(_take(taxel, "area", (int, float), at))
-        for key in ("position", "rotation_taxel_to_sole", "corners", "neighbours"):
-            rows[key].append(_take(taxel, key, list, at))
+        for key, shape in (("area", ()), ("position", (3,)), ("rotation_taxel_to_sole", (3, 3))):
+            rows[key].append(_numbers(_take(taxel, key, (int, float, list), at), shape, key, at))
         for key in ("corners", "neighbours"):
+            rows[key].append(_take(taxel, key, list, at))
             if not all(isinstance(v, int) and not isinstance(v, bool) for v in taxel[key]):
                 raise LayoutError(f"{at}: field '{key}' holds a value that is not an integer")
     index = {v: i for i, v in enumerate(rows["id"])}
@@ -105,32 +124,37 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
         raise LayoutError(f"{where}: field 'neighbours' names taxel {missing}, which does not exist") from None
     ranges = _take(source, "ranges", dict, where)
     for key, value in ranges.items():
-        if not (isinstance(value, list) and len(value) == 2 and all(isinstance(v, (int, float)) for v in value)):
-            raise LayoutError(f"{where}: field 'ranges.{key}' is not [low, high]")
+        _numbers(value, (2,), f"ranges.{key}", where)
     thresholds = _take(source, "thresholds", dict, where)
     for key, value in thresholds.items():
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise LayoutError(f"{where}: field 'thresholds.{key}' is not a number")
+        _numbers(value, (), f"thresholds.{key}", where)
+    vertices = _numbers(_take(source, "vertices", list, where), (None, 3), "vertices", where)
+    outline = _numbers(_take(source, "outline", list, where), (None, 2), "outline", where)
+    cell_area = _numbers(_take(source, "cell_area", (int, float), where), (), "cell_area", where)
+    name, side, cell_shape = (_take(source, key, str, where) for key in ("name", "side", "cell_shape"))
+    modalities = _take(source, "modalities", list, where)
     try:
         return SoleLayout(
-            name=_take(source, "name", str, where),
-            side=cast(Side, _take(source, "side", str, where)),
-            positions=rows["position"],  # type: ignore[arg-type]
-            rotations=rows["rotation_taxel_to_sole"],  # type: ignore[arg-type]
-            vertices=_take(source, "vertices", list, where),
+            name=name,
+            side=cast(Side, side),
+            positions=np.array(rows["position"], dtype=np.float64),
+            rotations=np.array(rows["rotation_taxel_to_sole"], dtype=np.float64),
+            vertices=np.array(vertices, dtype=np.float64),
             corners=tuple(tuple(c) for c in rows["corners"]),
             neighbours=neighbours,
-            areas=rows["area"],  # type: ignore[arg-type]
-            outline=_take(source, "outline", list, where),
-            ids=rows["id"],  # type: ignore[arg-type]
-            cell_shape=_take(source, "cell_shape", str, where),
-            cell_area=float(_take(source, "cell_area", (int, float), where)),
-            modalities=tuple(_take(source, "modalities", list, where)),
+            areas=np.array(rows["area"], dtype=np.float64),
+            outline=np.array(outline, dtype=np.float64),
+            ids=np.array(rows["id"], dtype=np.int64),
+            cell_shape=cell_shape,
+            cell_area=float(cell_area),
+            modalities=tuple(modalities),
             ranges={k: (float(v[0]), float(v[1])) for k, v in ranges.items()},
             thresholds={k: float(v) for k, v in thresholds.items()},
         )
     except LayoutError as error:
         raise LayoutError(f"{where}: {error}") from None
+    except OverflowError:
+        raise LayoutError(f"{where}: field 'id' holds an integer of more than 64 bits") from None
 
 
 def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
@@ -149,7 +173,7 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
         source = json.loads(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise LayoutError(f"{path}: cannot be read ({error.strerror})") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise LayoutError(f"{path}: not a JSON layout file ({error})") from None
     return layout_from_dict(source, where=str(path))
 

@@ -34,10 +34,10 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     if len(cloud) == 0:
         return np.empty((0, 2))
     low = cloud.min(axis=0)
-    extent = float((cloud.max(axis=0) - low).max())
-    if extent == 0.0:
+    cell = 1e-9 * float((cloud.max(axis=0) - low).max())
+    if cell == 0.0:
         return cloud[:1].copy()
-    grid = np.rint((cloud - low) / (extent * 1e-9)).astype(np.int64)
+    grid = np.rint((cloud - low) / cell).astype(np.int64)
     _, first = np.unique(grid, axis=0, return_index=True)  # sorted by x, then y
     keys = [(int(x), int(y), int(i)) for (x, y), i in zip(grid[first], first, strict=True)]
 
@@ -170,15 +170,17 @@ def inner_offset(polygon: NDArray[np.float64], distance: float) -> NDArray[np.fl
         distance: Distance in m, 0 or more.
 
     Returns:
-        The smaller polygon (m, 2); where nothing is left, the single point that is deepest inside (1, 2); an empty
-        polygon for an empty one.
+        The smaller polygon (m, 2); where nothing is left, the single point that is deepest inside (1, 2), the middle
+        for a polygon of 1 or 2 vertices; an empty polygon for an empty one.
 
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
         [[0.25, 0.75], [0.25, 0.25], [0.75, 0.25], [0.75, 0.75]]
     """
-    if len(polygon) < 3 or distance <= 0.0:
+    if len(polygon) == 0 or distance <= 0.0:
         return polygon.copy()
+    if len(polygon) < 3:
+        return np.asarray(polygon.mean(axis=0, keepdims=True))
     ring = _clip_inwards(polygon, distance)
     if len(ring):
         return ring

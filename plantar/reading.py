@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import ReadingError
 
@@ -24,7 +24,7 @@ class Reading:
         acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
 
     Raises:
-        ReadingError: If an array's shape does not agree with the number of taxels.
+        ReadingError: If an array is not numeric or its shape does not agree with the number of taxels.
 
     Example:
         >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()
@@ -38,7 +38,7 @@ class Reading:
     acceleration: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        force = np.asarray(self.force, dtype=np.float64)
+        force = _numbers("force", self.force)
         if force.ndim != 1:
             raise ReadingError(f"reading field 'force' has shape {force.shape}; expected (taxels,)")
         object.__setattr__(self, "force", force)
@@ -50,7 +50,14 @@ class Reading:
             value = getattr(self, name)
             if value is None:
                 continue
-            value = np.asarray(value, dtype=np.float64)
+            value = _numbers(name, value)
             if value.shape != shape:
                 raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")
             object.__setattr__(self, name, value)
+
+
+def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    try:
+        return np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ReadingError(f"reading field '{name}' is not numeric") from None
