@@ -1,0 +1,131 @@
+"""Balance feedback: the DCM error moves the desired ZMP, the ZMP error moves the CoM reference (T 4.17-4.20, 4.27-4.29)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.vrp_plan import LipReference
+from plantar.errors import InputError
+from plantar.polygon import closest_point, inner_offset
+
+__all__ = ["BalanceGains", "BalanceState", "DcmBalance"]
+
+
+@dataclass(frozen=True)
+class BalanceGains:
+    """Gains of the DCM feedback with CoM admittance.
+
+    Attributes:
+        dcm_gain: k_xi of T 4.28 in 1/s.
+        zmp_gain: k_f of T 4.29 in 1/s: how fast the CoM reference yields to a ZMP error.
+        com_gain: k_x of T 4.29 in 1/s: how fast the CoM reference returns to the plan.
+        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
+    """
+
+    dcm_gain: float = 1.5
+    zmp_gain: float = 0.5
+    com_gain: float = 1.0
+    zmp_filter: float = 0.02
+    zmp_offset: float = 0.015
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if not (isinstance(value, (int, float)) and math.isfinite(value) and value >= 0.0):
+                raise InputError(f"balance gain '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
+
+    @classmethod
+    def from_table(cls, table: Mapping[str, Any]) -> BalanceGains:
+        """Gains from the keys of a `[balance]` table that name one; other keys are left alone."""
+        names = {item.name for item in fields(cls)}
+        return cls(**{k: v for k, v in table.items() if k in names})
+
+
+@dataclass(frozen=True)
+class BalanceState:
+    """What the balance law decided at one tick, world frame.
+
+    Attributes:
+        zmp_desired: Desired ZMP p_d (2,) in m, inside the support polygon.
+        com: CoM reference (2,) in m after admittance.
+        com_velocity: Its rate (2,) in m/s.
+        com_acceleration: Acceleration (2,) in m/s^2 that the desired ZMP asks for.
+    """
+
+    zmp_desired: NDArray[np.float64]
+    com: NDArray[np.float64]
+    com_velocity: NDArray[np.float64]
+    com_acceleration: NDArray[np.float64]
+
+
+class DcmBalance:
+    """DCM feedback with CoM admittance.
+
+    Args:
+        gains: The gains.
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+    """
+
+    def __init__(self, gains: BalanceGains, omega: float, period: float) -> None:
+        self.gains = gains
+        self.omega = omega
+        self.period = period
+        self._offset = np.zeros(2)  # CoM reference minus the plan's CoM
+        self._error = np.zeros(2)  # filtered p - p_d
+
+    def desired_zmp(
+        self, reference: LipReference, dcm: NDArray[np.float64], polygon: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Desired ZMP p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in the polygon (T Algorithm 1).
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            polygon: Support polygon (k, 2) in the world frame, counter-clockwise; empty leaves p_d free.
+
+        Returns:
+            Desired ZMP (2,) in m.
+        """
+        wanted = reference.vrp - (1.0 + self.gains.dcm_gain / self.omega) * (reference.dcm - dcm)
+        inner = inner_offset(polygon, self.gains.zmp_offset)
+        nearest = closest_point(inner, wanted)
+        return wanted if nearest is None else nearest
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        polygon: NDArray[np.float64],
+    ) -> BalanceState:
+        """One control tick.
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
+            polygon: Support polygon (k, 2) in the world frame.
+
+        Returns:
+            The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
+        """
+        g = self.gains
+        desired = self.desired_zmp(reference, dcm, polygon)
+        error = np.zeros(2) if zmp is None else zmp - desired
+        self._error += min(1.0, self.period / (g.zmp_filter + self.period)) * (error - self._error)
+        rate = g.zmp_gain * self._error - g.com_gain * self._offset
+        self._offset = self._offset + self.period * rate
+        return BalanceState(
+            zmp_desired=desired,
+            com=reference.com + self._offset,
+            com_velocity=reference.com_velocity + rate,
+            com_acceleration=self.omega**2 * (reference.com + self._offset - desired),
+        )

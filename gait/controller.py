@@ -1,0 +1,284 @@
+"""Walking controller: the one file that wires plan, estimator, swing and balance into a control tick."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.balance import BalanceGains, DcmBalance
+from gait.estimator import BaseState, EstimatorGains, FloatingBaseEstimator, LegKinematics
+from gait.footsteps import Footstep, other_side
+from gait.lip import dcm, pendulum_frequency
+from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
+from gait.swing import SwingTrajectory
+from gait.vrp_plan import LipReference
+from gait.walk_plan import plan_vrps
+from plantar.layout import Side, SoleLayout
+from plantar.percept import Percept
+from plantar.polygon import centroid
+from plantar.reading import Reading
+from plantar.support import feet_support_polygon, polygon_in_world
+
+__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+@dataclass(frozen=True)
+class ControllerSettings:
+    """Settings of a walk.
+
+    Attributes:
+        com_height: CoM height above the soles in m.
+        mass: Robot mass in kg.
+        period: Control period in s.
+        timing: Durations of the phases.
+        swing_height: Clearance of the swing foot in m.
+        contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
+        landing_speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
+        gains: Balance gains.
+        estimator: Estimator gains.
+        feedback: False walks the plan in open loop, for comparison.
+    """
+
+    com_height: float
+    mass: float
+    period: float = 0.005
+    timing: Timing = field(default_factory=Timing)
+    swing_height: float = 0.05
+    contact_force: float = 70.0
+    landing_speed: float = 0.05
+    gains: BalanceGains = field(default_factory=BalanceGains)
+    estimator: EstimatorGains = field(default_factory=EstimatorGains)
+    feedback: bool = True
+
+
+@dataclass(frozen=True)
+class Sensors:
+    """All that a controller gets to see.
+
+    Attributes:
+        time: Time in s.
+        joint_positions: Encoder readings (k,) in rad.
+        gyro: Angular velocity (3,) of the base in its own frame in rad/s.
+        accelerometer: Specific force (3,) of the base in its own frame in m/s^2.
+        readings: Latest reading of each sole.
+    """
+
+    time: float
+    joint_positions: NDArray[np.float64]
+    gyro: NDArray[np.float64]
+    accelerometer: NDArray[np.float64]
+    readings: Mapping[Side, Reading]
+
+
+@dataclass(frozen=True)
+class FootTarget:
+    """Where a sole shall be, and what it shall carry.
+
+    Attributes:
+        position: Sole frame origin (3,) in the world frame in m.
+        rotation: Rotation (3, 3) from the sole to the world frame.
+        force: Force (3,) in N that the ground shall exert on it.
+        center_of_pressure: Point (2,) in the world frame in m at which it acts.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    force: NDArray[np.float64]
+    center_of_pressure: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Command:
+    """What the controller asks of the body, for inverse kinematics and servos.
+
+    Attributes:
+        com: CoM reference (3,) in the world frame in m.
+        heading: Heading of the upright torso in rad.
+        feet: Target of each sole.
+        phase: Phase of the walk.
+        reference: The plan now.
+        zmp_desired: Desired ZMP (2,) in m.
+        state: Estimated state.
+        dcm: Estimated DCM (2,) in m.
+    """
+
+    com: NDArray[np.float64]
+    heading: float
+    feet: Mapping[Side, FootTarget]
+    phase: Phase
+    reference: LipReference
+    zmp_desired: NDArray[np.float64]
+    state: BaseState
+    dcm: NDArray[np.float64]
+
+
+class WalkingController:
+    """Walks a footstep plan on plantar feedback.
+
+    Args:
+        settings: Settings.
+        feet: Where the feet stand at the start.
+        steps: The footsteps in order.
+        layouts: Sole layout of each side.
+        kinematics: Forward kinematics of the robot.
+        begin: Time in s at which the walk begins.
+    """
+
+    def __init__(
+        self,
+        settings: ControllerSettings,
+        feet: Mapping[Side, Footstep],
+        steps: tuple[Footstep, ...],
+        layouts: Mapping[Side, SoleLayout],
+        kinematics: LegKinematics,
+        begin: float = 1.0,
+    ) -> None:
+        self.settings = settings
+        self.layouts = layouts
+        self.omega = pendulum_frequency(settings.com_height)
+        self.schedule = WalkSchedule(steps, settings.timing, begin)
+        self._outline = {s: layouts[s].outline for s in _SIDES}
+        vrp_in_sole: dict[Side, NDArray[np.float64]] = {}
+        for side in _SIDES:
+            point = centroid(layouts[side].outline)
+            assert point is not None
+            vrp_in_sole[side] = point
+        self._vrp_in_sole = vrp_in_sole
+        self.plan = plan_vrps(feet, self.schedule, vrp_in_sole, self.omega)
+        self.balance = DcmBalance(settings.gains, self.omega, settings.period)
+        self.estimator = FloatingBaseEstimator(
+            kinematics,
+            self.omega,
+            settings.period,
+            {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in _SIDES},
+            settings.estimator,
+        )
+        self._foothold: dict[Side, tuple[NDArray[np.float64], float]] = {
+            s: (feet[s].position.copy(), feet[s].yaw) for s in _SIDES
+        }
+        self._swing: SwingTrajectory | None = None
+        self._swing_step = -1
+        self._landed = True
+        self._ground = float(np.mean([feet[s].z for s in _SIDES]))
+
+    @property
+    def end(self) -> float:
+        """Time in s at which the walk is over and the robot has settled."""
+        return self.schedule.end
+
+    def step(self, sensors: Sensors) -> Command:
+        """One control tick: sensors in, command out."""
+        s = self.settings
+        percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
+        state = self.estimator.update(sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts)
+        phase = self.schedule.at(sensors.time)
+        self._move_feet(phase, sensors.time, state)
+        reference = self.plan.at(sensors.time)
+        xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
+        if s.feedback:
+            polygon = self._support_polygon(phase)
+            balance = self.balance.update(reference, xi, state.zmp, polygon)
+            com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
+        else:
+            com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
+        height = self._com_height(phase, sensors.time)
+        yaws = [self._foothold[side][1] for side in _SIDES]
+        return Command(
+            com=np.array([com[0], com[1], height]),
+            heading=yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi),
+            feet=self._foot_targets(phase, zmp, acceleration),
+            phase=phase,
+            reference=reference,
+            zmp_desired=zmp,
+            state=state,
+            dcm=xi,
+        )
+
+    def _move_feet(self, phase: Phase, time: float, state: BaseState) -> None:
+        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground."""
+        s = self.settings
+        if phase.swing is not None and self._swing_step != phase.step:
+            step = self.schedule.steps[phase.step]
+            position, yaw = self._foothold[phase.swing]
+            target = step.position
+            target[2] = self._foothold[other_side(phase.swing)][0][2]
+            self._swing = SwingTrajectory(
+                position.copy(), target, yaw, step.yaw, s.swing_height, phase.end - phase.start
+            )
+            self._swing_step = phase.step
+            self._landed = False
+        if self._landed or self._swing is None:
+            return
+        side = self.schedule.steps[self._swing_step].side
+        position, yaw = self._foothold[side]
+        elapsed = time - (phase.start if phase.swing is not None else self.schedule.at(time).start)
+        if phase.swing is not None:
+            late_enough = elapsed > 0.5 * self._swing.duration
+            if late_enough and state.loads[side] > s.contact_force:
+                self._landed = True
+                return
+            self._foothold[side] = self._swing.at(elapsed)
+        elif state.loads[side] > s.contact_force or elapsed > s.timing.double_support:
+            self._landed = True
+        else:
+            position = position.copy()
+            position[2] -= s.landing_speed * s.period
+            self._foothold[side] = (position, yaw)
+
+    def _support_polygon(self, phase: Phase) -> NDArray[np.float64]:
+        """Support polygon in the world frame of the feet that the plan stands on, at their commanded places."""
+        parts = []
+        for side in _SIDES:
+            if phase.swing == side and not self._landed:
+                continue
+            position, yaw = self._foothold[side]
+            rotation = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
+            parts.append(polygon_in_world(self._outline[side], rotation, position))
+        return feet_support_polygon(parts)
+
+    def _com_height(self, phase: Phase, time: float) -> float:
+        """CoM height above the feet: follows the stance foot, blends in double support."""
+        heights = {side: float(self._foothold[side][0][2]) for side in _SIDES}
+        if phase.stance is not None:
+            target = heights[phase.stance]
+        else:
+            target = 0.5 * (heights["left"] + heights["right"])
+        rate = min(1.0, 5.0 * self.settings.period)
+        self._ground += rate * (target - self._ground)
+        return self._ground + self.settings.com_height
+
+    def _foot_targets(
+        self, phase: Phase, zmp: NDArray[np.float64], acceleration: NDArray[np.float64]
+    ) -> dict[Side, FootTarget]:
+        """Pose of each sole, and the share of the pendulum's force that it shall carry at which point."""
+        s = self.settings
+        force = s.mass * np.array([acceleration[0], acceleration[1], 9.81])
+        centers: dict[Side, NDArray[np.float64]] = {}
+        rotations: dict[Side, NDArray[np.float64]] = {}
+        for side in _SIDES:
+            position, yaw = self._foothold[side]
+            rotations[side] = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
+            centers[side] = position[:2] + rotations[side][:2, :2] @ self._vrp_in_sole[side]
+        if phase.stance is not None:
+            share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
+        else:
+            line = centers["left"] - centers["right"]
+            left = float((zmp - centers["right"]) @ line / (line @ line))
+            left = min(1.0, max(0.0, left))
+            share = {"left": left, "right": 1.0 - left}
+        # What is left of the desired ZMP after sharing is realised by each foot's own centre of pressure.
+        rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
+        return {
+            side: FootTarget(
+                self._foothold[side][0], rotations[side], share[side] * force, centers[side] + rest
+            )
+            for side in _SIDES
+        }
+
+

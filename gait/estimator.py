@@ -1,0 +1,278 @@
+"""Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
+
+Orientation: the gyro is integrated; gravity, freed from the pendulum's acceleration, corrects roll and pitch slowly, and
+the heading of the loaded feet corrects yaw. Position: the material point of each loaded sole that lies at its centre of
+pressure does not move, so the base moves by what the leg's kinematics say, weighted by load; a foot that rolls about
+its edge is followed too. Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as
+input and the kinematic CoM as measurement. A skin that yields a ZMP makes the velocity without differentiating encoders.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.lip import GRAVITY
+from plantar.force import zmp_of_feet
+from plantar.layout import Side
+from plantar.percept import Percept
+
+__all__ = ["BaseState", "EstimatorGains", "FloatingBaseEstimator", "LegKinematics", "Posture"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+@dataclass(frozen=True)
+class Posture:
+    """Kinematics of a joint configuration in the base (torso) frame.
+
+    Attributes:
+        com: CoM (3,) in m.
+        positions: Sole frame origin (3,) of each foot in m.
+        rotations: Rotation (3, 3) from each sole frame to the base frame.
+    """
+
+    com: NDArray[np.float64]
+    positions: Mapping[Side, NDArray[np.float64]]
+    rotations: Mapping[Side, NDArray[np.float64]]
+
+
+class LegKinematics(Protocol):
+    """What the estimator needs of a robot model."""
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """Forward kinematics of joint positions (k,) in rad."""
+        ...
+
+
+@dataclass(frozen=True)
+class EstimatorGains:
+    """Gains of the estimator.
+
+    Attributes:
+        gravity: Roll and pitch correction by the accelerometer in 1/s.
+        yaw: Heading correction by the loaded feet in 1/s.
+        observer: Bandwidth of the CoM velocity observer in rad/s.
+        minimum_load: Vertical force in N from which a foot counts as loaded.
+    """
+
+    gravity: float = 0.2
+    yaw: float = 2.0
+    observer: float = 20.0
+    minimum_load: float = 30.0
+
+
+@dataclass(frozen=True)
+class BaseState:
+    """Estimated state, world frame.
+
+    Attributes:
+        rotation_base_to_world: Rotation (3, 3).
+        position_base: Base position (3,) in m.
+        com: CoM (3,) in m.
+        com_velocity: CoM velocity (3,) in m/s.
+        zmp: Composite ZMP (2,) in m from the taxels, or None without load.
+        loads: Vertical force on each foot in N.
+        positions_sole: Sole frame origin (3,) of each foot in m.
+        rotations_sole: Rotation (3, 3) from each sole frame to the world frame.
+    """
+
+    rotation_base_to_world: NDArray[np.float64]
+    position_base: NDArray[np.float64]
+    com: NDArray[np.float64]
+    com_velocity: NDArray[np.float64]
+    zmp: NDArray[np.float64] | None
+    loads: Mapping[Side, float]
+    positions_sole: Mapping[Side, NDArray[np.float64]]
+    rotations_sole: Mapping[Side, NDArray[np.float64]]
+
+
+def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation (3, 3) of a rotation vector (3,) in rad (Rodrigues)."""
+    x, y, z = vector.tolist()
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < 1e-12:
+        return np.array([[1.0, -z, y], [z, 1.0, -x], [-y, x, 1.0]])
+    s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
+    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + s * k + c * (k @ k))
+
+
+def _orthonormal(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """First-order re-orthonormalisation, enough for a rotation that is updated at every tick."""
+    return np.asarray(0.5 * rotation @ (3.0 * np.eye(3) - rotation.T @ rotation))
+
+
+def heading(rotation: NDArray[np.float64]) -> float:
+    """Yaw in rad of a rotation (3, 3) to the world."""
+    return math.atan2(rotation[1, 0], rotation[0, 0])
+
+
+@dataclass
+class FloatingBaseEstimator:
+    """Estimator of the floating base.
+
+    Attributes:
+        kinematics: Forward kinematics of the robot.
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+        feet: Known standing pose (x, y, z, yaw) of each sole at the start.
+        gains: Gains.
+    """
+
+    kinematics: LegKinematics
+    omega: float
+    period: float
+    feet: Mapping[Side, tuple[float, float, float, float]]
+    gains: EstimatorGains = field(default_factory=EstimatorGains)
+
+    def __post_init__(self) -> None:
+        self._rotation: NDArray[np.float64] | None = None
+        self._position = np.zeros(3)
+        self._com = np.zeros(3)
+        self._velocity = np.zeros(3)
+        self._last: Posture | None = None
+        self._last_rotation = np.eye(3)
+        self._heading: dict[Side, float | None] = {"left": None, "right": None}
+
+    def update(
+        self,
+        joint_positions: NDArray[np.float64],
+        gyro: NDArray[np.float64],
+        accelerometer: NDArray[np.float64],
+        percepts: Mapping[Side, Percept],
+    ) -> BaseState:
+        """One control tick.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+            gyro: Angular velocity (3,) of the base in the base frame in rad/s.
+            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
+            percepts: What each sole feels.
+
+        Returns:
+            The estimated state.
+        """
+        posture = self.kinematics.posture(joint_positions)
+        loads = {s: percepts[s].vertical_force for s in _SIDES}
+        cops = {s: percepts[s].position_cop_in_sole for s in _SIDES}
+        if self._rotation is None or self._last is None:
+            self._start(posture, accelerometer)
+        else:
+            self._turn(posture, gyro, accelerometer, loads)
+            self._move(posture, loads, cops)
+        rotation = self._rotation
+        assert rotation is not None
+        self._last, self._last_rotation = posture, rotation
+        positions = {s: self._position + rotation @ posture.positions[s] for s in _SIDES}
+        rotations = {s: rotation @ posture.rotations[s] for s in _SIDES}
+        points: list[NDArray[np.float64] | None] = []
+        for s in _SIDES:
+            cop = cops[s]
+            points.append(None if cop is None else (positions[s] + rotations[s][:, :2] @ cop)[:2])
+        zmp = zmp_of_feet(points, [loads[s] for s in _SIDES])
+        self._observe(self._position + rotation @ posture.com, zmp)
+        return BaseState(
+            rotation,
+            self._position.copy(),
+            self._com.copy(),
+            self._velocity.copy(),
+            zmp,
+            loads,
+            positions,
+            rotations,
+        )
+
+    def _start(self, posture: Posture, accelerometer: NDArray[np.float64]) -> None:
+        """Level the base by gravity, head it along the feet, and stand on the known footholds."""
+        up = accelerometer / float(np.linalg.norm(accelerometer))
+        forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
+        forward /= float(np.linalg.norm(forward))
+        level = np.vstack([forward, np.cross(up, forward), up])
+        turn = math.atan2(
+            sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
+            sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
+        )
+        c, s = math.cos(turn), math.sin(turn)
+        self._rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ level
+        self._position = np.mean(
+            [np.array(self.feet[s][:3]) - self._rotation @ posture.positions[s] for s in _SIDES], axis=0
+        )
+        self._com = self._position + self._rotation @ posture.com
+        for side in _SIDES:
+            self._heading[side] = self.feet[side][3]
+
+    def _turn(
+        self,
+        posture: Posture,
+        gyro: NDArray[np.float64],
+        accelerometer: NDArray[np.float64],
+        loads: Mapping[Side, float],
+    ) -> None:
+        assert self._rotation is not None
+        rotation = self._rotation
+        rate = gyro.copy()
+        # Gravity: the specific force minus the pendulum's own acceleration points up.
+        specific = rotation @ accelerometer
+        specific[:2] -= self._acceleration
+        size = float(np.linalg.norm(specific))
+        if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
+            tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
+            rate += self.gains.gravity * (rotation.T @ tilt)
+        total = 0.0
+        error = 0.0
+        for side in _SIDES:
+            yaw = heading(rotation @ posture.rotations[side])
+            if loads[side] < self.gains.minimum_load:
+                self._heading[side] = None
+                continue
+            held = self._heading[side]
+            if held is None:
+                self._heading[side] = held = yaw
+            error += loads[side] * math.remainder(held - yaw, 2.0 * math.pi)
+            total += loads[side]
+        if total > 0.0:
+            rate += (self.gains.yaw * error / total) * rotation[2]
+        self._rotation = _orthonormal(rotation @ rotation_from_vector(rate * self.period))
+
+    def _move(
+        self,
+        posture: Posture,
+        loads: Mapping[Side, float],
+        cops: Mapping[Side, NDArray[np.float64] | None],
+    ) -> None:
+        assert self._rotation is not None
+        assert self._last is not None
+        shift = np.zeros(3)
+        total = 0.0
+        for side in _SIDES:
+            cop = cops[side]
+            if cop is None or loads[side] < self.gains.minimum_load:
+                continue
+            before = self._last.positions[side] + self._last.rotations[side][:, :2] @ cop
+            now = posture.positions[side] + posture.rotations[side][:, :2] @ cop
+            shift += loads[side] * (self._last_rotation @ before - self._rotation @ now)
+            total += loads[side]
+        if total > 0.0:
+            self._position = self._position + shift / total
+        else:
+            self._position = self._position + self.period * self._velocity
+
+    def _observe(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> None:
+        acceleration = np.zeros(3)
+        if zmp is not None:
+            acceleration[:2] = self.omega**2 * (self._com[:2] - zmp)
+        self._com = self._com + self.period * self._velocity
+        self._velocity = self._velocity + self.period * acceleration
+        error = com - self._com
+        b = self.gains.observer
+        self._com = self._com + min(1.0, 2.0 * b * self.period) * error
+        self._velocity = self._velocity + min(1.0, b * b * self.period) * error
+        self._acceleration = acceleration[:2]
+
+    _acceleration: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2), init=False)

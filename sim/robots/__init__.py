@@ -1,0 +1,5 @@
+"""Robots as data: built-in ones in a folder each, others from a TOML of the same form."""
+
+from sim.robots.robot import FootShape, LegNames, Robot, builtin_robots, load_robot
+
+__all__ = ["FootShape", "LegNames", "Robot", "builtin_robots", "load_robot"]

@@ -1,0 +1,238 @@
+"""A robot is data: a TOML that names its model, feet, leg joints, torso, sole layouts, posture and gains.
+
+Reading a robot needs no simulator: the shoe builder and the command line use it too.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from plantar.errors import LayoutError, RobotError
+from plantar.layout import SoleLayout
+from plantar.layout_file import read_layout
+from sim.robots.biped import BipedParameters
+
+__all__ = ["FootShape", "LegNames", "Robot", "builtin_robots", "load_robot"]
+
+_FOLDER = Path(__file__).parent
+_SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
+
+
+@dataclass(frozen=True)
+class LegNames:
+    """Names of one leg in the robot's model.
+
+    Attributes:
+        joints: Joint names from hip to ankle.
+        foot_body: Body that wears the shoe.
+        sole_site: Site that is the sole frame.
+    """
+
+    joints: tuple[str, ...]
+    foot_body: str
+    sole_site: str
+
+
+@dataclass(frozen=True)
+class FootShape:
+    """The bare left foot as a rounded box, for the shoe builder. SI.
+
+    Attributes:
+        length: Length in m.
+        width: Width in m.
+        center: Centre (x, y) against the ankle in m.
+        corner_radius: Radius of the corners in m.
+        taxels: Number of taxels that the sole carries.
+    """
+
+    length: float
+    width: float
+    center: tuple[float, float]
+    corner_radius: float
+    taxels: int
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A robot as its TOML describes it.
+
+    Attributes:
+        name: Name.
+        description: One line for people.
+        kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
+        biped: Dimensions of a generated robot, else None.
+        model_file: Path of the model file, else None.
+        foot: Shape of the bare foot.
+        shoe_thickness: Outer contact face below the bare sole in m.
+        shoe_mass: Mass of one shoe in kg.
+        layouts: Sole layout of each side.
+        legs: Names of each leg.
+        torso_body: Body that is kept upright.
+        imu_site: Site of the IMU.
+        posture: Joint angles of each leg in rad when standing.
+        stiffness: Servo position gain in N m/rad.
+        damping: Servo velocity gain in N m s/rad.
+        balance: Balance law and its gains.
+        path: The TOML file.
+    """
+
+    name: str
+    description: str
+    kind: str
+    biped: BipedParameters | None
+    model_file: Path | None
+    foot: FootShape
+    shoe_thickness: float
+    shoe_mass: float
+    layouts: Mapping[str, SoleLayout]
+    legs: Mapping[str, LegNames]
+    torso_body: str
+    imu_site: str
+    posture: Mapping[str, tuple[float, ...]]
+    stiffness: float
+    damping: float
+    balance: Mapping[str, Any]
+    path: Path
+
+    def sole_rectangle(self, side: str) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Bounding rectangle of a sole's outline: centre (x, y) and half size (x, y) in the sole frame in m."""
+        outline = self.layouts[side].outline
+        low, high = outline.min(axis=0), outline.max(axis=0)
+        center, half = 0.5 * (low + high), 0.5 * (high - low)
+        return (float(center[0]), float(center[1])), (float(half[0]), float(half[1]))
+
+
+def builtin_robots() -> tuple[str, ...]:
+    """Names of the built-in robots."""
+    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/robot.toml")))
+
+
+def _table(source: Mapping[str, Any], key: str, where: str) -> Mapping[str, Any]:
+    value = source.get(key)
+    if not isinstance(value, Mapping):
+        raise RobotError(f"{where}: table [{key}] is missing")
+    return value
+
+
+def _text(source: Mapping[str, Any], key: str, where: str) -> str:
+    value = source.get(key)
+    if not isinstance(value, str) or not value:
+        raise RobotError(f"{where}: '{key}' is missing or not a text")
+    return value
+
+
+def _number(source: Mapping[str, Any], key: str, where: str, low: float = 0.0, high: float = math.inf) -> float:
+    value = source.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
+        raise RobotError(f"{where}: '{key}' is {value!r}; allowed: a number from {low:g} to {high:g}")
+    return float(value)
+
+
+def _numbers(source: Mapping[str, Any], key: str, count: int, where: str) -> tuple[float, ...]:
+    value = source.get(key)
+    if (
+        not isinstance(value, list)
+        or len(value) != count
+        or not all(isinstance(v, (int, float)) and math.isfinite(v) for v in value)
+    ):
+        raise RobotError(f"{where}: '{key}' needs {count} finite numbers")
+    return tuple(float(v) for v in value)
+
+
+def load_robot(name: str | os.PathLike[str]) -> Robot:
+    """Load a robot by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_robots()`) or the path of a robot TOML.
+
+    Returns:
+        The robot.
+
+    Raises:
+        RobotError: If the name is unknown or the file is not valid; the message names the field.
+
+    Example:
+        >>> load_robot("h1").biped.total_mass
+        86.0
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not path.is_file():
+            raise RobotError(f"robot file {path} does not exist")
+    else:
+        path = _FOLDER / str(name) / "robot.toml"
+        if os.sep in str(name) or not path.is_file():
+            raise RobotError(f"unknown robot '{name}'; allowed: {', '.join(builtin_robots())}, or a robot .toml file")
+    try:
+        source = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise RobotError(f"robot file {path} is not valid TOML: {error}") from None
+    return _robot_from(source, path)
+
+
+def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
+    where = str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'"
+    model = _table(source, "model", where)
+    kind = _text(model, "kind", where)
+    if kind not in ("biped", "mjcf", "urdf"):
+        raise RobotError(f"{where}: [model] kind is '{kind}'; allowed: biped, mjcf, urdf")
+    model_file = None
+    biped = None
+    if kind == "biped":
+        biped = BipedParameters.from_table(_table(source, "biped", where), where)
+    else:
+        model_file = path.parent / _text(model, "file", where)
+        if not model_file.is_file():
+            raise RobotError(f"{where}: [model] file {model_file} does not exist")
+    foot = _table(source, "foot", where)
+    shoe = _table(source, "shoe", where)
+    legs, posture, layouts = _table(source, "legs", where), _table(source, "posture", where), {}
+    leg_names: dict[str, LegNames] = {}
+    angles: dict[str, tuple[float, ...]] = {}
+    for side in _SIDES:
+        leg = _table(legs, side, f"{where}: [legs]")
+        joints = leg.get("joints")
+        if not isinstance(joints, list) or not joints or not all(isinstance(j, str) for j in joints):
+            raise RobotError(f"{where}: [legs.{side}] joints is not a list of joint names")
+        leg_names[side] = LegNames(
+            tuple(joints), _text(leg, "foot_body", f"{where}: [legs.{side}]"), str(leg.get("sole_site", f"{side}_sole"))
+        )
+        angles[side] = tuple(math.radians(v) for v in _numbers(posture, side, len(joints), f"{where}: [posture]"))
+        try:
+            layouts[side] = read_layout(path.parent / _text(shoe, "layout", f"{where}: [shoe]").format(side=side))
+        except LayoutError as error:
+            raise RobotError(f"{where}: {error}") from None
+    torso = _table(source, "torso", where)
+    servo = _table(source, "servo", where)
+    center = _numbers(foot, "sole_center", 2, f"{where}: [foot]")
+    return Robot(
+        name=_text(source, "name", where),
+        description=str(source.get("description", "")),
+        kind=kind,
+        biped=biped,
+        model_file=model_file,
+        foot=FootShape(
+            _number(foot, "foot_length", f"{where}: [foot]"),
+            _number(foot, "foot_width", f"{where}: [foot]"),
+            (center[0], center[1]),
+            _number(foot, "corner_radius", f"{where}: [foot]"),
+            int(_number(foot, "taxels", f"{where}: [foot]", 1)),
+        ),
+        shoe_thickness=_number(shoe, "thickness", f"{where}: [shoe]", 0.0, 0.1),
+        shoe_mass=_number(shoe, "mass", f"{where}: [shoe]", 0.0, 20.0),
+        layouts=layouts,
+        legs=leg_names,
+        torso_body=_text(torso, "body", f"{where}: [torso]"),
+        imu_site=_text(torso, "imu_site", f"{where}: [torso]"),
+        posture=angles,
+        stiffness=_number(servo, "stiffness", f"{where}: [servo]"),
+        damping=_number(servo, "damping", f"{where}: [servo]"),
+        balance=dict(_table(source, "balance", where)),
+        path=path,
+    )

@@ -1,0 +1,154 @@
+"""MuJoCo models from robots and terrain: the world that is simulated, and the robot alone for its controller."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import RobotError
+from plantar.layout import Side
+from sim.inverse_kinematics import LegModel
+from sim.robots.biped import biped_mjcf
+from sim.robots.robot import Robot
+from sim.terrain import Terrain
+
+__all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "robot_spec"]
+
+PHYSICS_PERIOD = 0.001
+"""Time step of the physics in s."""
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+def robot_spec(robot: Robot) -> Any:
+    """The robot alone as an editable `mujoco.MjSpec`.
+
+    Args:
+        robot: The robot.
+
+    Raises:
+        RobotError: If the model cannot be read.
+    """
+    if robot.biped is not None:
+        center, half = robot.sole_rectangle("left")
+        text = biped_mjcf(
+            robot.biped,
+            name=robot.name,
+            posture=[math.degrees(v) for v in robot.posture["left"]],
+            sole_center=center,
+            sole_half_size=half,
+            shoe_thickness=robot.shoe_thickness,
+            shoe_mass=robot.shoe_mass,
+            stiffness=robot.stiffness,
+            damping=robot.damping,
+        )
+        return mujoco.MjSpec.from_string(text)
+    raise RobotError(f"robot '{robot.name}': model kind '{robot.kind}' cannot be simulated yet; allowed: biped")
+
+
+def build_leg_model(robot: Robot) -> LegModel:
+    """Kinematic model of the robot alone, which its controller uses."""
+    model = robot_spec(robot).compile()
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    return LegModel(model, joints, {s: robot.legs[s].sole_site for s in _SIDES}, robot.torso_body)
+
+
+@dataclass(frozen=True)
+class World:
+    """A compiled world and the addresses of what is read and written in it.
+
+    Attributes:
+        model: The MuJoCo model.
+        data: Its state.
+        robot: The robot in it.
+        joint_qpos: Addresses of the leg joints in qpos.
+        joint_qvel: Addresses of the leg joints in qvel.
+        servos: Indices of the legs' actuators in ctrl.
+        sole_geoms: Geom ids of each sole.
+        sole_sites: Site id of each sole frame.
+        torso: Body id of the torso.
+        stiffness: Servo position gains (k,) in N m/rad.
+        damping: Servo velocity gains (k,) in N m s/rad.
+        gyro: Address of the gyro in sensordata.
+        accelerometer: Address of the accelerometer in sensordata.
+    """
+
+    model: Any
+    data: Any
+    robot: Robot
+    joint_qpos: NDArray[np.int64]
+    joint_qvel: NDArray[np.int64]
+    servos: NDArray[np.int64]
+    sole_geoms: dict[Side, tuple[int, ...]]
+    sole_sites: dict[Side, int]
+    torso: int
+    stiffness: NDArray[np.float64]
+    damping: NDArray[np.float64]
+    gyro: int
+    accelerometer: int
+
+
+def build_world(robot: Robot, terrain: Terrain) -> World:
+    """Build and compile the world.
+
+    Args:
+        robot: The robot.
+        terrain: The ground.
+
+    Returns:
+        The world in its reference configuration; the runner puts the robot on its feet.
+    """
+    spec = robot_spec(robot)
+    spec.option.timestep = PHYSICS_PERIOD
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    spec.option.iterations = 20
+    spec.add_texture(
+        name="ground",
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=[0.88, 0.89, 0.91],
+        rgb2=[0.80, 0.82, 0.85],
+        width=256,
+        height=256,
+    )
+    material = spec.add_material(name="ground", texrepeat=[5, 5], texuniform=True)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "ground"
+    spec.worldbody.add_light(pos=[0, 0, 4], dir=[0.2, 0.3, -1], type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
+    terrain.add_to(spec)
+    for geom in spec.geoms:
+        if geom.contype:
+            geom.condim = 3
+            geom.friction[0] = terrain.friction
+            geom.solref = [0.005, 1.0]
+            geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    ids = [model.joint(name).id for name in joints]
+    servo_of = {int(model.actuator_trnid[a, 0]): a for a in range(model.nu)}
+    missing = [n for n, i in zip(joints, ids, strict=True) if i not in servo_of]
+    if missing:
+        raise RobotError(f"robot '{robot.name}': no actuator drives joint {', '.join(missing)}")
+    servos = np.array([servo_of[i] for i in ids])
+    return World(
+        model=model,
+        data=data,
+        robot=robot,
+        joint_qpos=model.jnt_qposadr[ids].astype(np.int64),
+        joint_qvel=model.jnt_dofadr[ids].astype(np.int64),
+        servos=servos,
+        sole_geoms={s: (model.geom(f"{s}_sole_box").id,) for s in _SIDES},
+        sole_sites={s: model.site(robot.legs[s].sole_site).id for s in _SIDES},
+        torso=model.body(robot.torso_body).id,
+        stiffness=model.actuator_gainprm[servos, 0].copy(),
+        damping=-model.actuator_biasprm[servos, 2].copy(),
+        gyro=int(model.sensor("imu_gyro").adr[0]),
+        accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+    )
