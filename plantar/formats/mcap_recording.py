@@ -1,0 +1,70 @@
+"""Plantar's own recordings (MCAP), as `plantar.recorder` writes them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from plantar.errors import FormatError
+from plantar.formats.format import Format
+from plantar.layout import Side, SoleLayout
+from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.recording import MCAP_MAGIC, Table, read_mcap
+
+__all__ = ["FORMAT"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+def _recognises(head: bytes) -> bool:
+    return head.startswith(MCAP_MAGIC)
+
+
+def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
+    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N.
+
+    Raises:
+        FormatError: If the file is no MCAP recording or has no skin in it.
+    """
+    recording = read_mcap(path)
+    warnings = list(recording.warnings)
+    tables: dict[Side, Table] = {}
+    for side in _SIDES:
+        table = recording.topics.get(f"/skin/{side}")
+        if table is not None and "force" in table.fields and len(table) > 0:
+            tables[side] = table
+    if not tables:
+        topics = ", ".join(recording.topics) or "none"
+        raise FormatError(f"{path}: no taxel forces (/skin/left, /skin/right) in the recording; its topics: {topics}")
+    first = next(iter(tables.values()))
+    time, rate, notes = sampling(first.time, None)
+    warnings += notes
+    feet: dict[Side, FootRecording] = {}
+    for side, table in tables.items():
+        force = table.fields["force"]
+        if len(table.time) != len(first.time) or np.abs(table.time - first.time).max() > 1e-6:
+            warnings.append(f"the {side} sole has its own frame times: interpolated to those of the other")
+            force = np.column_stack([np.interp(time, table.time, column) for column in force.T])
+        own = layout_for(side, layout) or recording.layouts.get(side)
+        if own is None:
+            warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
+        elif len(own) != force.shape[1]:
+            raise FormatError(f"{path}: the {side} sole has {force.shape[1]} taxels, layout '{own.name}' {len(own)}")
+        feet[side] = FootRecording(side, force, own)
+    missing = [side for side in _SIDES if side not in feet]
+    if missing:
+        warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata=dict(recording.metadata),
+        warnings=tuple(warnings),
+    )
+
+
+FORMAT = Format(name="mcap", title="Plantar recording, MCAP", suffixes=(".mcap",), recognises=_recognises, read=_read)

@@ -1,0 +1,300 @@
+"""Novel pedar and pliance ASCII exports (.asc): pressures of insoles or a mat, one row a frame.
+
+A header states the sensor, the rate and the unit, and may list the cells of each insole ("left insole: 1,2,...").
+The row of column names starts with "time[secs]" and gives cell numbers; where they start anew, the next foot begins.
+A pedar export holds no geometry; a pliance export may append a table of cell corners (x[0] .. y[3], in cm).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.format import Format
+from plantar.formats.nominal_insole import CELL_AREA, DEFAULT_SIZE, nominal_insole
+from plantar.formats.polygon_layout import polygon_layout, subset
+from plantar.layout import Side, SoleLayout
+from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+
+__all__ = ["FORMAT", "PASCALS"]
+
+PASCALS: Mapping[str, float] = {
+    "kpa": 1e3,
+    "n/cm2": 1e4,
+    "mpa": 1e6,
+    "hpa": 1e2,
+    "pa": 1.0,
+    "mmhg": 133.322,
+    "psi": 6894.757,
+    "bar": 1e5,
+    "mbar": 1e2,
+    "kg/cm2": 98066.5,
+}
+"""Pressure units by their lower-case name, in Pa."""
+
+_COLUMNS = re.compile(r"\s*time\s*\[\s*s(?:ecs?)?\s*\]", re.IGNORECASE)
+_NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
+_LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
+_LARGEST_HEADER = 400
+_PLAUSIBLE = 5e6
+
+
+def _recognises(head: bytes) -> bool:
+    text = head.decode("latin-1").lower()
+    columns = re.search(r"^\s*time\s*\[\s*s(?:ecs?)?\s*\]\s+\d+", text, re.MULTILINE) is not None
+    return columns and b"\0" not in head and ("pressure values" in text or "scanning rate" in text)
+
+
+def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
+    """Read a .asc export.
+
+    Raises:
+        FormatError: If the file is not such an export, states an unknown unit, or holds no frames.
+    """
+    try:
+        with path.open(encoding="latin-1", newline=None) as stream:
+            lines = iter(stream)
+            header, columns = _take_header(path, lines)
+            rows, tail = _take_rows(path, lines, len(columns))
+    except OSError as error:
+        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    text = "\n".join(header)
+    warnings: list[str] = list(rows.warnings)
+    pascals = _unit(path, text, warnings)
+    time, rate, notes = sampling(rows.values[:, 0], _rate(text))
+    warnings += notes
+    geometry = _table_geometry(tail, len(columns), warnings) if layout is None else None
+    feet: dict[Side, FootRecording] = {}
+    for side, span in _sides(text, columns, warnings):
+        pressure = rows.values[:, 1 + span.start : 1 + span.stop] * pascals
+        cells = columns[span.start : span.stop]
+        sole = _layout(path, side, cells, layout, geometry, text, warnings)
+        if np.nanmax(pressure, initial=0.0) > _PLAUSIBLE or np.nanmin(pressure, initial=0.0) < -_PLAUSIBLE:
+            warnings.append(f"the {side} foot holds pressures above {_PLAUSIBLE / 1e6:g} MPa: check the unit")
+        feet[side] = FootRecording(side, pressure * sole.areas, sole)
+    if len(feet) == 1:
+        warnings.append(f"the file holds the {next(iter(feet))} foot only")
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata={"sensor": _field(text, r"(?:sensor|mat)\s+type:?\s*(\S.*)") or "", "pressure_unit_pa": pascals},
+        warnings=tuple(dict.fromkeys(warnings)),
+    )
+
+
+def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]]:
+    header: list[str] = []
+    for line in lines:
+        if _COLUMNS.match(line):
+            cells = re.findall(r"(?<![\w.])\d+(?![\w.])", _COLUMNS.sub("", line, count=1))
+            if not cells:
+                raise FormatError(f"{path}: the row of column names lists no cells")
+            return header, [int(c) for c in cells]
+        header.append(line.rstrip("\n"))
+        if len(header) > _LARGEST_HEADER:
+            break
+    raise FormatError(f"{path}: not a pedar or pliance export: no row of column names that starts with time[secs]")
+
+
+class _Rows:
+    """The frames: values (n, 1 + cells), time first."""
+
+    def __init__(self, values: NDArray[np.float64], warnings: tuple[str, ...]) -> None:
+        self.values = values
+        self.warnings = warnings
+
+
+def _take_rows(path: Path, lines: Iterator[str], cells: int) -> tuple[_Rows, list[str]]:
+    """Frames up to a blank line or the next section; also the lines after them."""
+    blocks: list[NDArray[np.float64]] = []
+    block: list[NDArray[np.float64]] = []
+    blank = np.full(1 + cells, np.nan)
+    damaged = 0
+    last_damaged = False
+    tail: list[str] = []
+    for line in lines:
+        parts = line.split()
+        if not parts or _LABELS.match(line):
+            tail = [line, *lines] if parts else list(lines)
+            break
+        row = _numbers(parts, cells)
+        last_damaged = row is None
+        damaged += last_damaged
+        block.append(blank if row is None else row)
+        if len(block) == 8192:
+            blocks.append(np.array(block))
+            block = []
+    if block:
+        blocks.append(np.array(block))
+    values = np.concatenate(blocks) if blocks else np.empty((0, 1 + cells))
+    warnings: list[str] = []
+    if last_damaged:
+        values, damaged = values[:-1], damaged - 1
+        warnings.append("the last frame is cut short: left out")
+    if len(values) == 0:
+        raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
+    if damaged > 0.2 * len(values):
+        raise FormatError(f"{path}: {damaged} of {len(values)} frames do not have {cells} numbers; the file is damaged")
+    if damaged:
+        warnings.append(f"{damaged} damaged frame(s) are treated as not measured")
+    return _Rows(values, tuple(warnings)), tail
+
+
+def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
+    """One frame, or None where it is not made of as many finite numbers as it should be."""
+    if len(parts) != 1 + cells:
+        return None
+    try:
+        row = np.array(parts, dtype=float)
+    except ValueError:
+        try:
+            row = np.array([p.replace(",", ".") for p in parts], dtype=float)
+        except ValueError:
+            return None
+    return row if np.isfinite(row).all() and abs(row[0]) < 1e9 else None
+
+
+def _field(text: str, pattern: str) -> str | None:
+    match = re.search(pattern, text, re.IGNORECASE)
+    return match[1].strip() if match else None
+
+
+def _unit(path: Path, text: str, warnings: list[str]) -> float:
+    stated = _field(text, r"pressure\s+values\s+in:?[ \t]*([^\n]*)")
+    if not stated:
+        warnings.append("the header states no unit of pressure: kPa is assumed, as pedar writes")
+        return PASCALS["kpa"]
+    name = stated.split()[0].lower().replace("²", "2").replace("^", "").replace("[", "").replace("]", "")
+    if name not in PASCALS:
+        raise FormatError(f"{path}: unknown unit of pressure {stated!r}; allowed: {', '.join(PASCALS)}")
+    return PASCALS[name]
+
+
+def _rate(text: str) -> float | None:
+    rate = _field(text, rf"scanning\s+rate\s*\[Hz\]:?\s*({_NUMBER})")
+    if rate and float(rate.replace(",", ".")) > 0.0:
+        return float(rate.replace(",", "."))
+    period = _field(text, rf"time\s+per\s+frame\s*\[secs?\]:?\s*({_NUMBER})")
+    if period and float(period.replace(",", ".")) > 0.0:
+        return 1.0 / float(period.replace(",", "."))
+    return None
+
+
+def _sides(text: str, columns: list[int], warnings: list[str]) -> list[tuple[Side, range]]:
+    """Which columns belong to which foot, left first."""
+    restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
+    listed: dict[Side, int] = {}
+    for side in ("left", "right"):
+        cells = _field(text, rf"{side}\s+insole:[ \t]*([\d,;\t ]*)")
+        if cells:
+            listed[side] = len(re.findall(r"\d+", cells))  # type: ignore[index]
+    if len(restarts) == 1:
+        split = restarts[0]
+        if listed and (listed.get("left", 0), listed.get("right", 0)) != (split, len(columns) - split):
+            warnings.append(
+                f"the header's mask lists other cells than the columns: the columns are used "
+                f"({split} left, {len(columns) - split} right)"
+            )
+        return [("left", range(split)), ("right", range(split, len(columns)))]
+    if restarts:
+        raise FormatError(f"the column names count {len(restarts) + 1} sensors; one or two feet can be read")
+    if listed.get("left") and listed.get("right") and sum(listed.values()) == len(columns):
+        return [("left", range(listed["left"])), ("right", range(listed["left"], len(columns)))]
+    if len(listed) == 1:
+        return [(next(iter(listed)), range(len(columns)))]
+    sensor = _field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or ""
+    marks = set(re.findall(r"\d([lr])(?![a-z])", sensor.lower()))
+    if len(marks) == 1:
+        return [("left" if marks == {"l"} else "right", range(len(columns)))]
+    warnings.append("the file does not say which foot it is: taken as the left one")
+    return [("left", range(len(columns)))]
+
+
+def _layout(
+    path: Path,
+    side: Side,
+    cells: list[int],
+    given: SoleLayout | None,
+    geometry: NDArray[np.float64] | None,
+    text: str,
+    warnings: list[str],
+) -> SoleLayout:
+    """The layout of one foot, its taxels in the order of the columns."""
+    if given is not None:
+        sole = layout_for(side, given)
+        assert sole is not None
+        if set(cells) <= set(sole.ids.tolist()):
+            return subset(sole, _order(sole, cells))
+        if len(sole) != len(cells):
+            raise FormatError(f"{path}: the {side} foot has {len(cells)} cells, layout '{given.name}' {len(sole)}")
+        return sole
+    if geometry is not None:
+        warnings.append(
+            "cell geometry from the file's own corner table; its y is taken as forward, its x as to the right"
+        )
+        return _layout_from_corners(geometry, cells, side)
+    if not all(1 <= c <= 99 for c in cells) or len(set(cells)) != len(cells):
+        raise FormatError(
+            f"{path}: its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
+            "give one with --layout"
+        )
+    size = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?=[-\s\d])") or "").lower()
+    assumed = "" if size in CELL_AREA else " (assumed: the file names no known size)"
+    size = size if size in CELL_AREA else DEFAULT_SIZE
+    warnings.append(
+        f"the file holds no cell geometry: a nominal 99-cell insole of size {size.upper()}{assumed}, "
+        f"{CELL_AREA[size] * 1e6:.0f} mm2 a cell, is used; forces, areas and CoP rest on it (--layout overrides)"
+    )
+    sole = nominal_insole(size, side)
+    return sole if len(cells) == 99 else subset(sole, _order(sole, cells))
+
+
+def _order(sole: SoleLayout, cells: list[int]) -> list[int]:
+    index = {int(v): i for i, v in enumerate(sole.ids)}
+    return [index[c] for c in cells]
+
+
+def _table_geometry(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
+    """Corner points (cells, 4, 2) in m from the rows "x[0]" .. "y[3]" after the frames, where they are whole."""
+    rows: dict[str, list[float]] = {}
+    for line in tail:
+        match = re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line)
+        if match:
+            try:
+                rows[match[1]] = [float(v.replace(",", ".")) for v in match[2].split()]
+            except ValueError:
+                rows[match[1]] = []
+    if not rows:
+        return None
+    names = [f"{axis}[{corner}]" for corner in range(4) for axis in "xy"]
+    if any(len(rows.get(name, [])) != cells for name in names):
+        warnings.append("the file's table of cell corners is not whole: not used")
+        return None
+    corners = np.array([rows[name] for name in names]).T.reshape(cells, 4, 2) * 1e-2
+    if not np.isfinite(corners).all():
+        warnings.append("the file's table of cell corners holds values that are not numbers: not used")
+        return None
+    return corners
+
+
+def _layout_from_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
+    """A layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right)."""
+    import shapely  # only where a file brings its own geometry
+
+    turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
+    polygons = [shapely.geometry.polygon.orient(shapely.MultiPoint(c).convex_hull) for c in turned]
+    rings = [np.array(p.exterior.coords)[:-1] for p in polygons]
+    return polygon_layout(rings, ids=cells, side=side, name="pliance mat")
+
+
+FORMAT = Format(
+    name="pedar", title="Novel pedar or pliance, .asc", suffixes=(".asc",), recognises=_recognises, read=_read
+)

@@ -1,0 +1,112 @@
+"""Layouts of cells that a recording describes by their corners, and parts of layouts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError, LayoutError
+from plantar.layout import DEFAULT_RANGES, Side, SoleLayout
+from plantar.polygon import area, centroid, convex_hull
+
+__all__ = ["polygon_layout", "subset"]
+
+
+def polygon_layout(rings: Sequence[NDArray[np.float64]], *, ids: Sequence[int], side: Side, name: str) -> SoleLayout:
+    """A layout from the corners of each cell.
+
+    Args:
+        rings: Corners (k, 2) of each cell in the sole frame in m, counter-clockwise.
+        ids: Ids of the cells.
+        side: "left" or "right".
+        name: Name of the sole.
+
+    Returns:
+        The layout: cells that share two corners are neighbours, the outline is the convex hull, and the activation
+        threshold is 10 kPa.
+
+    Raises:
+        FormatError: If a cell has no area, or the ids are not unique.
+
+    Example:
+        >>> square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
+        >>> layout = polygon_layout([square, square + [0.01, 0.0]], ids=[1, 2], side="left", name="two cells")
+        >>> layout.neighbours
+        ((1,), (0,))
+    """
+    sizes = np.array([area(ring) for ring in rings])
+    if not len(sizes) or not (sizes > 0.0).all():
+        raise FormatError("a cell of the recording's geometry has no area")
+    grain = 1e-3 * float(np.sqrt(np.median(sizes)))
+    index: dict[tuple[int, int], int] = {}
+    points: list[NDArray[np.float64]] = []
+    corners: list[tuple[int, ...]] = []
+    for ring in rings:
+        keys = [(round(float(x) / grain), round(float(y) / grain)) for x, y in ring]
+        for key, point in zip(keys, ring, strict=True):
+            if key not in index:
+                index[key] = len(points)
+                points.append(point)
+        corners.append(tuple(index[key] for key in keys))
+    owners: dict[frozenset[int], list[int]] = {}
+    for i, cell in enumerate(corners):
+        for a, b in zip(cell, [*cell[1:], cell[0]], strict=True):
+            owners.setdefault(frozenset((a, b)), []).append(i)
+    near: list[set[int]] = [set() for _ in corners]
+    for cells in owners.values():
+        for a in cells:
+            near[a].update(b for b in cells if b != a)
+    vertices = np.array(points)
+    cell_area = float(np.median(sizes))
+    try:
+        return SoleLayout(
+            name=name,
+            side=side,
+            positions=np.column_stack([np.array([centroid(ring) for ring in rings]), np.zeros(len(rings))]),
+            rotations=np.broadcast_to(np.eye(3), (len(rings), 3, 3)),
+            vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
+            corners=tuple(corners),
+            neighbours=tuple(tuple(sorted(s)) for s in near),
+            areas=sizes,
+            outline=convex_hull(vertices),
+            ids=np.array(ids),
+            cell_shape="polygon",
+            cell_area=cell_area,
+            modalities=("force",),
+            ranges={"force": DEFAULT_RANGES["force"]},
+            thresholds={"force": 10e3 * cell_area},
+        )
+    except LayoutError as error:
+        raise FormatError(f"the recording's own geometry is not valid: {error}") from None
+
+
+def subset(layout: SoleLayout, cells: Sequence[int]) -> SoleLayout:
+    """The layout of some of its cells, in the order given; vertices and outline stay.
+
+    Args:
+        layout: The layout.
+        cells: Indices of the cells to keep, each once.
+
+    Returns:
+        The smaller layout.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> subset(layout, [3, 1]).ids.tolist()
+        [3, 1]
+    """
+    keep = [int(c) for c in cells]
+    new = {old: i for i, old in enumerate(keep)}
+    return replace(
+        layout,
+        positions=layout.positions[keep],
+        rotations=layout.rotations[keep],
+        corners=tuple(layout.corners[c] for c in keep),
+        neighbours=tuple(tuple(sorted(new[j] for j in layout.neighbours[c] if j in new)) for c in keep),
+        areas=layout.areas[keep],
+        ids=layout.ids[keep],
+    )

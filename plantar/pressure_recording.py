@@ -1,0 +1,142 @@
+"""Plantar pressure over time, whatever measured it: the type that every format is read into."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.layout import Side, SoleLayout, mirrored
+
+__all__ = ["FootRecording", "PressureRecording", "layout_for", "sampling"]
+
+
+@dataclass(frozen=True, eq=False)
+class FootRecording:
+    """What the cells under one foot measured, n frames of k cells.
+
+    Attributes:
+        side: "left" or "right".
+        force: Normal force (n, k) of each cell in N; NaN where a cell or a frame was not measured.
+        layout: Where the cells are, in the order of the columns of `force`; None where nothing says so.
+
+    Raises:
+        FormatError: If the layout has another number of cells.
+    """
+
+    side: Side
+    force: NDArray[np.float64]
+    layout: SoleLayout | None = None
+
+    def __post_init__(self) -> None:
+        if self.layout is not None and len(self.layout) != self.force.shape[1]:
+            raise FormatError(
+                f"the {self.side} foot has {self.force.shape[1]} cells, its layout '{self.layout.name}' {len(self.layout)}"
+            )
+
+    @cached_property
+    def vertical_force(self) -> NDArray[np.float64]:
+        """Vertical force (n,) in N, summed over the cells that were measured; NaN where none was."""
+        measured = np.isfinite(self.force)
+        rise = 1.0 if self.layout is None else self.layout.rotations[:, 2, 2]
+        total = (np.where(measured, self.force, 0.0) * rise).sum(axis=1)
+        return np.asarray(np.where(measured.any(axis=1), total, np.nan))
+
+    @cached_property
+    def pressure(self) -> NDArray[np.float64] | None:
+        """Pressure (n, k) in Pa, or None where the cell areas are not known."""
+        return None if self.layout is None else np.asarray(self.force / self.layout.areas)
+
+    def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
+        """Centre of pressure of each frame (T 4.21).
+
+        Args:
+            minimum_force: Vertical force in N below which a frame has none.
+
+        Returns:
+            Positions (n, 2) in the sole frame in m, NaN in frames without one; None where the geometry is not known.
+        """
+        if self.layout is None:
+            return None
+        force = np.where(np.isfinite(self.force), self.force, 0.0) * self.layout.rotations[:, 2, 2]
+        total = force.sum(axis=1)
+        loaded = np.isfinite(self.vertical_force) & (total >= max(minimum_force, 1e-9))
+        out = np.full((len(total), 2), np.nan)
+        out[loaded] = force[loaded] @ self.layout.positions[:, :2] / total[loaded, None]
+        return out
+
+
+@dataclass(frozen=True, eq=False)
+class PressureRecording:
+    """A recording of one or two feet on one time base.
+
+    Attributes:
+        path: The file it was read from.
+        format: Name of its format.
+        rate_hz: Frames a second.
+        time: Times (n,) in s.
+        feet: The feet that were measured, by side.
+        metadata: What the file says beside the data.
+        warnings: What was assumed, repaired or left out, one line each.
+    """
+
+    path: Path
+    format: str
+    rate_hz: float
+    time: NDArray[np.float64]
+    feet: Mapping[Side, FootRecording]
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+
+def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
+    """The layout of one side, out of a given one: itself, or its mirror image for the other foot."""
+    if given is None or given.side == side:
+        return given
+    return mirrored(given)
+
+
+def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
+    """Check the times of frames, and repair single damaged ones.
+
+    Args:
+        time: Times (n,) in s as the file gives them, 1 or more; NaN where a time could not be read.
+        stated_hz: Rate that the file states, if any.
+
+    Returns:
+        Times (n,) in s that increase, the rate in Hz, and warnings.
+
+    Raises:
+        FormatError: If neither the times nor the file give a rate.
+    """
+    warnings: list[str] = []
+    steps = np.diff(time)
+    forward = steps[np.isfinite(steps) & (steps > 0.0)]
+    measured = 1.0 / float(np.median(forward)) if len(forward) else None
+    stated = stated_hz if stated_hz is not None and 0.0 < stated_hz < 1e6 else None
+    rate = measured or stated
+    if rate is None or not np.isfinite(rate):
+        raise FormatError("the frames have no times that increase, and no rate is stated")
+    if measured and stated and abs(measured - stated) > 0.05 * stated:
+        warnings.append(f"the file states {stated:g} Hz, its frame times give {measured:.6g} Hz: the times are used")
+    elif stated:
+        rate = stated
+    index = np.arange(len(time))
+    start = float(np.nanmedian(time - index / rate)) if np.isfinite(time).any() else 0.0
+    grid = start + index / rate
+    off = ~(np.abs(time - grid) <= 0.5 / rate)
+    if not off.any() or off.mean() <= 0.01:
+        if off.any():
+            warnings.append(f"{int(off.sum())} frame time(s) were damaged: taken from the rate")
+        return np.where(off, grid, time), rate, tuple(warnings)
+    if np.isfinite(time).all() and (steps > 0.0).all():
+        warnings.append("the frames are not evenly spaced: their own times are used")
+        return time, rate, tuple(warnings)
+    warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz")
+    return grid, rate, tuple(warnings)
