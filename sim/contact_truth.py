@@ -1,0 +1,283 @@
+"""Contact truth: what MuJoCo's own contacts say about the feet. It judges a run; no controller sees it.
+
+Everything here reads `MjModel` and `MjData` as the last `mj_step` or `mj_forward` left them: contacts, their forces
+and the kinematics then belong to the same instant. Wrenches are [fx, fy, fz, tx, ty, tz], exerted BY the world ON the
+robot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.polygon import signed_margin
+
+__all__ = [
+    "ContactSet",
+    "GroundTruth",
+    "contact_wrench_in_frame",
+    "contact_wrench_in_world",
+    "foot_contacts",
+    "ground_truth",
+    "support_polygon_of_contacts",
+    "zmp_of_contacts",
+]
+
+
+class ContactSet(NamedTuple):
+    """The contacts of one foot with everything that is not this foot; k contacts.
+
+    Attributes:
+        own_geoms: Geom id (k,) on the foot's side.
+        other_geoms: Geom id (k,) on the other side; -1 for a flex.
+        positions: Contact point (k, 3) in the world frame in m.
+        forces: Force (k, 3) in the world frame in N, exerted on the foot.
+        torques: Torque (k, 3) in the world frame in N m, exerted on the foot (torsional and rolling friction).
+        distances: Gap (k,) in m, negative where the geoms penetrate.
+        carries: Mask (k,): MuJoCo's solver may put a force there; False for a contact within `gap` only.
+    """
+
+    own_geoms: NDArray[np.int64]
+    other_geoms: NDArray[np.int64]
+    positions: NDArray[np.float64]
+    forces: NDArray[np.float64]
+    torques: NDArray[np.float64]
+    distances: NDArray[np.float64]
+    carries: NDArray[np.bool_]
+
+    @property
+    def size(self) -> int:
+        """Number of contacts k."""
+        return len(self.distances)
+
+
+class GroundTruth(NamedTuple):
+    """What the ground does to all feet together, in the world frame.
+
+    Attributes:
+        wrench: Wrench (6,) about the world's origin.
+        zmp: True zero moment point (2,) in m, or None where the feet carry less than the minimum force.
+        polygon: True support polygon (m, 2) in m, counter-clockwise; empty in the air.
+        margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None where there is no ZMP.
+    """
+
+    wrench: NDArray[np.float64]
+    zmp: NDArray[np.float64] | None
+    polygon: NDArray[np.float64]
+    margin: float | None
+
+
+_NO_CONTACTS = ContactSet(
+    np.empty(0, dtype=np.int64),
+    np.empty(0, dtype=np.int64),
+    np.empty((0, 3)),
+    np.empty((0, 3)),
+    np.empty((0, 3)),
+    np.empty(0),
+    np.empty(0, dtype=np.bool_),
+)
+for _array in _NO_CONTACTS:
+    _array.flags.writeable = False
+
+
+def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSet:
+    """The contacts of a foot and the forces that the world exerts on it.
+
+    MuJoCo's contact normal points from geom 1 to geom 2 and `mj_contactForce` gives the force on geom 2 in the contact
+    frame; where the foot is geom 1 the force changes sign. Contacts between two geoms of the foot are left out.
+
+    Args:
+        model: The MjModel.
+        data: The MjData after `mj_step` or `mj_forward`.
+        geom_ids: Ids of the foot's geoms; a set or frozenset is fastest.
+
+    Returns:
+        The contacts, in MuJoCo's order; empty for a foot in the air.
+    """
+    if not data.ncon:
+        return _NO_CONTACTS
+    own = geom_ids if isinstance(geom_ids, set | frozenset) else frozenset(int(i) for i in geom_ids)
+    contact = data.contact
+    index: list[int] = []
+    mine: list[int] = []
+    others: list[int] = []
+    signs: list[float] = []
+    for i, (first, second) in enumerate(contact.geom.tolist()):
+        if second in own:
+            if first not in own:
+                index.append(i)
+                mine.append(second)
+                others.append(first)
+                signs.append(1.0)
+        elif first in own:
+            index.append(i)
+            mine.append(first)
+            others.append(second)
+            signs.append(-1.0)
+    k = len(index)
+    if not k:
+        return _NO_CONTACTS
+    local = np.empty((k, 6))
+    for row, i in zip(local, index, strict=True):
+        mujoco.mj_contactForce(model, data, i, row)
+    every = k == data.ncon
+    frame = contact.frame if every else contact.frame[index]
+    # Rows of a frame are its axes, so local @ frame takes components to the world; both halves of the wrench at once.
+    world = local.reshape(k, 2, 3) @ frame.reshape(k, 3, 3)
+    world *= np.array(signs)[:, None, None]
+    return ContactSet(
+        np.array(mine),
+        np.array(others),
+        contact.pos.copy() if every else contact.pos[index],
+        world[:, 0],
+        world[:, 1],
+        contact.dist.copy() if every else contact.dist[index],
+        (contact.efc_address if every else contact.efc_address[index]) >= 0,
+    )
+
+
+def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Wrench of a foot's contacts about a point, along the world's axes.
+
+    Args:
+        contacts: The foot's contacts.
+        point: Reference point (3,) in the world frame in m, for example the origin of the sole frame.
+
+    Returns:
+        Wrench (6,) in N and N m, exerted by the world on the foot; zeros for a foot in the air.
+    """
+    out = np.zeros(6)
+    if contacts.size:
+        f = contacts.forces
+        # sum of r x f from the 3 x 3 matrix of first moments: one product instead of k cross products.
+        moment = (contacts.positions - point).T @ f
+        tau = contacts.torques.sum(axis=0)
+        f.sum(axis=0, out=out[:3])
+        out[3] = moment[1, 2] - moment[2, 1] + tau[0]
+        out[4] = moment[2, 0] - moment[0, 2] + tau[1]
+        out[5] = moment[0, 1] - moment[1, 0] + tau[2]
+    return out
+
+
+def contact_wrench_in_frame(
+    contacts: ContactSet, position: NDArray[np.float64], rotation_to_world: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Wrench of a foot's contacts about the origin of a frame, along the frame's axes.
+
+    Args:
+        contacts: The foot's contacts.
+        position: Origin (3,) of the frame in the world in m: `data.site_xpos[site]` for the sole frame.
+        rotation_to_world: Rotation (3, 3) or (9,) from the frame to the world: `data.site_xmat[site]`.
+
+    Returns:
+        Wrench (6,) in N and N m, exerted by the world on the foot; zeros for a foot in the air.
+    """
+    world = contact_wrench_in_world(contacts, position)
+    return (world.reshape(2, 3) @ rotation_to_world.reshape(3, 3)).reshape(6)
+
+
+def zmp_of_contacts(
+    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0
+) -> NDArray[np.float64] | None:
+    """True zero moment point of all feet: where the contact wrench has no horizontal moment (T 4.5-4.8).
+
+    Args:
+        feet: Contacts of each foot.
+        plane_height: Height in m of the plane of the ZMP; None takes the mean contact height weighted by force.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        Position (2,) in the world frame in m, or None.
+    """
+    return _zmp(_total_wrench(feet), feet, plane_height, minimum_force)
+
+
+def support_polygon_of_contacts(feet: Sequence[ContactSet]) -> NDArray[np.float64]:
+    """True support polygon: hull of the contact points that carry a force or could, seen from above.
+
+    Args:
+        feet: Contacts of each foot.
+
+    Returns:
+        Convex polygon (m, 2) in the world frame in m, counter-clockwise; empty where nothing touches, one or two
+        points for a point or line contact.
+    """
+    points: list[tuple[float, float]] = []
+    for contacts in feet:
+        if contacts.size:
+            points += [
+                (x, y) for (x, y, _), c in zip(contacts.positions.tolist(), contacts.carries.tolist(), strict=True) if c
+            ]
+    return np.array(small_hull(points)).reshape(-1, 2)
+
+
+def ground_truth(
+    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0
+) -> GroundTruth:
+    """Wrench, ZMP, support polygon and the margin between the last two, of all feet together.
+
+    Args:
+        feet: Contacts of each foot.
+        plane_height: Height in m of the plane of the ZMP; None takes the mean contact height weighted by force.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        The truth, in the world frame.
+    """
+    wrench = _total_wrench(feet)
+    zmp = _zmp(wrench, feet, plane_height, minimum_force)
+    polygon = support_polygon_of_contacts(feet)
+    return GroundTruth(wrench, zmp, polygon, None if zmp is None else signed_margin(polygon, zmp))
+
+
+def small_hull(points: Sequence[tuple[float, float]], tolerance: float = 1e-9) -> list[tuple[float, float]]:
+    """Convex hull of a few points given as tuples: the array function costs ten times as much on eight points.
+
+    Args:
+        points: Points (x, y) in m.
+        tolerance: Twice the area in m^2 of a triangle that still counts as a straight line.
+
+    Returns:
+        Hull, counter-clockwise from the lowest x.
+    """
+    cloud = sorted(set(points))
+    if len(cloud) < 3:
+        return cloud
+    ring: list[tuple[float, float]] = []
+    for sequence in (cloud, cloud[::-1]):
+        part: list[tuple[float, float]] = []
+        for p in sequence:
+            while len(part) >= 2:
+                (ax, ay), (bx, by) = part[-2], part[-1]
+                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > tolerance:
+                    break
+                part.pop()
+            part.append(p)
+        ring += part[:-1]
+    return ring
+
+
+def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:
+    total = np.zeros(6)
+    for contacts in feet:
+        if contacts.size:
+            total += contact_wrench_in_world(contacts, _ORIGIN)
+    return total
+
+
+_ORIGIN = np.zeros(3)
+
+
+def _zmp(
+    wrench: NDArray[np.float64], feet: Sequence[ContactSet], plane_height: float | None, minimum_force: float
+) -> NDArray[np.float64] | None:
+    fx, fy, fz, tx, ty, _ = wrench.tolist()
+    if not fz >= minimum_force:
+        return None
+    if plane_height is None:
+        plane_height = sum(float(c.positions[:, 2] @ c.forces[:, 2]) for c in feet if c.size) / fz
+    return np.array([(plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz])

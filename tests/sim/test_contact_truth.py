@@ -1,0 +1,171 @@
+"""Contact truth against Newton's laws, statics and hand-made contacts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.polygon import area, convex_hull
+from sim.contact_truth import (
+    contact_wrench_in_frame,
+    contact_wrench_in_world,
+    foot_contacts,
+    ground_truth,
+    small_hull,
+    support_polygon_of_contacts,
+    zmp_of_contacts,
+)
+
+GRAVITY = 9.81
+MASS = 43.0
+
+
+def foot_model(floor: str, *, first: bool = False, com: str = "0 0 0.2", condim: int = 3) -> Any:
+    """A free foot of 43 kg over a floor; `first` puts the foot before the floor, so that it is geom 1."""
+    foot = f"""<body name="left_foot" pos="0 0 0.0101"><freejoint/>
+        <inertial pos="{com}" mass="{MASS}" diaginertia="2 2 1"/>
+        <geom name="left_sole_box" type="box" size="0.125 0.0775 0.01" condim="{condim}"/>
+        <site name="left_sole" pos="0 0 -0.01"/></body>"""
+    body = f"<body name='ground'>{floor}</body>"
+    inner = foot + body if first else body + foot
+    return mujoco.MjModel.from_xml_string(
+        f"<mujoco><option timestep='0.001' cone='elliptic'/><worldbody>{inner}</worldbody></mujoco>"
+    )
+
+
+PLANE = "<geom name='floor' type='plane' size='2 2 0.1'/>"
+BLOCK = "<geom name='floor' type='box' size='2 2 0.1' pos='0 0 -0.1'/>"
+
+
+def settled(model: Any, seconds: float = 0.6, push: tuple[float, ...] = (0.0,) * 6) -> Any:
+    data = mujoco.MjData(model)
+    body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, "left_foot")
+    data.xfrc_applied[body] = push
+    for _ in range(int(seconds / model.opt.timestep)):
+        mujoco.mj_step(model, data)
+    return data
+
+
+def sole_contacts(model: Any, data: Any) -> Any:
+    return foot_contacts(model, data, {mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "left_sole_box")})
+
+
+@pytest.mark.parametrize("floor", [PLANE, BLOCK])
+@pytest.mark.parametrize("first", [False, True])
+def test_standing_foot_carries_its_weight_upwards(floor: str, first: bool) -> None:
+    """Third law: whichever geom comes first, the world pushes the foot up by m g."""
+    model = foot_model(floor, first=first)
+    data = settled(model)
+    contacts = sole_contacts(model, data)
+    sole = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, "left_sole_box")
+    assert (contacts.own_geoms == sole).all()
+    assert (contacts.other_geoms == 1 - sole).all()
+    assert contacts.forces.sum(axis=0) == pytest.approx([0.0, 0.0, MASS * GRAVITY], abs=1e-3)
+    floor_side = foot_contacts(model, data, [1 - sole])
+    assert floor_side.forces == pytest.approx(-contacts.forces)
+
+
+@pytest.mark.parametrize("first", [False, True])
+@pytest.mark.parametrize("condim", [3, 4, 6])
+def test_wrench_balances_an_applied_push(first: bool, condim: int) -> None:
+    """Statics: contact wrench + weight + push = 0 about the sole origin, in sole and in world axes."""
+    push = (12.0, -20.0, -60.0, 3.0, -6.0, 1.5)
+    model = foot_model(BLOCK, first=first, com="0.01 -0.02 0.2", condim=condim)
+    data = settled(model, push=push)
+    site = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, "left_sole")
+    body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, "left_foot")
+    origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
+    load = np.array(push)
+    load[2] -= MASS * GRAVITY
+    load[3:] += np.cross(data.xipos[body] - origin, load[:3])
+    contacts = sole_contacts(model, data)
+    world = contact_wrench_in_world(contacts, origin)
+    assert world == pytest.approx(-load, abs=0.05)
+    sole = contact_wrench_in_frame(contacts, origin, data.site_xmat[site])
+    assert rotation @ sole[:3] == pytest.approx(world[:3], rel=1e-9, abs=1e-9)
+    assert rotation @ sole[3:] == pytest.approx(world[3:], rel=1e-9, abs=1e-9)
+
+
+def test_wrench_agrees_with_constraint_forces_of_mujoco() -> None:
+    """The generalised constraint force on the free joint is the same wrench, computed by another path."""
+    model = foot_model(BLOCK, condim=6)
+    data = settled(model, seconds=0.02, push=(30.0, 10.0, -50.0, 2.0, 5.0, 3.0))
+    body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, "left_foot")
+    world = contact_wrench_in_world(sole_contacts(model, data), data.xpos[body])
+    rotation = data.xmat[body].reshape(3, 3)
+    assert world[:3] == pytest.approx(data.qfrc_constraint[:3], abs=1e-9)
+    assert rotation.T @ world[3:] == pytest.approx(data.qfrc_constraint[3:6], abs=1e-9)
+    assert np.abs(world).min() > 1e-3
+
+
+def test_foot_in_the_air_has_no_contact_and_no_zmp() -> None:
+    model = foot_model(PLANE)
+    data = mujoco.MjData(model)
+    data.qpos[2] = 1.0
+    mujoco.mj_forward(model, data)
+    contacts = sole_contacts(model, data)
+    assert contacts.size == 0
+    truth = ground_truth([contacts, contacts])
+    assert truth.zmp is None
+    assert truth.margin is None
+    assert truth.polygon.shape == (0, 2)
+    assert not truth.wrench.any()
+
+
+def test_contacts_between_geoms_of_the_same_foot_are_left_out() -> None:
+    model = foot_model(PLANE, first=True)
+    data = settled(model, seconds=0.1)
+    assert foot_contacts(model, data, range(model.ngeom)).size == 0
+    assert foot_contacts(model, data, ()).size == 0
+
+
+def test_truth_of_a_standing_foot() -> None:
+    """Polygon is the sole, the ZMP is under the weight, the margin is its distance to the nearest edge."""
+    model = foot_model(PLANE, com="0.03 -0.05 0.2")
+    data = settled(model)
+    truth = ground_truth([sole_contacts(model, data)])
+    assert area(truth.polygon) == pytest.approx(0.25 * 0.155, rel=1e-3)
+    assert truth.zmp == pytest.approx([0.03, -0.05], abs=2e-4)
+    assert truth.margin == pytest.approx(0.0775 - 0.05, abs=2e-4)
+    assert truth.wrench[2] == pytest.approx(MASS * GRAVITY, abs=1e-2)
+
+
+def test_zmp_moves_with_the_height_of_its_plane() -> None:
+    """A horizontal force f at height z shifts the ZMP of plane h by f (z - h) / fz: the line of action tilts."""
+    model = foot_model(PLANE)
+    data = settled(model, push=(40.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    contacts = sole_contacts(model, data)
+    low = zmp_of_contacts([contacts], plane_height=0.0)
+    high = zmp_of_contacts([contacts], plane_height=0.1)
+    assert low is not None
+    assert high is not None
+    assert high[0] - low[0] == pytest.approx(-0.1 * 40.0 / (MASS * GRAVITY), rel=1e-3)
+    assert zmp_of_contacts([contacts], minimum_force=1e4) is None
+
+
+def test_contact_within_the_gap_carries_nothing_and_does_not_support() -> None:
+    model = foot_model("<geom name='floor' type='plane' size='2 2 0.1' gap='0.01'/>")
+    data = mujoco.MjData(model)
+    data.qpos[2] = 0.015  # 5 mm above the floor: seen, not touched
+    mujoco.mj_forward(model, data)
+    contacts = sole_contacts(model, data)
+    assert contacts.size == 4
+    assert not contacts.carries.any()
+    assert contacts.distances == pytest.approx(0.005)
+    assert not contacts.forces.any()
+    assert len(support_polygon_of_contacts([contacts])) == 0
+
+
+def test_small_hull_agrees_with_the_array_hull() -> None:
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        points = rng.uniform(-0.2, 0.2, (rng.integers(1, 12), 2)).round(3)
+        ours = small_hull([tuple(p) for p in points.tolist()])
+        theirs = convex_hull(points)
+        assert area(np.array(ours).reshape(-1, 2)) == pytest.approx(area(theirs), abs=1e-8)
+        assert set(ours) <= {tuple(p) for p in points.tolist()}
+    assert small_hull([]) == []
+    assert small_hull([(0.0, 0.0), (1.0, 1.0), (0.5, 0.5)]) == [(0.0, 0.0), (1.0, 1.0)]

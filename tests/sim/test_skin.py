@@ -1,0 +1,339 @@
+"""Simulated skin: conservation, one-sidedness, patches of every kind, and the sensor around it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from plantar import InputError, LayoutError, RobotError, SoleLayout, center_of_pressure, hex_layout
+from plantar.polygon import convex_hull, inner_offset, signed_margin
+from sim.contact_truth import contact_wrench_in_frame
+from sim.skin import SkinSensor, SolePressure, SoleSkin
+
+GRAVITY = 9.81
+MASS = 43.0
+HALF = np.array([0.125, 0.0775])
+OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+LAYOUT = hex_layout(OUTLINE)
+WHOLE = [(float(x), float(y)) for x, y in OUTLINE]
+PLANE = "<geom name='floor' type='plane' size='2 2 0.1'/>"
+
+
+def rig(ground: str, *, height: float = 0.01, com: str = "0 0 0.1", quat: str = "1 0 0 0") -> tuple[Any, Any, SoleSkin]:
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><option timestep="0.001" cone="elliptic"/><worldbody>{ground}
+        <body name="left_foot" pos="0 0 {height}" quat="{quat}"><freejoint/>
+        <inertial pos="{com}" mass="{MASS}" diaginertia="2 2 1"/>
+        <geom name="left_sole_box" type="box" size="0.125 0.0775 0.01"/><site name="left_sole" pos="0 0 -0.01"/></body>
+        </worldbody></mujoco>"""
+    )
+    return model, mujoco.MjData(model), SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"])
+
+
+def run(model: Any, data: Any, seconds: float) -> None:
+    for _ in range(round(seconds / model.opt.timestep)):
+        mujoco.mj_step(model, data)
+
+
+def true_wrench(data: Any, skin: SoleSkin) -> NDArray[np.float64]:
+    site = skin.site_id
+    return contact_wrench_in_frame(skin.contacts(data), data.site_xpos[site], data.site_xmat[site])
+
+
+@pytest.mark.parametrize("com", ["0 0 0.1", "0.05 0.02 0.1", "-0.08 -0.05 0.1"])
+@pytest.mark.parametrize("yaw", ["1 0 0 0", "0.924 0 0 0.383"])
+def test_standing_foot_has_the_true_force_and_centre_of_pressure(com: str, yaw: str) -> None:
+    model, data, skin = rig(PLANE, com=com, quat=yaw)
+    run(model, data, 0.5)
+    force = skin.taxel_forces(data)
+    wrench = true_wrench(data, skin)
+    assert force.sum() == pytest.approx(wrench[2], rel=1e-12)
+    assert force.sum() == pytest.approx(MASS * GRAVITY, abs=1e-2)
+    cop = center_of_pressure(LAYOUT, force)
+    assert cop == pytest.approx([-wrench[4] / wrench[2], wrench[3] / wrench[2]], abs=1e-6)
+    assert cop == pytest.approx([float(v) for v in com.split()[:2]], abs=1e-3)
+
+
+def test_foot_in_the_air_reads_zeros() -> None:
+    model, data, skin = rig(PLANE, height=0.5)
+    mujoco.mj_forward(model, data)
+    assert skin.taxel_forces(data).tolist() == [0.0] * len(LAYOUT)
+
+
+@pytest.mark.parametrize(("half_width", "offset"), [(0.06, 0.0), (0.03, 0.02), (0.02, -0.015)])
+def test_beam_loads_the_cells_above_it_and_no_other(half_width: float, offset: float) -> None:
+    beam = f"<geom name='beam' type='box' size='{half_width} 1 0.05' pos='{offset} 0 -0.05'/>"
+    model, data, skin = rig(beam, com=f"{offset} 0 0.02")
+    run(model, data, 0.3)
+    force = skin.taxel_forces(data)
+    assert force.sum() == pytest.approx(MASS * GRAVITY, rel=1e-3)
+    for i, f in enumerate(force):
+        x = LAYOUT.cell_polygon(i)[:, 0]
+        over = x.max() > offset - half_width and x.min() < offset + half_width
+        if not over:
+            assert f == 0.0
+        elif x.min() > offset - half_width and x.max() < offset + half_width:
+            assert f > 1.0
+
+
+def test_edge_contact_loads_a_strip_along_the_edge() -> None:
+    """A foot pitched by 10 degrees touches along its toe edge."""
+    model, data, skin = rig(PLANE, quat="0.9961947 0 0.0871557 0", height=0.0315)
+    mujoco.mj_forward(model, data)
+    contacts = skin.contacts(data)
+    assert contacts.size == 2
+    force = skin.taxel_forces(data)
+    assert force.sum() == pytest.approx(true_wrench(data, skin)[2], rel=1e-9)
+    assert force.sum() > 1.0
+    assert LAYOUT.positions[force > 0, 0].min() > 0.09
+    assert np.ptp(LAYOUT.positions[force > 0, 1]) > 0.1
+
+
+def test_line_on_the_bare_rim_keeps_its_place_along_the_rim() -> None:
+    """Whole cells only leave a bare rim: a line load there goes to the cells along it, in proportion."""
+    layout = hex_layout(OUTLINE, clip=False)
+    edge = [(0.125, -0.0775), (0.125, 0.0775)]
+    force = SolePressure(layout).spread(edge, 100.0, (0.125, 0.02))
+    cop = center_of_pressure(layout, force)
+    assert cop is not None
+    assert cop[1] == pytest.approx(0.02, abs=0.008)  # a quarter of a cell
+    assert layout.positions[force > 0, 0].min() > 0.06
+    assert np.count_nonzero(force) >= 4
+    assert force.max() < 40.0
+
+
+def test_sphere_under_the_sole_loads_the_cells_around_its_point() -> None:
+    x, y = 0.041, -0.022
+    model, data, skin = rig(
+        f"<geom name='pebble' type='sphere' size='0.02' pos='{x} {y} -0.0199'/>", com=f"{x} {y} 0.0"
+    )
+    mujoco.mj_forward(model, data)
+    assert skin.contacts(data).size == 1
+    force = skin.taxel_forces(data)
+    assert force.sum() == pytest.approx(true_wrench(data, skin)[2], rel=1e-9)
+    near = np.hypot(*(LAYOUT.positions[force > 0, :2] - [x, y]).T)
+    assert 1 <= len(near) <= 3
+    assert near.max() < 0.025
+
+
+def test_two_blocks_carry_separate_patches() -> None:
+    blocks = "".join(
+        f"<geom name='block{i}' type='box' size='0.03 0.2 0.05' pos='{x} 0 -0.05'/>" for i, x in ((0, -0.09), (1, 0.09))
+    )
+    model, data, skin = rig(blocks, com="0.045 0 0.02")
+    run(model, data, 0.3)
+    force = skin.taxel_forces(data)
+    x = LAYOUT.positions[:, 0]
+    assert force[np.abs(x) < 0.04].max() == 0.0
+    assert force.sum() == pytest.approx(MASS * GRAVITY, rel=1e-3)
+    # Eight equal springs at x = -120, -60, 60, 120 mm: those on the right carry 1/2 + 45 (60 + 120) 4 / 2 / (8 * 9000).
+    assert force[x > 0].sum() / force.sum() == pytest.approx(0.725, abs=1e-3)
+
+
+def test_pressure_is_zero_where_the_sole_lifts_off() -> None:
+    """Beyond a sixth of the length a foundation that cannot pull lifts off at the far end."""
+    pressure = SolePressure(LAYOUT)
+    force = pressure.spread(WHOLE, 100.0, (0.08, 0.0))
+    rear = LAYOUT.positions[:, 0] < -0.02
+    assert force[rear].max() == 0.0
+    assert center_of_pressure(LAYOUT, force) == pytest.approx([0.08, 0.0], abs=1e-9)
+    assert force[~rear].sum() == pytest.approx(100.0)
+
+
+def test_load_beyond_the_reach_of_the_taxels_goes_to_the_nearest() -> None:
+    force = SolePressure(LAYOUT).spread(WHOLE, 100.0, (0.2, 0.0))
+    assert force.sum() == pytest.approx(100.0)
+    hull = convex_hull(LAYOUT.positions[:, :2])
+    cop = center_of_pressure(LAYOUT, force)
+    assert cop is not None
+    assert signed_margin(hull, cop) == pytest.approx(0.0, abs=1e-3)
+    assert cop[0] > 0.1
+
+
+def test_patch_beside_all_cells_loads_the_nearest_one() -> None:
+    force = SolePressure(LAYOUT).spread([(0.3, 0.0)], 10.0, (0.3, 0.0))
+    assert force.sum() == pytest.approx(10.0)
+    assert np.count_nonzero(force) == 1
+    assert LAYOUT.positions[np.argmax(force), 0] > 0.1
+
+
+@pytest.mark.parametrize("force", [0.0, -5.0, float("nan"), float("inf")])
+def test_no_push_no_taxel_force(force: float) -> None:
+    assert not SolePressure(LAYOUT).spread(WHOLE, force, (0.0, 0.0)).any()
+    assert not SolePressure(LAYOUT).spread([], 10.0, (0.0, 0.0)).any()
+
+
+coordinate = st.tuples(st.floats(-0.14, 0.14), st.floats(-0.09, 0.09))
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.lists(coordinate, min_size=1, max_size=9), coordinate, st.floats(1e-3, 5e3))
+def test_any_patch_and_load_gives_finite_forces_that_add_up(
+    patch: list[tuple[float, float]], load: tuple[float, float], force: float
+) -> None:
+    taxels = SHARED_PRESSURE.spread(patch, force, load)
+    assert np.isfinite(taxels).all()
+    assert (taxels >= 0.0).all()
+    assert taxels.sum() == pytest.approx(force, rel=1e-9)
+    assert (SolePressure(LAYOUT).spread(patch, force, load) == taxels).all()  # no memory of earlier calls
+
+
+SHARED_PRESSURE = SolePressure(LAYOUT)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(10.0, 2e3))
+def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force: float) -> None:
+    cop = HALF * [fx, fy]
+    taxels = SHARED_PRESSURE.spread(WHOLE, force, (float(cop[0]), float(cop[1])))
+    assert center_of_pressure(LAYOUT, taxels) == pytest.approx(cop, abs=1e-7)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(coordinate, min_size=3, max_size=8), st.lists(st.floats(0.05, 1.0), min_size=8, max_size=8))
+def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights: list[float]) -> None:
+    """No taxel away from the patch is loaded, and what is inside by a cell keeps its moment to a cell's size."""
+    shares = np.array(weights[: len(patch)])
+    load = shares @ np.array(patch) / shares.sum()
+    hull = convex_hull(patch)
+    if len(hull) < 3 or len(inner_offset(hull, 0.01)) < 3:
+        return
+    if np.abs(hull / HALF).max() > 1.0:
+        return
+    taxels = SHARED_PRESSURE.spread(patch, 100.0, (float(load[0]), float(load[1])))
+    for i in np.flatnonzero(taxels):
+        assert min(-signed_margin(hull, p) for p in [*LAYOUT.cell_polygon(i), LAYOUT.positions[i, :2]]) < 0.03
+    cop = center_of_pressure(LAYOUT, taxels)
+    assert cop is not None
+    assert np.hypot(*(cop - load)) < 0.033  # one cell corner to corner
+
+
+def tilted_layout(angle: float) -> SoleLayout:
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
+    return SoleLayout(
+        **{
+            name: getattr(LAYOUT, name)
+            for name in ("name", "side", "positions", "vertices", "corners", "neighbours", "areas", "outline", "ids")
+        },
+        rotations=np.broadcast_to(turn, (len(LAYOUT), 3, 3)),
+    )
+
+
+def test_tilted_taxels_add_up_in_the_vertical() -> None:
+    layout = tilted_layout(0.3)
+    force = SolePressure(layout).spread(WHOLE, 50.0, (0.0, 0.0))
+    assert float(force @ layout.rotations[:, 2, 2]) == pytest.approx(50.0)
+    with pytest.raises(LayoutError, match="does not face the ground"):
+        SolePressure(tilted_layout(1.6))
+
+
+def test_unknown_names_and_bad_values_are_refused() -> None:
+    model, _, skin = rig(PLANE)
+    with pytest.raises(RobotError, match="no site named 'sole'; it has: left_sole"):
+        SoleSkin(model, LAYOUT, "sole", ["left_sole_box"])
+    with pytest.raises(RobotError, match="no geom named 'box'; it has: floor, left_sole_box"):
+        SoleSkin(model, LAYOUT, "left_sole", ["box"])
+    with pytest.raises(RobotError, match="no collision geom"):
+        SoleSkin(model, LAYOUT, "left_sole", [])
+    with pytest.raises(InputError, match="rubber"):
+        SolePressure(LAYOUT, rubber=0.0)
+    rng = np.random.default_rng(0)
+    for bad in (
+        {"rate_hz": 0.0},
+        {"noise_std_N": -1.0},
+        {"delay_periods": -1},
+        {"delay_periods": 0.5},
+        {"dead": [len(LAYOUT)]},
+        {"rng": None},
+    ):
+        with pytest.raises(InputError):
+            SkinSensor(skin, **{"rng": rng, **bad})  # type: ignore[arg-type]
+
+
+class _CountingSkin:
+    """A skin whose every taxel reads the time in ms, and that counts how often it is asked."""
+
+    def __init__(self) -> None:
+        self.layout = LAYOUT
+        self.calls = 0
+
+    def __len__(self) -> int:
+        return len(self.layout)
+
+    def taxel_forces(self, data: Any, contacts: Any = None) -> NDArray[np.float64]:
+        self.calls += 1
+        return np.full(len(self.layout), 1e3 * data.time)
+
+
+def sensor(**options: Any) -> tuple[SkinSensor, _CountingSkin]:
+    skin = _CountingSkin()
+    return SkinSensor(skin, **{"noise_std_N": 0.0, **options}), skin  # type: ignore[arg-type]
+
+
+def at(time: float) -> Any:
+    return SimpleNamespace(time=time)
+
+
+def test_sensor_samples_at_its_rate_and_holds() -> None:
+    device, skin = sensor(rate_hz=250.0)
+    times = [device.read(at(i * 1e-3)).time for i in range(1000)]
+    assert skin.calls == 250
+    assert times[:9] == pytest.approx([0.0] * 4 + [0.004] * 4 + [0.008])
+    device.reset()
+    assert device.read(at(5.0)).force[0] == pytest.approx(785.0)  # clipped at the layout's range
+
+
+def test_sensor_of_an_odd_rate_keeps_its_mean_rate() -> None:
+    device, skin = sensor(rate_hz=300.0)
+    for i in range(3000):
+        device.read(at(i * 1e-3))
+    assert skin.calls == 900
+
+
+def test_sensor_faster_than_the_physics_samples_every_step() -> None:
+    device, skin = sensor(rate_hz=4000.0)
+    assert [device.read(at(i * 1e-3)).time for i in range(50)] == pytest.approx([i * 1e-3 for i in range(50)])
+    assert skin.calls == 50
+
+
+def test_delay_is_whole_periods() -> None:
+    device, _ = sensor(rate_hz=250.0, delay_periods=2)
+    age = [i * 1e-3 - device.read(at(i * 1e-3)).time for i in range(100)]
+    assert min(age[8:]) == pytest.approx(0.008)
+    assert max(age[8:]) == pytest.approx(0.011)
+    assert device.read(at(0.1)).force[3] == pytest.approx(92.0)
+
+
+def test_noise_is_white_reproducible_and_clipped() -> None:
+    def record(seed: int) -> NDArray[np.float64]:
+        device, _ = sensor(noise_std_N=1.47, rng=np.random.default_rng(seed))
+        return np.array([device.read(at(0.3 + i * 0.004)).force for i in range(400)])
+
+    first = record(7)
+    assert (first == record(7)).all()
+    assert (first != record(8)).any()
+    truth = 1e3 * (0.3 + 0.004 * np.arange(400))
+    error = (first - truth[:, None])[:50]  # far from both ends of the range
+    assert error.std() == pytest.approx(1.47, rel=0.05)
+    assert first.max() == 785.0
+    device, _ = sensor(noise_std_N=1.47, rng=np.random.default_rng(0))
+    idle = device.read(at(0.0)).force
+    assert idle.min() == 0.0
+    assert 0.2 < np.mean(idle > 0.0) < 0.8
+
+
+def test_dead_taxels_read_nan_and_leave_the_others_alone() -> None:
+    whole, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3))
+    broken, _ = sensor(noise_std_N=1.0, rng=np.random.default_rng(3), dead=[2, 5])
+    a, b = whole.read(at(0.1)).force, broken.read(at(0.1)).force
+    assert np.isnan(b).nonzero()[0].tolist() == [2, 5]
+    alive = ~np.isnan(b)
+    assert (a[alive] == b[alive]).all()
