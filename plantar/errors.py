@@ -78,3 +78,7 @@ class DependencyError(PlantarError):
         super().__init__(f"{library} is not installed; install it with: pip install 'plantar[{extra}]'")
         self.library = library
         self.extra = extra
+
+    def __reduce__(self) -> tuple[type[DependencyError], tuple[str, str]]:
+        """Rebuild from both arguments, so that the error crosses to another process."""
+        return type(self), (self.library, self.extra)

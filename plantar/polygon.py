@@ -15,16 +15,17 @@ __all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "
 
 
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
-    """Convex hull by Andrew's monotone chain.
+    """Convex hull by Andrew's monotone chain, without vertices on straight edges.
 
-    Coordinates are rounded to 1e-9 of the extent before the turns are tested: points that are collinear up to their
-    last bit, the rule on a hexagonal lattice, then count as collinear.
+    The chain runs on integers, coordinates rounded to 1e-9 of the extent, so that its turns are exact. A vertex that
+    stands out of the line of its neighbours by no more than this rounding (2e-9 of the extent) is then left out: on a
+    hexagonal lattice whole rows of corners are collinear up to their last bits.
 
     Args:
         points: Points (n, 2) in m.
 
     Returns:
-        Hull (k, 2), counter-clockwise from the lowest x; vertices are input points.
+        Hull (k, 2), counter-clockwise from the lowest x (to 2e-9 of the extent); vertices are input points.
 
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
@@ -54,8 +55,24 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
 
     if len(keys) <= 2:
         return cloud[[k[2] for k in keys]]
-    ring = chain(keys)[:-1] + chain(keys[::-1])[:-1]
+    ring: list[tuple[int, int, int]] = []
+    for p in chain(keys)[:-1] + chain(keys[::-1])[:-1]:
+        while len(ring) >= 2 and _is_straight(ring[-2], ring[-1], p):
+            ring.pop()
+        ring.append(p)
+    while len(ring) > 2 and _is_straight(ring[-2], ring[-1], ring[0]):
+        ring.pop()
+    while len(ring) > 2 and _is_straight(ring[-1], ring[0], ring[1]):
+        ring.pop(0)
     return np.asarray(cloud[[k[2] for k in ring]])
+
+
+def _is_straight(a: tuple[int, int, int], b: tuple[int, int, int], c: tuple[int, int, int]) -> bool:
+    """Whether b lies between a and c, no more than 2 grid units off their line."""
+    lx, ly = c[0] - a[0], c[1] - a[1]
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    between = dx * (c[0] - b[0]) + dy * (c[1] - b[1]) >= 0
+    return between and (lx * dy - ly * dx) ** 2 <= 4 * (lx * lx + ly * ly)
 
 
 def area(polygon: NDArray[np.float64]) -> float:

@@ -1,0 +1,50 @@
+import pickle
+
+import pytest
+
+from plantar import errors
+
+ALL = [getattr(errors, name) for name in errors.__all__]
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_every_error_is_a_plantar_error(kind):
+    assert issubclass(kind, errors.PlantarError)
+
+
+def test_tree_in_the_module_docstring_is_the_tree():
+    drawn = {}
+    parents = [(0, "Exception")]
+    for line in errors.__doc__.splitlines():
+        name = line.lstrip(" │├└─").split(" ")[0]
+        if name not in errors.__all__:
+            continue
+        depth = line.index(name)
+        while parents[-1][0] >= depth:
+            parents.pop()
+        drawn[name] = parents[-1][1]
+        parents.append((depth, name))
+    assert drawn == {kind.__name__: kind.__base__.__name__ for kind in ALL}
+
+
+def test_a_foreign_file_is_caught_as_a_bad_recording():
+    with pytest.raises(errors.RecordingError):
+        raise errors.FormatError("not a pedar file")
+
+
+def test_missing_dependency_gives_the_command_that_installs_it():
+    error = errors.DependencyError("cadquery", "shoes")
+    assert str(error) == "cadquery is not installed; install it with: pip install 'plantar[shoes]'"
+    assert (error.library, error.extra) == ("cadquery", "shoes")
+
+
+@pytest.mark.parametrize("kind", [k for k in ALL if k is not errors.DependencyError])
+def test_errors_cross_processes(kind):
+    copy = pickle.loads(pickle.dumps(kind("what is wrong")))
+    assert type(copy) is kind
+    assert str(copy) == "what is wrong"
+
+
+def test_missing_dependency_crosses_processes():
+    copy = pickle.loads(pickle.dumps(errors.DependencyError("mujoco", "sim")))
+    assert (str(copy), copy.extra) == (str(errors.DependencyError("mujoco", "sim")), "sim")

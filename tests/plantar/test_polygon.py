@@ -1,0 +1,267 @@
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+
+from plantar import HexLattice
+from plantar.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
+
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+seeds = st.integers(0, 2**32 - 1)
+coordinates = st.floats(-2.0, 2.0, allow_subnormal=False)
+points = st.tuples(coordinates, coordinates)
+
+
+def random_polygon(seed: int) -> np.ndarray:
+    """A convex polygon of 3 to 12 vertices, sole-sized, anywhere within a few metres."""
+    rng = np.random.default_rng(seed)
+    cloud = rng.normal(0.0, 0.1, (int(rng.integers(3, 13)), 2)) * [1.0, rng.uniform(0.05, 1.0)] + rng.normal(0, 3.0, 2)
+    return convex_hull(cloud)
+
+
+def cells_of_a_patch(seed: int) -> np.ndarray:
+    """Axial coordinates of a random patch of lattice cells."""
+    rng = np.random.default_rng(seed)
+    axial = np.array([(q, r) for q in range(-4, 5) for r in range(-4, 5)])
+    return axial[rng.random(len(axial)) < rng.uniform(0.05, 0.9)]
+
+
+# --- hull ---------------------------------------------------------------------------------------------------------
+
+
+@given(seeds, st.integers(4, 60))
+def test_hull_of_random_points_is_scipys(seed, n):
+    cloud = np.random.default_rng(seed).normal(size=(n, 2))
+    ours = convex_hull(cloud)
+    theirs = cloud[ConvexHull(cloud).vertices]  # counter-clockwise
+    start = int(np.flatnonzero((theirs == ours[0]).all(axis=1))[0])
+    assert ours.tolist() == np.roll(theirs, -start, axis=0).tolist()
+
+
+@given(seeds, st.floats(0.0, math.pi), coordinates)
+def test_hull_of_lattice_corners_keeps_true_corners_only(seed, angle, shift):
+    """Whole rows of hexagon corners are collinear up to the last bit; the reference is the hull in exact integers."""
+    axial = cells_of_a_patch(seed)
+    assume(len(axial))
+    lattice = HexLattice(691e-6, (shift, -shift), angle)
+    keys = lattice.corner_keys(axial).reshape(-1, 2)
+    expected = {tuple(k) for k in _exact_hull(keys)}
+    corners = lattice.corners(axial).reshape(-1, 2)
+    got = convex_hull(corners)
+    key_of = {tuple(c): tuple(k) for c, k in zip(corners.tolist(), keys.tolist(), strict=True)}
+    assert {key_of[tuple(p)] for p in got.tolist()} == expected
+    assert len(got) == len(expected)
+
+
+def _exact_hull(keys: np.ndarray) -> list[tuple[int, int]]:
+    """Corners of the hull by gift wrapping in Python's integers: a point is one when no other beats it in any turn."""
+    cloud = sorted({(int(x), int(y)) for x, y in keys})
+    ring, p = [], cloud[0]
+    while True:
+        ring.append(p)
+        q = next(c for c in cloud if c != p)
+        for c in cloud:
+            turn = (q[0] - p[0]) * (c[1] - p[1]) - (q[1] - p[1]) * (c[0] - p[0])
+            farther = (c[0] - p[0]) ** 2 + (c[1] - p[1]) ** 2 > (q[0] - p[0]) ** 2 + (q[1] - p[1]) ** 2
+            if turn < 0 or (turn == 0 and farther):
+                q = c
+        p = q
+        if p == ring[0]:
+            return ring
+
+
+@given(st.lists(points, max_size=20))
+def test_hull_holds_every_point_and_is_its_own_hull(cloud):
+    hull = convex_hull(np.array(cloud).reshape(-1, 2))
+    assert {tuple(p) for p in hull.tolist()} <= {(float(x), float(y)) for x, y in cloud}
+    extent = float(np.ptp(np.array(cloud), axis=0).max()) if cloud else 0.0
+    again = convex_hull(hull)
+    assert {tuple(p) for p in again.tolist()} <= {tuple(p) for p in hull.tolist()}
+    assert area(again) == pytest.approx(area(hull), abs=1e-8 * extent**2)
+    for p in cloud:
+        assert signed_margin(hull, p) >= -1e-8 * max(extent, 1e-300)
+    assert area(hull) >= 0.0
+
+
+@given(seeds)
+def test_hull_does_not_depend_on_the_order_of_the_points(seed):
+    rng = np.random.default_rng(seed)
+    cloud = rng.normal(size=(30, 2))
+    assert convex_hull(cloud).tolist() == convex_hull(rng.permutation(cloud)).tolist()
+
+
+@pytest.mark.parametrize(
+    ("cloud", "expected"),
+    [
+        ([], []),
+        ([[1, 2]], [[1, 2]]),
+        ([[1, 2], [1, 2], [1, 2]], [[1, 2]]),
+        ([[1, 1], [0, 0], [0.5, 0.5], [0.25, 0.25]], [[0, 0], [1, 1]]),
+        ([[0, 1], [0, 0], [0, 0.3]], [[0, 0], [0, 1]]),
+        ([[0, 0], [5e-324, 0]], [[0, 0]]),
+    ],
+)
+def test_hull_of_degenerate_points(cloud, expected):
+    assert convex_hull(cloud).reshape(-1, 2).tolist() == expected
+
+
+# --- area and centroid --------------------------------------------------------------------------------------------
+
+
+@given(seeds)
+def test_area_and_centroid_are_shapelys(seed):
+    polygon = random_polygon(seed)
+    reference = shapely.Polygon(polygon - polygon[0])
+    assert area(polygon) == pytest.approx(reference.area, rel=1e-9)
+    assert area(polygon[::-1]) == pytest.approx(-reference.area, rel=1e-9)
+    where = np.array(reference.centroid.coords[0]) + polygon[0]
+    assert centroid(polygon) == pytest.approx(where, abs=1e-9)
+    assert signed_margin(polygon, centroid(polygon)) > 0.0
+
+
+@pytest.mark.parametrize("k", [3, 5, 6, 64])
+def test_area_of_a_regular_polygon_in_closed_form(k):
+    angle = 2.0 * np.pi * np.arange(k) / k
+    polygon = 2.0 * np.column_stack([np.cos(angle), np.sin(angle)]) + [100.0, -50.0]
+    assert area(polygon) == pytest.approx(0.5 * k * 4.0 * math.sin(2.0 * math.pi / k), rel=1e-12)
+    assert centroid(polygon) == pytest.approx([100.0, -50.0], abs=1e-12)
+
+
+def test_area_and_centroid_without_area():
+    assert area(np.empty((0, 2))) == 0.0
+    assert centroid(np.empty((0, 2))) is None
+    assert area(SQUARE[:2]) == 0.0
+    assert centroid(SQUARE[:1]).tolist() == [0.0, 0.0]
+    assert centroid(SQUARE[:2]).tolist() == [0.5, 0.0]
+    assert centroid(np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]])).tolist() == [1.0, 1.0]
+
+
+# --- closest point (T Algorithm 1) --------------------------------------------------------------------------------
+
+
+def printed_algorithm_1(polygon, point):
+    """T Algorithm 1 word for word: for each edge, outside if (d x l)_z > 0, then the closest point of that edge."""
+    best, nearest = math.inf, np.asarray(point, dtype=float)
+    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        edge, d = b - a, point - a
+        if d[0] * edge[1] - d[1] * edge[0] > 0.0:
+            t = np.clip(d @ edge / (edge @ edge), 0.0, 1.0)
+            distance = float(np.hypot(*(point - (a + t * edge))))
+            if distance < best:
+                best, nearest = distance, a + t * edge
+    return nearest
+
+
+def test_algorithm_1_as_printed_moves_an_inside_point():
+    """The erratum: on a clockwise square, as printed, the middle goes to an edge; counter-clockwise it stays."""
+    middle = np.array([0.5, 0.5])
+    clockwise = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
+    moved = printed_algorithm_1(clockwise, middle)
+    assert np.hypot(*(moved - middle)) == 0.5
+    assert moved.tolist() in [[0.0, 0.5], [0.5, 1.0], [1.0, 0.5], [0.5, 0.0]]
+    assert closest_point(SQUARE, middle).tolist() == [0.5, 0.5]
+    assert printed_algorithm_1(SQUARE, middle).tolist() == [0.5, 0.5]
+
+
+@given(seeds, st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
+def test_closest_point_is_shapelys(seed, offset):
+    polygon = random_polygon(seed)
+    point = polygon.mean(axis=0) + np.array(offset)
+    got = closest_point(polygon, point)
+    region, here = shapely.Polygon(polygon), shapely.Point(point)
+    assert np.hypot(*(got - point)) == pytest.approx(region.distance(here), abs=1e-9)
+    assert region.distance(shapely.Point(got)) < 1e-9
+    if region.contains(here):
+        assert got.tolist() == point.tolist()
+
+
+@given(seeds, st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)))
+def test_closest_point_beats_a_dense_sampling(seed, offset):
+    polygon = random_polygon(seed)
+    point = polygon.mean(axis=0) + np.array(offset)
+    t = np.linspace(0.0, 1.0, 400)[:, None]
+    boundary = np.concatenate([a + t * (b - a) for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)])
+    distance = np.hypot(*(closest_point(polygon, point) - point))
+    assert distance <= np.hypot(*(boundary - point).T).min() + 1e-12
+
+
+@given(st.integers(1, 2), points)
+def test_closest_point_of_a_point_and_a_segment(k, point):
+    got = closest_point(SQUARE[:k], point)
+    assert got == pytest.approx([min(max(point[0], 0.0), 1.0) if k == 2 else 0.0, 0.0], abs=1e-15)
+
+
+def test_closest_point_of_nothing():
+    assert closest_point(np.empty((0, 2)), [1.0, 2.0]) is None
+
+
+# --- margin -------------------------------------------------------------------------------------------------------
+
+
+@given(seeds, st.tuples(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)))
+def test_margin_is_the_distance_to_the_boundary_with_a_sign(seed, offset):
+    polygon = random_polygon(seed)
+    point = polygon.mean(axis=0) + np.array(offset)
+    region, here = shapely.Polygon(polygon), shapely.Point(point)
+    expected = region.exterior.distance(here) * (1.0 if region.contains(here) else -1.0)
+    assert signed_margin(polygon, point) == pytest.approx(expected, abs=1e-9)
+
+
+def test_margin_without_area():
+    assert signed_margin(np.empty((0, 2)), [0, 0]) == -math.inf
+    assert signed_margin(SQUARE[:1], [3.0, 4.0]) == -5.0
+    assert signed_margin(SQUARE[:2], [0.5, 0.25]) == -0.25
+    assert signed_margin(SQUARE[:2], [0.5, 0.0]) == 0.0
+    assert signed_margin(SQUARE, [0.5, 1.0]) == 0.0
+
+
+# --- inner offset -------------------------------------------------------------------------------------------------
+
+
+@given(seeds, st.floats(1e-3, 0.9))
+def test_inner_offset_is_shapelys_mitred_buffer(seed, fraction):
+    polygon = random_polygon(seed)
+    depth = _inscribed_radius(polygon)
+    assume(depth > 1e-4)
+    got = inner_offset(polygon, fraction * depth)
+    reference = shapely.Polygon(polygon).buffer(-fraction * depth, join_style="mitre", mitre_limit=1e6)
+    assert shapely.Polygon(got).symmetric_difference(reference).area < 1e-6 * abs(area(polygon))
+    assert min(signed_margin(polygon, p) for p in got) == pytest.approx(fraction * depth, abs=1e-9)
+
+
+@given(seeds, st.floats(1.01, 100.0))
+def test_inner_offset_too_far_gives_the_deepest_point(seed, factor):
+    polygon = random_polygon(seed)
+    depth = _inscribed_radius(polygon)
+    got = inner_offset(polygon, factor * depth)
+    assert got.shape == (1, 2)
+    assert signed_margin(polygon, got[0]) == pytest.approx(depth, abs=1e-6)
+
+
+def _inscribed_radius(polygon):
+    """Largest margin of any point, as a linear programme: maximise d with n . p >= n . a + d for every edge."""
+    from scipy.optimize import linprog
+
+    local = polygon - polygon[0]
+    edge = np.roll(local, -1, axis=0) - local
+    normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
+    rows = np.column_stack([-normal, np.ones(len(normal))])
+    solution = linprog([0, 0, -1], A_ub=rows, b_ub=-(normal * local).sum(axis=1), bounds=[(None, None)] * 3)
+    return float(solution.x[2])
+
+
+def test_inner_offset_without_area():
+    assert inner_offset(np.empty((0, 2)), 0.1).shape == (0, 2)
+    assert inner_offset(SQUARE, 0.0).tolist() == SQUARE.tolist()
+    assert inner_offset(SQUARE[:2], 0.1).tolist() == [[0.5, 0.0]]
+    assert inner_offset(SQUARE[:1], 0.1).tolist() == [[0.0, 0.0]]
+
+
+def test_inner_offset_gives_a_copy():
+    for distance in (0.0, 0.1):
+        inner_offset(SQUARE, distance)[0] = 9.0
+    assert SQUARE[0].tolist() == [0.0, 0.0]
