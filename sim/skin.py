@@ -175,10 +175,11 @@ def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:
     pressure = np.maximum(shape.u @ field, 0.0)
     residual = pressure @ shape.weighted_u - load
     error = _largest(residual)
+    ridge = 1e-9
     for _ in range(40):
         if error < 1e-10:
             break
-        step = _solve_symmetric(((pressure > 0.0) @ shape.weighted_uu).tolist(), residual.tolist())
+        step = _solve_symmetric(((pressure > 0.0) @ shape.weighted_uu).tolist(), residual.tolist(), ridge)
         start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
         for _ in range(12):
             field = start - rate * step
@@ -193,6 +194,8 @@ def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:
             if 0.5 * float(pressure**2 @ shape.area) - float(load @ field) <= value - 1e-4 * rate * slope:
                 break
             rate *= 0.5
+        else:
+            ridge *= 100.0  # the active cells are nearly in a row: steps are too long, not just too bold
         error = largest
     return np.asarray(pressure)
 
@@ -371,9 +374,9 @@ def _largest(residual: NDArray[np.float64]) -> float:
     return max(abs(float(v)) for v in residual.tolist())
 
 
-def _solve_symmetric(m: list[float], b: list[float]) -> NDArray[np.float64]:
-    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), made regular by 1e-9 of its trace."""
-    ridge = 1e-9 * (m[0] + m[3] + m[5]) + 1e-300
+def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
+    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), made regular by a share of its trace."""
+    ridge = share * (m[0] + m[3] + m[5]) + 1e-300
     a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
     c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]
     i00, i01, i02 = d * f - g * g, e * g - c * f, c * g - d * e

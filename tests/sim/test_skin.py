@@ -215,6 +215,25 @@ def test_loaded_cells_touch_the_patch(patch: list[tuple[float, float]], weights:
     assert np.hypot(*(cop - load)) < 0.033  # one cell corner to corner
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_load_inside_the_reach_of_a_patch_is_met_exactly(seed: int) -> None:
+    """Covered areas and centroids, the pistons of the model, carry the load's moment wherever they can."""
+    import shapely
+
+    rng = np.random.default_rng(seed)
+    patch = HALF * rng.uniform(-1.0, 1.0, (int(rng.integers(3, 7)), 2))
+    hull = convex_hull(patch)
+    covered = [shapely.Polygon(LAYOUT.cell_polygon(i)).intersection(shapely.Polygon(hull)) for i in range(len(LAYOUT))]
+    whole = [i for i, part in enumerate(covered) if part.area > 0.01 * LAYOUT.areas[i]]
+    pistons = np.array([covered[i].centroid.coords[0] for i in whole])
+    if len(convex_hull(pistons)) < 3:
+        return
+    reach = inner_offset(convex_hull(pistons), 0.002)
+    load = rng.dirichlet(np.ones(len(reach)) * 0.3) @ reach
+    force = SHARED_PRESSURE.spread([tuple(p) for p in patch.tolist()], 80.0, (float(load[0]), float(load[1])))
+    assert force[whole] @ pistons / 80.0 == pytest.approx(load, abs=1e-4)  # patches are kept on a 0.1 mm grid
+
+
 def tilted_layout(angle: float) -> SoleLayout:
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, 0, s], [0, 1, 0], [-s, 0, c]])
