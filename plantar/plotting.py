@@ -10,9 +10,13 @@ import os
 from pathlib import Path
 from typing import Any
 
-from plantar.atomic import replacing
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["COLOURS", "new_figure", "save_figure"]
+from plantar.atomic import replacing
+from plantar.layout import SoleLayout
+
+__all__ = ["COLOURS", "draw_cells", "new_figure", "save_figure", "thinned"]
 
 COLOURS = {
     "left": "#1f6fb4",
@@ -56,3 +60,55 @@ def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
         metadata = {"Date": None} if temporary.suffix == ".svg" else None
         figure.savefig(temporary, metadata=metadata)
     return Path(path)
+
+
+def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highest: float) -> Any:
+    """Draw a sole from above, toes up, its cells coloured by a value.
+
+    Args:
+        axes: The axes; horizontal is the sole's y to the left (so a left foot looks like one seen from above).
+        layout: The sole, n cells.
+        values: Value (n,) of each cell; NaN is drawn empty.
+        highest: Value of the colour scale's upper end; its lower end is 0.
+
+    Returns:
+        The drawn collection, for a colour bar.
+    """
+    from matplotlib.collections import PolyCollection
+
+    polygons = [layout.cell_polygon(i)[:, ::-1] * (-1.0, 1.0) for i in range(len(layout))]
+    cells = PolyCollection(polygons, cmap="viridis", edgecolors="#ffffff", linewidths=0.6)
+    cells.set_array(np.ma.masked_invalid(values))
+    cells.set_clim(0.0, highest if highest > 0.0 else 1.0)
+    axes.add_collection(cells)
+    ring = np.vstack([layout.outline, layout.outline[:1]])
+    axes.plot(-ring[:, 1], ring[:, 0], color=COLOURS["edge"], linewidth=1.0)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    return cells
+
+
+def thinned(
+    x: NDArray[np.float64], y: NDArray[np.float64], most: int = 6000
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A line with fewer points that looks the same: of each stretch its lowest and highest point.
+
+    Args:
+        x: Abscissae (n,).
+        y: Ordinates (n,); NaN breaks the line.
+        most: About the number of points to keep.
+
+    Returns:
+        The points to draw.
+    """
+    if len(x) <= most:
+        return x, y
+    block = -(-2 * len(x) // most)
+    keep: list[int] = []
+    for start in range(0, len(x), block):
+        part = y[start : start + block]
+        if np.isfinite(part).any():
+            keep += sorted({start + int(np.nanargmin(part)), start + int(np.nanargmax(part))})
+        else:
+            keep.append(start)
+    return x[keep], y[keep]

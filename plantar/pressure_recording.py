@@ -37,7 +37,8 @@ class FootRecording:
     def __post_init__(self) -> None:
         if self.layout is not None and len(self.layout) != self.force.shape[1]:
             raise FormatError(
-                f"the {self.side} foot has {self.force.shape[1]} cells, its layout '{self.layout.name}' {len(self.layout)}"
+                f"the {self.side} foot has {self.force.shape[1]} cells, "
+                f"its layout '{self.layout.name}' has {len(self.layout)}"
             )
 
     @cached_property

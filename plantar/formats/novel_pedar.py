@@ -192,10 +192,11 @@ def _sides(text: str, columns: list[int], warnings: list[str]) -> list[tuple[Sid
     """Which columns belong to which foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
-    for side in ("left", "right"):
+    sides: tuple[Side, Side] = ("left", "right")
+    for side in sides:
         cells = _field(text, rf"{side}\s+insole:[ \t]*([\d,;\t ]*)")
         if cells:
-            listed[side] = len(re.findall(r"\d+", cells))  # type: ignore[index]
+            listed[side] = len(re.findall(r"\d+", cells))
     if len(restarts) == 1:
         split = restarts[0]
         if listed and (listed.get("left", 0), listed.get("right", 0)) != (split, len(columns) - split):

@@ -1,0 +1,217 @@
+"""Gait events: when a foot strikes the ground and when it leaves it, from its vertical force.
+
+A foot's load is measured against its own range: from the level it rests at in swing (shoes press on insoles, and
+noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above 10 % of that
+range and ends when it falls below 5 %; the time of either event is where the force crosses the 5 % level, between
+samples by a straight line. Fractions of the range serve a child's insole and a robot of 86 kg alike; the 5 % is the
+customary share of body weight, and two levels keep noise from splitting a contact. Where noise is large the levels
+are raised to 4 and 8 of its standard deviations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "CONTACT_FRACTION",
+    "MINIMUM_STANCE",
+    "MINIMUM_SWING",
+    "RELEASE_FRACTION",
+    "Contact",
+    "Levels",
+    "find_contacts",
+    "force_levels",
+]
+
+CONTACT_FRACTION = 0.10
+"""Share of the force range above which a foot is in contact."""
+
+RELEASE_FRACTION = 0.05
+"""Share of the force range below which it is not any more, and whose crossing is the time of an event."""
+
+MINIMUM_STANCE = 0.1
+"""Shortest contact in s; shorter ones are a brush of the ground or a disturbance and are dropped."""
+
+MINIMUM_SWING = 0.1
+"""Shortest time in s off the ground; over shorter ones the foot counts as in contact."""
+
+LONGEST_BRIDGE = 0.1
+"""Longest gap in s of frames that were not measured over which the force is interpolated."""
+
+_NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Force levels of one foot in N.
+
+    Attributes:
+        rest: What the foot carries in swing.
+        peak: Its robust peak.
+        release: Level of the events.
+        contact: Level that a contact has to reach.
+        noise: Standard deviation of the force in swing.
+    """
+
+    rest: float
+    peak: float
+    release: float
+    contact: float
+    noise: float
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact of a foot.
+
+    Attributes:
+        heel_strike: Time in s at which it began, None where the recording (or a gap in it) cuts it.
+        toe_off: Time in s at which it ended, None where the recording cuts it.
+        begin: First frame in contact.
+        end: Frame after the last one in contact.
+    """
+
+    heel_strike: float | None
+    toe_off: float | None
+    begin: int
+    end: int
+
+    @property
+    def complete(self) -> bool:
+        """Whether both its ends were recorded."""
+        return self.heel_strike is not None and self.toe_off is not None
+
+
+def force_levels(force: NDArray[np.float64]) -> Levels | None:
+    """Levels of one foot's vertical force.
+
+    Args:
+        force: Vertical force (n,) in N; NaN where it was not measured.
+
+    Returns:
+        The levels, or None where the foot never carries anything above its noise.
+    """
+    measured = force[np.isfinite(force)]
+    if len(measured) < 3:
+        return None
+    # The middle one of five frames: a single damaged frame is not a peak.
+    smooth = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(measured, 2, mode="edge"), 5), axis=1)
+    top = float(smooth.max())
+    if not top > 0.0:
+        return None
+    peak = float(np.percentile(smooth[smooth >= 0.2 * top], 90.0))
+    rest = float(np.percentile(smooth, 5.0))
+    if rest > 0.3 * peak:  # the foot never leaves the ground: nothing tells what it would rest at
+        rest = 0.0
+    rest = max(rest, 0.0)
+    quiet = force < rest + CONTACT_FRACTION * (peak - rest)
+    steps = np.diff(force)[quiet[:-1] & quiet[1:]]
+    noise = float(np.median(np.abs(steps))) / (0.6745 * np.sqrt(2.0)) if len(steps) >= 20 else 0.0
+    if len(steps) >= 20:  # the middle of the swing samples is the better zero
+        rest = max(0.0, min(float(np.median(force[quiet])), rest + 2.0 * noise + 0.02 * peak))
+    span = peak - rest
+    if span <= 2.0 * _NOISE_CONTACT * noise or span <= 0.0:
+        return None
+    return Levels(
+        rest=rest,
+        peak=peak,
+        release=rest + max(RELEASE_FRACTION * span, _NOISE_RELEASE * noise),
+        contact=rest + max(CONTACT_FRACTION * span, _NOISE_CONTACT * noise),
+        noise=noise,
+    )
+
+
+def find_contacts(
+    time: NDArray[np.float64],
+    force: NDArray[np.float64],
+    levels: Levels | None = None,
+    minimum_stance: float = MINIMUM_STANCE,
+    minimum_swing: float = MINIMUM_SWING,
+) -> list[Contact]:
+    """Contacts of one foot, in order.
+
+    Args:
+        time: Times (n,) in s, increasing.
+        force: Vertical force (n,) in N; NaN where it was not measured. Gaps of up to 0.1 s are interpolated; a
+            longer one cuts the contact it falls into, as the ends of the recording do.
+        levels: Levels to use; those of `force_levels` where None.
+        minimum_stance: Shortest contact in s.
+        minimum_swing: Shortest swing in s.
+
+    Returns:
+        The contacts, none where the foot never carries load.
+
+    Example:
+        >>> time = np.arange(400) * 0.01
+        >>> force = np.where((time % 1.0 > 0.2) & (time % 1.0 < 0.8), 700.0, 0.0)
+        >>> [c.complete for c in find_contacts(time, force)]
+        [True, True, True, True]
+    """
+    levels = force_levels(force) if levels is None else levels
+    if levels is None:
+        return []
+    contacts: list[Contact] = []
+    for start, stop in _measured_spans(time, force):
+        gap = ~np.isfinite(force[start:stop])
+        part = force[start:stop].copy()
+        if gap.any():
+            part[gap] = np.interp(time[start:stop][gap], time[start:stop][~gap], part[~gap])
+        contacts += _contacts_of_span(time[start:stop], part, levels, start, minimum_stance, minimum_swing)
+    return contacts
+
+
+def _measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
+    """Spans of frames without a long gap, in the measurements or in the times."""
+    index = np.flatnonzero(np.isfinite(force))
+    if len(index) == 0:
+        return []
+    cut = np.flatnonzero(np.diff(time[index]) > LONGEST_BRIDGE + 1.5 * float(np.median(np.diff(time))))
+    starts = np.concatenate([[index[0]], index[cut + 1]])
+    stops = np.concatenate([index[cut], [index[-1]]]) + 1
+    return [(int(a), int(b)) for a, b in zip(starts, stops, strict=True)]
+
+
+def _contacts_of_span(
+    time: NDArray[np.float64],
+    force: NDArray[np.float64],
+    levels: Levels,
+    offset: int,
+    minimum_stance: float,
+    minimum_swing: float,
+) -> list[Contact]:
+    above = force >= levels.release
+    edges = np.flatnonzero(np.diff(above.astype(np.int8)))
+    starts = [0] if above[0] else []
+    starts += [int(e) + 1 for e in edges if above[e + 1]]
+    stops = [int(e) + 1 for e in edges if above[e]]
+    stops += [len(force)] if above[-1] else []
+    # Frames above the release level that reach the contact level; then swings too short, then contacts too short.
+    spans = [(a, b) for a, b in zip(starts, stops, strict=True) if force[a:b].max() >= levels.contact]
+    merged: list[tuple[int, int]] = []
+    for a, b in spans:
+        if (
+            merged
+            and _crossing(time, force, a, levels.release) - _crossing(time, force, merged[-1][1], levels.release)
+            < minimum_swing
+        ):
+            merged[-1] = (merged[-1][0], b)
+        else:
+            merged.append((a, b))
+    contacts: list[Contact] = []
+    for a, b in merged:
+        strike = _crossing(time, force, a, levels.release) if a > 0 else None
+        lift = _crossing(time, force, b, levels.release) if b < len(force) else None
+        if strike is not None and lift is not None and lift - strike < minimum_stance:
+            continue
+        contacts.append(Contact(strike, lift, a + offset, b + offset))
+    return contacts
+
+
+def _crossing(time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float) -> float:
+    """Time at which the force crosses the level between a frame and the one before it."""
+    f0, f1 = force[frame - 1], force[frame]
+    share = 0.5 if f0 == f1 else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
+    return float(time[frame - 1] + share * (time[frame] - time[frame - 1]))
