@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gait.vrp_plan import LipReference
 from plantar.errors import InputError
-from plantar.polygon import closest_point, inner_offset
+from plantar.polygon import closest_point
 
 __all__ = ["BalanceGains", "BalanceState", "DcmBalance"]
 
@@ -82,21 +82,21 @@ class DcmBalance:
         self._error = np.zeros(2)  # filtered p - p_d
 
     def desired_zmp(
-        self, reference: LipReference, dcm: NDArray[np.float64], polygon: NDArray[np.float64]
+        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Desired ZMP p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in the polygon (T Algorithm 1).
+        """Desired ZMP p_d = p_r - (1 + k_xi / w) (xi_r - xi) (T 4.28), kept in a region (T Algorithm 1).
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
-            polygon: Support polygon (k, 2) in the world frame, counter-clockwise; empty leaves p_d free.
+            region: Convex polygon (k, 2) in the world frame, counter-clockwise, in which p_d has to lie: the support
+                polygon less its safety offset; empty leaves p_d free.
 
         Returns:
             Desired ZMP (2,) in m.
         """
         wanted = reference.vrp - (1.0 + self.gains.dcm_gain / self.omega) * (reference.dcm - dcm)
-        inner = inner_offset(polygon, self.gains.zmp_offset)
-        nearest = closest_point(inner, wanted)
+        nearest = closest_point(region, wanted)
         return wanted if nearest is None else nearest
 
     def update(
@@ -104,7 +104,7 @@ class DcmBalance:
         reference: LipReference,
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
-        polygon: NDArray[np.float64],
+        region: NDArray[np.float64],
     ) -> BalanceState:
         """One control tick.
 
@@ -112,13 +112,13 @@ class DcmBalance:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            polygon: Support polygon (k, 2) in the world frame.
+            region: Where the desired ZMP has to lie (see `desired_zmp`).
 
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
         g = self.gains
-        desired = self.desired_zmp(reference, dcm, polygon)
+        desired = self.desired_zmp(reference, dcm, region)
         error = np.zeros(2) if zmp is None else zmp - desired
         self._error += min(1.0, self.period / (g.zmp_filter + self.period)) * (error - self._error)
         rate = g.zmp_gain * self._error - g.com_gain * self._offset

@@ -19,7 +19,7 @@ from gait.vrp_plan import LipReference
 from gait.walk_plan import plan_vrps
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
-from plantar.polygon import centroid
+from plantar.polygon import centroid, inner_offset
 from plantar.reading import Reading
 from plantar.support import feet_support_polygon, polygon_in_world
 
@@ -165,6 +165,8 @@ class WalkingController:
         self._swing: SwingTrajectory | None = None
         self._swing_step = -1
         self._landed = True
+        self._region_of: list[tuple[NDArray[np.float64], float]] = []
+        self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
 
     @property
@@ -182,8 +184,7 @@ class WalkingController:
         reference = self.plan.at(sensors.time)
         xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
         if s.feedback:
-            polygon = self._support_polygon(phase)
-            balance = self.balance.update(reference, xi, state.zmp, polygon)
+            balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
         else:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
@@ -231,16 +232,21 @@ class WalkingController:
             position[2] -= s.landing_speed * s.period
             self._foothold[side] = (position, yaw)
 
-    def _support_polygon(self, phase: Phase) -> NDArray[np.float64]:
-        """Support polygon in the world frame of the feet that the plan stands on, at their commanded places."""
-        parts = []
-        for side in _SIDES:
-            if phase.swing == side and not self._landed:
-                continue
-            position, yaw = self._foothold[side]
-            rotation = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
-            parts.append(polygon_in_world(self._outline[side], rotation, position))
-        return feet_support_polygon(parts)
+    def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
+        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, at their commanded
+        places, moved inwards by the offset. It is made anew only when a foot comes, goes or moves."""
+        standing = [s for s in _SIDES if self._landed or phase.swing != s]
+        footholds = [self._foothold[s] for s in standing]
+        if len(footholds) != len(self._region_of) or any(
+            a is not b for a, b in zip(footholds, self._region_of, strict=True)
+        ):
+            parts = []
+            for side, (position, yaw) in zip(standing, footholds, strict=True):
+                rotation = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
+                parts.append(polygon_in_world(self._outline[side], rotation, position))
+            self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
+            self._region_of = footholds
+        return self._region
 
     def _com_height(self, phase: Phase, time: float) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""

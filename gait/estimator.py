@@ -58,13 +58,14 @@ class EstimatorGains:
         gravity: Roll and pitch correction by the accelerometer in 1/s.
         yaw: Heading correction by the loaded feet in 1/s.
         observer: Bandwidth of the CoM velocity observer in rad/s.
-        minimum_load: Vertical force in N from which a foot counts as loaded.
+        minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
+            taxels add up to. Feet weigh in with what they carry beyond it.
     """
 
     gravity: float = 0.2
     yaw: float = 2.0
     observer: float = 20.0
-    minimum_load: float = 30.0
+    minimum_load: float = 70.0
 
 
 @dataclass(frozen=True)
@@ -228,14 +229,15 @@ class FloatingBaseEstimator:
         error = 0.0
         for side in _SIDES:
             yaw = heading(rotation @ posture.rotations[side])
-            if loads[side] < self.gains.minimum_load:
+            if loads[side] <= self.gains.minimum_load:
                 self._heading[side] = None
                 continue
             held = self._heading[side]
             if held is None:
                 self._heading[side] = held = yaw
-            error += loads[side] * math.remainder(held - yaw, 2.0 * math.pi)
-            total += loads[side]
+            weight = loads[side] - self.gains.minimum_load
+            error += weight * math.remainder(held - yaw, 2.0 * math.pi)
+            total += weight
         if total > 0.0:
             rate += (self.gains.yaw * error / total) * rotation[2]
         self._rotation = _orthonormal(rotation @ rotation_from_vector(rate * self.period))
@@ -252,12 +254,13 @@ class FloatingBaseEstimator:
         total = 0.0
         for side in _SIDES:
             cop = cops[side]
-            if cop is None or loads[side] < self.gains.minimum_load:
+            weight = loads[side] - self.gains.minimum_load
+            if cop is None or weight <= 0.0:
                 continue
             before = self._last.positions[side] + self._last.rotations[side][:, :2] @ cop
             now = posture.positions[side] + posture.rotations[side][:, :2] @ cop
-            shift += loads[side] * (self._last_rotation @ before - self._rotation @ now)
-            total += loads[side]
+            shift += weight * (self._last_rotation @ before - self._rotation @ now)
+            total += weight
         if total > 0.0:
             self._position = self._position + shift / total
         else:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from plantar.errors import SceneError
+from sim.table import limits
 
 __all__ = ["Terrain"]
 
@@ -16,41 +15,17 @@ class Terrain:
     """Ground of a scene.
 
     Attributes:
-        kind: "flat".
+        kind: "flat": an endless level plane.
         friction: Sliding friction coefficient of sole on ground.
         height: Height of the ground in m.
     """
 
-    kind: str = "flat"
-    friction: float = 0.8
-    height: float = 0.0
-
-    @classmethod
-    def from_table(cls, table: Mapping[str, Any], where: str) -> Terrain:
-        """Read the `[terrain]` table of a scene.
-
-        Raises:
-            SceneError: If a value is unknown or outside what is allowed.
-        """
-        allowed = ("kind", "friction", "height")
-        for key in table:
-            if key not in allowed:
-                raise SceneError(f"{where}: [terrain] has an unknown key '{key}'; allowed: {', '.join(allowed)}")
-        terrain = cls(**table)
-        if terrain.kind != "flat":
-            raise SceneError(f"{where}: [terrain] kind is {terrain.kind!r}; allowed: flat")
-        for key, low, high in (("friction", 0.05, 5.0), ("height", -10.0, 10.0)):
-            value = getattr(terrain, key)
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
-                raise SceneError(f"{where}: [terrain] {key} is {value!r}; allowed: {low:g} to {high:g}")
-        return terrain
+    kind: str = field(default="flat", metadata={"choices": ("flat",)})
+    friction: float = field(default=0.8, metadata=limits(0.05, 5.0))
+    height: float = field(default=0.0, metadata=limits(-10.0, 10.0))
 
     def add_to(self, spec: Any) -> None:
-        """Add the ground's geoms to a MuJoCo spec.
-
-        Args:
-            spec: A `mujoco.MjSpec`.
-        """
+        """Add the ground's geoms to a `mujoco.MjSpec`."""
         import mujoco
 
         spec.worldbody.add_geom(
@@ -63,4 +38,3 @@ class Terrain:
             friction=[self.friction, 0.005, 0.0001],
             material="ground",
         )
-
