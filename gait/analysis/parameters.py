@@ -25,16 +25,6 @@ __all__ = [
     "summary_of_foot",
     "symmetry",
 ]
-    "MEASURES",
-    "FootGait",
-    "Spread",
-    "Step",
-    "analyse_foot",
-    "gait_of_feet",
-    "spread",
-    "summary_of_foot",
-    "symmetry",
-]
 
 IMPACT_WINDOW = 0.05
 """Time in s after touchdown in which the landing impact is looked for."""
