@@ -92,7 +92,8 @@ def hex_layout(
                 rings.append(corner)
                 kept_centres.append(centre)
             elif clip:
-                parts = shapely.get_parts(polygon.intersection(hexagon))
+                # On a grid: without one GEOS may lose an intersection whose edges almost coincide.
+                parts = shapely.get_parts(shapely.intersection(polygon, hexagon, grid_size=1e-6 * lattice.side))
                 parts = [p for p in parts if p.geom_type == "Polygon"]
                 part = max(parts, key=lambda p: float(p.area), default=shapely.Polygon())
                 if part.area < max(minimum_fraction, 1e-3) * cell_area:
