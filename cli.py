@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any, cast
 
 import typer
 
-from plantar.errors import PlantarError
+from plantar.errors import InputError, PlantarError, RobotError
 
 app = typer.Typer(
     name="plantar",
@@ -16,6 +21,165 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
+
+
+@app.callback()
+def _commands() -> None:
+    """Keeps `plantar <command>` a command of its own even where there is only one."""
+
+
+@app.command()
+def shoe(
+    foot: Annotated[
+        Path | None,
+        typer.Argument(metavar="[FOOT]", help="Mesh of the foot: .stl .obj .ply .off .3mf", show_default=False),
+    ] = None,
+    robot: Annotated[str | None, typer.Option(help="A built-in robot instead of a mesh, for example h1.")] = None,
+    side: Annotated[str, typer.Option(help="left, right or both; the right shoe mirrors the left.")] = "both",
+    cell_area: Annotated[float, typer.Option(help="Area of one taxel in mm^2, as the papers give it.")] = 691.0,
+    taxels: Annotated[
+        int | None,
+        typer.Option(help="Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."),
+    ] = None,
+    overhang: Annotated[float, typer.Option(help="How far taxels may reach beyond the sole, in mm.")] = 0.0,
+    mesh_side: Annotated[str, typer.Option(help="Which foot the mesh shows: left or right.")] = "left",
+    unit: Annotated[str | None, typer.Option(help="Unit of the mesh: m, cm, mm, in. Default: from its size.")] = None,
+    forward: Annotated[str | None, typer.Option(help="Axis of the mesh to the toes: x, -x, y, -y. Default: x.")] = None,
+    sole_z: Annotated[
+        float | None,
+        typer.Option("--sole-z", help="Height of the sole plane in the mesh, in mm. Default: its lowest point."),
+    ] = None,
+    layout_only: Annotated[bool, typer.Option(help="Write only the layouts (under 2 s).")] = False,
+    parameters: Annotated[
+        Path | None, typer.Option(help="JSON or TOML file with dimensions in mm; the names are in docs/shoes.md.")
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/shoe"),
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """Build a printable tactile shoe from a foot's mesh, and the layout of its taxels.
+
+    Writes shoe_<side>.stl and .step, layout_<side>.json, drawing_<side>.png and check.json. Exit code 1 if a check does
+    not hold.
+
+    Example: plantar shoe foot.stl -o out/shoe
+
+    Example: plantar shoe --robot h1 --side left --json
+    """
+    from plantar.atomic import output_folder
+    from shoes import ShoeParameters, build_shoe, export_shoe, foot_from_mesh, read_parameters
+
+    if (foot is None) == (robot is None):
+        raise InputError(
+            "give either a mesh of the foot or --robot NAME: plantar shoe FOOT.stl, plantar shoe --robot h1"
+        )
+    for option, value, allowed in (
+        ("--side", side, ("left", "right", "both")),
+        ("--mesh-side", mesh_side, ("left", "right")),
+        ("--unit", unit, (None, "m", "cm", "mm", "in")),
+        ("--forward", forward, (None, "x", "-x", "y", "-y")),
+    ):
+        if value not in allowed:
+            raise InputError(f"{option} is '{value}'; allowed: {', '.join(a for a in allowed if a)}")
+    dimensions = ShoeParameters() if parameters is None else read_parameters(parameters)
+    if robot is not None:
+        shape, robot_taxels = _robot_foot(robot)
+        taxels = robot_taxels if taxels is None else taxels
+    else:
+        assert foot is not None
+        shape = foot_from_mesh(
+            foot,
+            mesh_side=cast(Any, mesh_side),
+            unit=cast(Any, unit),
+            forward=cast(Any, forward),
+            sole_z=sole_z,
+            sole_band=dimensions.sole_band,
+        )
+    with output_folder(output) as folder, _progress() as tell:
+        build = build_shoe(
+            shape,
+            side=cast(Any, side),
+            cell_area=cell_area,
+            taxels=taxels,
+            overhang=overhang,
+            parameters=dimensions,
+            layout_only=layout_only,
+            progress=lambda fraction, text: tell(0.7 * fraction, text),
+        )
+        report = export_shoe(build, folder, progress=lambda fraction, text: tell(0.7 + 0.3 * fraction, text))
+    summary = report.as_dict() | {"files": [str(output / name) for name in report.files]}
+    if as_json:
+        print(json.dumps(summary))
+    else:
+        _print_shoe(summary)
+    failed = [
+        f"{which}: {c['name']} is {c['value']}, allowed {c['allowed']}"
+        for which, one in summary.get("sides", {}).items()
+        for c in one["checks"]
+        if not c["holds"]
+    ]
+    for line in failed:
+        print(f"plantar: check does not hold: {line}", file=sys.stderr)
+    if failed:
+        raise typer.Exit(1)
+
+
+def _robot_foot(name: str) -> tuple[Any, int | None]:
+    """The left foot of a built-in robot and the number of taxels its robot file asks for."""
+    import tomllib
+    from importlib.util import find_spec
+
+    from shoes import foot_from_dimensions
+
+    spec = find_spec("sim")
+    folders = [Path(p) / "robots" for p in (spec.submodule_search_locations or [])] if spec else []
+    files = {f.parent.name: f for folder in folders for f in sorted(folder.glob("*/robot.toml"))}
+    if name not in files:
+        raise InputError(f"unknown robot '{name}'; allowed: {', '.join(sorted(files))}")
+    try:
+        facts = tomllib.loads(files[name].read_text(encoding="utf-8"))["foot"]
+        shape = foot_from_dimensions(
+            name,
+            length=float(facts["foot_length"]),
+            width=float(facts["foot_width"]),
+            sole_center=(float(facts["sole_center"][0]), float(facts["sole_center"][1])),
+            corner_radius=float(facts["corner_radius"]),
+        )
+        taxels = facts.get("taxels")
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise RobotError(f"{files[name]}: table [foot] cannot be used ({error!r})") from None
+    return shape, None if taxels is None else int(taxels)
+
+
+def _print_shoe(summary: dict[str, Any]) -> None:
+    """The shoe's figures for people."""
+    for note in summary["notes"]:
+        print(f"  {note}")
+    print(
+        f"{summary['taxels']} taxels of {summary['cell_area_mm2']:g} mm^2 cover "
+        f"{100 * summary['covered_area_ratio']:.0f} % of the sole; overhang {summary['overhang_mm']:g} mm"
+    )
+    if "sides" in summary:
+        size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])
+        print(
+            f"{size} mm, {summary['volume_cm3']:.1f} cm^3, {summary['mass_g']:.0f} g, thinnest wall "
+            f"{summary['min_wall_mm']:g} mm, {'watertight' if summary['watertight'] else 'NOT watertight'}; "
+            f"{'all checks hold' if summary['holds'] else 'A CHECK DOES NOT HOLD'}"
+        )
+    for name in summary["files"]:
+        print(f"  {name}")
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[float, str], None]]:
+    """A progress bar on stderr; gives the callback that moves it. Silent where stderr is no terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
 
 
 def main() -> None:

@@ -1,0 +1,297 @@
+"""Fit of a hexagonal lattice of taxels to a sole: where to put it and how to turn it. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError, InputError
+from plantar.hex_lattice import HexLattice, hexagon_side
+
+__all__ = ["CELL_AREAS", "LatticeFit", "fit_lattice", "whole_cell_region"]
+
+CELL_AREAS = (100.0, 5000.0)
+"""Cell areas in mm^2 that are taken."""
+
+_ANGLES = (0.0, 30.0, 15.0, 45.0, 5.0, 10.0, 20.0, 25.0, 35.0, 40.0, 50.0, 55.0)
+"""Lattice angles in degrees, in the order in which ties are decided; a hexagonal lattice repeats every 60."""
+_GRID = 0.05  # mm: placements lie on this grid, so that a layout has short numbers
+_COARSE = 24  # offsets along each axis of the lattice's unit cell
+_OVERHANG_STEP = 0.5  # mm
+_KEPT = 40  # placements compared at each angle and number of cells
+_SLACK = 1e-6  # mm by which a cell may leave the region
+
+
+@dataclass(frozen=True)
+class LatticeFit:
+    """A placement of the lattice and the cells that are kept.
+
+    Attributes:
+        lattice: The lattice, with `area` in mm^2 and `origin` in mm.
+        cells: Axial coordinates (n, 2) of the kept cells, row by row.
+        overhang: How far a cell may reach beyond the sole's outline in mm, as used.
+        covered: Area of the sole's outline that lies under a kept cell in mm^2.
+        covered_area_ratio: `covered` over the sole's area, 0..1.
+    """
+
+    lattice: HexLattice
+    cells: NDArray[np.int64]
+    overhang: float
+    covered: float
+    covered_area_ratio: float
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    """One placement during the search: the lattice, its cells, and what it is judged by."""
+
+    lattice: HexLattice
+    cells: NDArray[np.int64]
+    covered: float
+    spread: float
+    rank: int
+    off_centre: float
+
+    @property
+    def score(self) -> tuple[float, ...]:
+        straight = self.rank < 2
+        return (float(straight), round(self.covered + self.spread, 1), -self.rank, -round(self.off_centre, 3))
+
+
+def whole_cell_region(region: Any, side: float, angle: float) -> Any:
+    """Where the centre of a cell may lie so that the whole cell is inside a region (erosion by the hexagon).
+
+    Args:
+        region: A shapely polygon in mm.
+        side: Side length of the cell in mm.
+        angle: Rotation of the cell in rad, as `HexLattice.angle`.
+
+    Returns:
+        A shapely polygon, multipolygon, or an empty geometry; points on its edge count.
+
+    Example:
+        >>> import shapely
+        >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), 1.0, 0.0).area - (10 - 3**0.5) * 8) < 1e-3)
+        True
+    """
+    import shapely
+
+    turns = angle + np.pi / 6 + np.arange(6) * np.pi / 3
+    hexagon = side * np.column_stack([np.cos(turns), np.sin(turns)])
+    points = np.array(region.exterior.coords)
+    swept = np.concatenate([points[:-1, None] + hexagon, points[1:, None] + hexagon], axis=1)
+    blocked = shapely.union_all(shapely.convex_hull(shapely.multipoints(swept)))
+    return region.difference(blocked).buffer(_SLACK, join_style="mitre")
+
+
+def fit_lattice(
+    sole: Any, *, cell_area: float = 691.0, taxels: int | None = None, overhang: float = 0.0, overhang_max: float = 0.0
+) -> LatticeFit:
+    """Place the lattice so that the most whole cells lie inside a sole.
+
+    Ties are decided by straight rows (0 or 30 degrees before others), by the area of the sole under the cells plus that
+    inside their convex hull (the support polygon they can tell), and by how near the patch's centre is to the sole's.
+    With `taxels` the overhang is the smallest, in steps of 0.5 mm, at which so many fit, and cells that cover the least
+    of the sole are left out. The same input gives the same placement.
+
+    Args:
+        sole: Outline of the sole, a shapely polygon in mm.
+        cell_area: Area of a cell in mm^2.
+        taxels: Number of cells; None takes as many as fit.
+        overhang: How far cells may reach beyond the outline in mm where `taxels` is None; the least where it is given.
+        overhang_max: The most overhang in mm that `taxels` may take.
+
+    Returns:
+        The placement.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If no cell, or fewer than `taxels` cells, fit.
+    """
+    low, high = CELL_AREAS
+    if not (math.isfinite(cell_area) and low <= cell_area <= high):
+        raise InputError(f"cell area is {cell_area} mm^2; allowed: {low:g} to {high:g} mm^2")
+    if taxels is not None and taxels < 1:
+        raise InputError(f"number of taxels is {taxels}; allowed: 1 or more")
+    if not (math.isfinite(overhang) and 0.0 <= overhang <= max(overhang, overhang_max)):
+        raise InputError(f"overhang is {overhang} mm; allowed: 0 or more")
+    if taxels is not None:
+        overhang = _least_overhang(sole, cell_area, taxels, overhang, overhang_max)
+    placements = _search(sole, cell_area, overhang, taxels)
+    if not placements:
+        raise FootError(
+            f"no whole cell of {cell_area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area"
+        )
+    best = max(placements, key=lambda p: p.score)
+    best = _centred(best, sole, sole.buffer(overhang))
+    return LatticeFit(best.lattice, best.cells, overhang, best.covered, best.covered / sole.area)
+
+
+def _least_overhang(sole: Any, cell_area: float, taxels: int, overhang: float, overhang_max: float) -> float:
+    """The smallest overhang in mm at which enough cells fit, by bisection over its steps."""
+    steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
+
+    def most(step: int) -> int:
+        return max((int(p.counts.max()) for p in _scan(sole, cell_area, overhang + step * _OVERHANG_STEP)), default=0)
+
+    if most(0) >= taxels:
+        return overhang
+    at_most = most(steps) if steps else most(0)
+    if at_most < taxels:
+        raise FootError(
+            f"{taxels} taxels of {cell_area:g} mm^2 do not fit: at most {at_most} with cells up to "
+            f"{overhang + steps * _OVERHANG_STEP:g} mm beyond the sole; ask for fewer or use a smaller cell area"
+        )
+    low, high = 0, steps  # low does not hold enough, high does
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if most(middle) >= taxels else (middle, high)
+    return overhang + high * _OVERHANG_STEP
+
+
+@dataclass(frozen=True)
+class _Scan:
+    """Number of whole cells at many lattice origins, at one angle."""
+
+    rank: int
+    angle: float
+    allowed: Any
+    offsets: NDArray[np.float64]
+    counts: NDArray[np.int64]
+
+
+def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
+    """Count whole cells over one unit cell of lattice origins, at every angle."""
+    import shapely
+
+    region = sole.buffer(overhang) if overhang > 0.0 else sole
+    side = hexagon_side(cell_area)
+    out = []
+    for rank, degrees in enumerate(_ANGLES):
+        lattice = HexLattice(cell_area, angle=math.radians(degrees))
+        allowed = whole_cell_region(region, side, lattice.angle)
+        if allowed.is_empty:
+            continue
+        shapely.prepare(allowed)
+        offsets = _offsets(lattice)
+        counts = _count(allowed, lattice, offsets)
+        # Placements with the most cells may fill only a sliver between the coarse offsets: look around the best.
+        promising = offsets[np.argsort(-counts, kind="stable")[:24]]
+        step = 1.5 * side / _COARSE / 3.0
+        fine = np.stack(np.meshgrid(*[np.arange(-2, 3) * step] * 2), axis=-1).reshape(-1, 2)
+        near = _on_grid((promising[:, None] + fine).reshape(-1, 2))
+        counts = np.concatenate([counts, _count(allowed, lattice, near)])
+        out.append(_Scan(rank, lattice.angle, allowed, np.concatenate([offsets, near]), counts))
+    return out
+
+
+def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) -> list[_Candidate]:
+    """Placements worth comparing: with the most whole cells, or with `taxels` (the next more, cut down to them)."""
+    scans = _scan(sole, cell_area, overhang)
+    most = max((int(s.counts.max()) for s in scans), default=0)
+    if not most:
+        return []
+    if taxels is not None:  # a placement that holds just so many needs no gap in its rim
+        most = min(int(s.counts[s.counts >= taxels].min(initial=most)) for s in scans)
+    out = []
+    for scan in scans:
+        for i in np.flatnonzero(scan.counts == most)[:_KEPT]:
+            x, y = scan.offsets[i]
+            lattice = HexLattice(cell_area, (float(x), float(y)), scan.angle)
+            cells = _cells_inside(scan.allowed, lattice)
+            if taxels is not None:
+                cells = _reduced(sole, lattice, cells, taxels)
+            out.append(_candidate(sole, lattice, cells, scan.rank))
+    return out
+
+
+def _on_grid(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values on the placement grid, without the last-bit noise of a product."""
+    return np.asarray(np.round(np.rint(values / _GRID) * _GRID, 6))
+
+
+def _offsets(lattice: HexLattice) -> NDArray[np.float64]:
+    """Lattice origins (k, 2) that sample one unit cell of the lattice."""
+    share = np.arange(_COARSE) / _COARSE
+    u, v = np.meshgrid(share * lattice.width, share * 1.5 * lattice.side)
+    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
+    return _on_grid(np.stack([c * u - s * v, s * u + c * v], axis=-1).reshape(-1, 2))
+
+
+def _count(allowed: Any, lattice: HexLattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Number of whole cells (k,) at each lattice origin (k, 2)."""
+    import shapely
+
+    centres = _near_centres(allowed, lattice)[1]
+    x = centres[None, :, 0] + offsets[:, None, 0]
+    y = centres[None, :, 1] + offsets[:, None, 1]
+    return np.asarray(shapely.contains_xy(allowed, x, y).sum(axis=1))
+
+
+def _near_centres(allowed: Any, lattice: HexLattice) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Cells (n, 2) and centres (n, 2) of the lattice with its origin at 0 that may reach an area."""
+    box = np.array(allowed.bounds).reshape(2, 2)
+    start = HexLattice(lattice.area, angle=lattice.angle)
+    cells = start.cells_near(box[0], box[1])
+    return cells, start.centres(cells)
+
+
+def _cells_inside(allowed: Any, lattice: HexLattice) -> NDArray[np.int64]:
+    import shapely
+
+    cells, centres = _near_centres(allowed, lattice)
+    inside = shapely.contains_xy(allowed, centres[:, 0] + lattice.origin[0], centres[:, 1] + lattice.origin[1])
+    return np.asarray(cells[inside])
+
+
+def _covered_of_cells(sole: Any, lattice: HexLattice, cells: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Area (n,) of the sole under each cell in mm^2."""
+    import shapely
+
+    return np.asarray(shapely.area(shapely.intersection(shapely.polygons(lattice.corners(cells)), sole)))
+
+
+def _candidate(sole: Any, lattice: HexLattice, cells: NDArray[np.int64], rank: int) -> _Candidate:
+    import shapely
+
+    covered = float(_covered_of_cells(sole, lattice, cells).sum())
+    spread = float(shapely.MultiPoint(lattice.corners(cells).reshape(-1, 2)).convex_hull.intersection(sole).area)
+    middle = lattice.centres(cells).mean(axis=0)
+    off = float(np.hypot(middle[0] - sole.centroid.x, middle[1] - sole.centroid.y))
+    return _Candidate(lattice, cells, covered, spread, rank, off)
+
+
+def _reduced(sole: Any, lattice: HexLattice, cells: NDArray[np.int64], taxels: int) -> NDArray[np.int64]:
+    """The cells that cover the most of the sole; ties: the nearest to its centre."""
+    covered = np.round(_covered_of_cells(sole, lattice, cells), 3)
+    centres = lattice.centres(cells)
+    far = np.round(np.hypot(centres[:, 0] - sole.centroid.x, centres[:, 1] - sole.centroid.y), 3)
+    return np.asarray(cells[np.sort(np.lexsort((np.arange(len(far)), far, -covered))[:taxels])])
+
+
+def _centred(start: _Candidate, sole: Any, region: Any) -> _Candidate:
+    """The same cells moved towards the sole's centre as far as they stay inside the region."""
+    import shapely
+
+    allowed = whole_cell_region(region, start.lattice.side, start.lattice.angle)
+    shapely.prepare(allowed)
+    best, step = start, 32 * _GRID
+    while step >= _GRID * 0.99:
+        moves = [(dx * step, dy * step) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
+        trials = []
+        for dx, dy in moves:
+            x, y = _on_grid(np.array(best.lattice.origin) + np.array([dx, dy]))
+            lattice = HexLattice(best.lattice.area, (float(x), float(y)), best.lattice.angle)
+            centres = lattice.centres(best.cells)
+            if shapely.contains_xy(allowed, centres[:, 0], centres[:, 1]).all():
+                trials.append(_candidate(sole, lattice, best.cells, best.rank))
+        better = max(trials, key=lambda p: p.score, default=best)
+        if better.score > best.score:
+            best = better
+        else:
+            step /= 2
+    return best

@@ -1,0 +1,146 @@
+"""Outlines in the sole plane, in mm: of the lowest part of a foot, of a rounded rectangle, and their repair.
+
+Polygons are shapely polygons, counter-clockwise, without holes, on a grid of 1 micrometre.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+
+__all__ = ["outline_below", "ring", "rounded_rectangle", "single_outline", "tidy"]
+
+GRID = 1e-3
+"""Grid in mm that polygon corners lie on."""
+_SIMPLIFY = 0.05  # mm of detail that is dropped
+_GROOVE = 10.0  # mm: half the width of a groove that is bridged
+_NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
+
+
+def tidy(polygon: Any) -> Any:
+    """A polygon on the grid, counter-clockwise and without repeated or collinear points.
+
+    Args:
+        polygon: A shapely polygon in mm; of several parts the largest is taken, holes are filled.
+
+    Returns:
+        The shapely polygon.
+    """
+    import shapely
+
+    shape = shapely.set_precision(polygon, GRID)
+    parts = [p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon" and not p.is_empty]
+    if not parts:
+        raise FootError("the outline has no area")
+    largest = max(parts, key=lambda p: p.area)
+    return shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior).simplify(0.5 * GRID))
+
+
+def ring(polygon: Any) -> NDArray[np.float64]:
+    """Corners (k, 2) of a polygon in mm, counter-clockwise, without the repeated last point."""
+    return np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
+
+
+def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:
+    """A rectangle with rounded corners.
+
+    Args:
+        length: Extent along x in mm.
+        width: Extent along y in mm.
+        centre: Middle (x, y) in mm.
+        radius: Corner radius in mm, 0 up to half the shorter extent.
+
+    Returns:
+        The shapely polygon.
+
+    Example:
+        >>> rounded_rectangle(200.0, 100.0, (20.0, 0.0), 10.0).bounds
+        (-80.0, -50.0, 120.0, 50.0)
+    """
+    import shapely
+
+    x, y = centre
+    a, b = 0.5 * length - radius, 0.5 * width - radius
+    core = shapely.LineString([(x - a, y), (x + a, y)]) if b <= 0.0 < a else shapely.box(x - a, y - b, x + a, y + b)
+    return tidy(core.buffer(radius, quad_segs=8) if radius > 0.0 else core)
+
+
+def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
+    """Outline of what a surface has below a height, seen from above.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
+        height: Height in mm; triangles that cross it are cut there.
+
+    Returns:
+        One shapely polygon in mm, see `single_outline`.
+
+    Raises:
+        FootError: If nothing with an area lies below the height.
+    """
+    import shapely
+
+    below = _cut_below(triangles, height)
+    flat = below[..., :2]
+    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
+    if len(below) == 0:
+        raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
+    points = shapely.MultiPoint(below.reshape(-1, 3)[:, :2]).convex_hull
+    if points.geom_type != "Polygon" or points.area < 1.0:
+        raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
+    closed = np.concatenate([flat, flat[:, :1]], axis=1)
+    # Vertical walls project to lines: they count in the hull, not in the union. Rounding closes hairline gaps.
+    union = shapely.union_all(shapely.polygons(closed).tolist(), grid_size=GRID) if len(flat) else shapely.Polygon()
+    return single_outline(union, points)
+
+
+def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
+    """One sensible outline of a sole that may touch in patches or have grooves and holes.
+
+    Several patches, or a shape that nearly fills its convex hull, give the hull; one patch with a marked waist or
+    notch keeps it, with holes filled and grooves bridged.
+
+    Args:
+        union: The touching area: a shapely polygon or multipolygon in mm, possibly empty.
+        hull: Its convex hull.
+        detail: Detail in mm that may be dropped.
+
+    Returns:
+        The shapely polygon.
+    """
+    import shapely
+
+    filled = shapely.union_all([shapely.Polygon(p.exterior) for p in getattr(union, "geoms", [union]) if p.area > 1.0])
+    bridged = filled.buffer(_GROOVE).buffer(-_GROOVE)
+    one_patch = bridged.geom_type == "Polygon" and not bridged.is_empty
+    if not one_patch or bridged.area >= _NEARLY_CONVEX * hull.area:
+        return tidy(hull.simplify(detail).convex_hull)
+    return tidy(shapely.Polygon(bridged.exterior).simplify(detail))
+
+
+def _cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    """Parts of triangles at or below z = height, as triangles (m, 3, 3)."""
+    z = triangles[..., 2]
+    inside = z <= height
+    count = inside.sum(axis=1)
+    out = [triangles[count == 3]]
+    for kept in (1, 2):
+        chosen = triangles[count == kept]
+        if not len(chosen):
+            continue
+        # Turn each triangle so that its odd corner comes first.
+        odd = np.argmax(inside[count == kept] == (kept == 1), axis=1)
+        turned = chosen[np.arange(len(chosen))[:, None], (odd[:, None] + np.arange(3)) % 3]
+        a, b, c = turned[:, 0], turned[:, 1], turned[:, 2]
+        ab = a + ((height - a[:, 2]) / (b[:, 2] - a[:, 2]))[:, None] * (b - a)
+        ac = a + ((height - a[:, 2]) / (c[:, 2] - a[:, 2]))[:, None] * (c - a)
+        if kept == 1:
+            out.append(np.stack([a, ab, ac], axis=1))
+        else:
+            out += [np.stack([ab, b, c], axis=1), np.stack([ab, c, ac], axis=1)]
+    return np.concatenate(out)

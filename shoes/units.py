@@ -1,0 +1,41 @@
+"""The one boundary between millimetres (inside `shoes`) and SI (everywhere else)."""
+
+from __future__ import annotations
+
+from typing import overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["MM_PER_M", "to_m", "to_mm"]
+
+MM_PER_M = 1000.0
+"""Millimetres in a metre."""
+
+
+@overload
+def to_m(length: float) -> float: ...
+@overload
+def to_m(length: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def to_m(length: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+    """A length or array of lengths in mm, in m.
+
+    Example:
+        >>> to_m(250.0)
+        0.25
+    """
+    return length / MM_PER_M
+
+
+@overload
+def to_mm(length: float) -> float: ...
+@overload
+def to_mm(length: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def to_mm(length: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+    """A length or array of lengths in m, in mm.
+
+    Example:
+        >>> to_mm(0.25)
+        250.0
+    """
+    return length * MM_PER_M
