@@ -169,6 +169,93 @@ def _print_shoe(summary: dict[str, Any]) -> None:
         print(f"  {name}")
 
 
+@app.command()
+def analyze(
+    recording: Annotated[Path, typer.Argument(help="The recording; its format is recognised from its content.")],
+    format: Annotated[
+        str | None, typer.Option(help="Name of the format, where recognition fails: see plantar list formats.")
+    ] = None,
+    layout: Annotated[
+        Path | None,
+        typer.Option(help="Layout file to use instead of the format's own geometry; mirrored for the other foot."),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/analysis"),
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """Find the steps in a recording of plantar pressure, from insoles or a robot's soles, and measure them.
+
+    Writes metrics.json, steps.csv (a row a step), figures (PNG and SVG) and report.html, which opens anywhere. What
+    had to be assumed stands in "warnings"; what each measure means in docs/metrics.md.
+
+    Example: plantar analyze walk.asc -o out/walk
+
+    Example: plantar analyze out/demo/run.mcap --json
+    """
+    from gait.analysis.analyse import analyse_recording
+
+    with _progress() as tell:
+        result = analyse_recording(recording, output, format=format, layout=layout, progress=tell)
+    if as_json:
+        print(json.dumps(result))
+        return
+    print(f"{result['format']}: {result['frames']} frames at {result['rate_hz']:g} Hz")
+    for side, foot in result["feet"].items():
+        contact = foot["measures"]["contact_time_s"]["mean"]
+        print(f"  {side}: {foot['steps']} complete steps" + (f", contact {contact:.3f} s" if contact else ""))
+    cadence = result["gait"]["cadence_steps_per_min"]
+    if cadence is not None:
+        print(f"  cadence {cadence:.1f} steps/min")
+    for warning in result["warnings"]:
+        print(f"  note: {warning}", file=sys.stderr)
+    for name in result["files"]:
+        print(f"  {name}")
+
+
+@app.command(name="list")
+def list_(
+    what: Annotated[str, typer.Argument(help="robots, scenes or formats.")],
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """List what there is: robots to walk, scenes to run, recording formats to analyse.
+
+    Example: plantar list formats
+    """
+    if what == "formats":
+        from plantar.formats import formats
+
+        found = {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
+    elif what == "robots":
+        found = _described("robots/*/robot.toml", lambda path: path.parent.name)
+    elif what == "scenes":
+        found = _described("scenes/*.toml", lambda path: path.stem)
+    else:
+        raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats")
+    if as_json:
+        print(json.dumps({what: [{"name": name, "description": text} for name, text in found.items()]}))
+        return
+    width = max((len(name) for name in found), default=0)
+    for name, text in found.items():
+        print(f"{name:{width}}  {text}".rstrip())
+
+
+def _described(pattern: str, name: Callable[[Path], str]) -> dict[str, str]:
+    """Names of the simulator's TOML files and the "title" or "description" each gives; the simulator is not loaded."""
+    import tomllib
+    from importlib.util import find_spec
+
+    spec = find_spec("sim")
+    found: dict[str, str] = {}
+    for folder in (spec.submodule_search_locations or []) if spec else []:
+        for path in sorted(Path(folder).glob(pattern)):
+            try:
+                facts = tomllib.loads(path.read_text(encoding="utf-8"))
+            except (OSError, ValueError):
+                facts = {}
+            text = next((str(facts[k]) for k in ("title", "description", "about") if k in facts), "")
+            found[name(path)] = text.strip().split("\n")[0]
+    return found
+
+
 @contextmanager
 def _progress() -> Iterator[Callable[[float, str], None]]:
     """A progress bar on stderr; gives the callback that moves it. Silent where stderr is no terminal."""

@@ -27,6 +27,7 @@ COLOURS = {
     "cell": "#e9ecef",
     "edge": "#868e96",
     "polygon": "#2a9d8f",
+    "cop": "#e4572e",
 }
 """Colours with one meaning each across all figures."""
 
@@ -85,6 +86,7 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     axes.plot(-ring[:, 1], ring[:, 0], color=COLOURS["edge"], linewidth=1.0)
     axes.set_aspect("equal")
     axes.autoscale_view()
+    axes.locator_params(axis="x", nbins=4)
     return cells
 
 

@@ -47,11 +47,13 @@ def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
             if contact.complete and gait.cop is not None:
                 path = gait.cop[contact.begin : contact.end]
                 panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=2.2, alpha=0.9)
-                panel.plot(-path[:, 1], path[:, 0], color=COLOURS["right"], linewidth=1.0, label=label)
+                panel.plot(-path[:, 1], path[:, 0], color=COLOURS["cop"], linewidth=1.0, label=label)
                 label = None
         panel.set_title(f"{side} foot, {len(gait.steps)} steps")
         panel.set_xlabel("to the right (m)")
         if label is None:
+            low, high = panel.get_ylim()
+            panel.set_ylim(low - 0.08 * (high - low), high)  # room for the legend below the heel
             panel.legend(loc="lower center", fontsize=8, framealpha=0.9)
     axes[0][0].set_ylabel("forward (m)")
     figure.colorbar(drawn, ax=list(axes[0]), label="maximum pressure, mean of the steps (kPa)", shrink=0.8)
@@ -79,7 +81,9 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
         panel.set_ylabel("vertical force (N)")
         panel.legend(loc="upper right", fontsize=8, ncols=4, framealpha=0.9)
         panel.grid(alpha=0.3)
-        panel.margins(x=0.01, y=0.25)
+        panel.margins(x=0.01)
+    low, high = axes[0, 0].get_ylim()
+    axes[0, 0].set_ylim(low, high + 0.22 * (high - low))  # room for the legend
     axes[-1, 0].set_xlabel("time (s); grey: contacts that the recording cuts, left out of the statistics")
     return figure
 

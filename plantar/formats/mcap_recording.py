@@ -67,4 +67,4 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
     )
 
 
-FORMAT = Format(name="mcap", title="Plantar recording, MCAP", suffixes=(".mcap",), recognises=_recognises, read=_read)
+FORMAT = Format(name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read)

@@ -297,5 +297,5 @@ def _layout_from_corners(corners: NDArray[np.float64], cells: list[int], side: S
 
 
 FORMAT = Format(
-    name="pedar", title="Novel pedar or pliance, .asc", suffixes=(".asc",), recognises=_recognises, read=_read
+    name="pedar", title="Novel pedar or pliance export", suffixes=(".asc",), recognises=_recognises, read=_read
 )
