@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from plantar.polygon import signed_margin
 
 __all__ = [
+    "REACH",
     "ContactSet",
     "GroundTruth",
     "contact_wrench_in_frame",
@@ -26,6 +27,10 @@ __all__ = [
     "support_polygon_of_contacts",
     "zmp_of_contacts",
 ]
+
+
+REACH = 5e-4
+"""Largest gap in m between sole and ground that still counts as contact: what a rubber sole gives."""
 
 
 class ContactSet(NamedTuple):
@@ -196,11 +201,15 @@ def zmp_of_contacts(
     return _zmp(_total_wrench(feet), feet, plane_height, minimum_force)
 
 
-def support_polygon_of_contacts(feet: Sequence[ContactSet]) -> NDArray[np.float64]:
+def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH) -> NDArray[np.float64]:
     """True support polygon: hull of the contact points that carry a force or could, seen from above.
+
+    A rigid sole under an eccentric load lifts a corner by micrometres, where any real one stays pressed; points within
+    `reach` therefore count. MuJoCo reports them only for geoms with a `gap` of at least that.
 
     Args:
         feet: Contacts of each foot.
+        reach: Largest gap in m of a point that could carry a force.
 
     Returns:
         Convex polygon (m, 2) in the world frame in m, counter-clockwise; empty where nothing touches, one or two
@@ -209,9 +218,8 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet]) -> NDArray[np.float6
     points: list[tuple[float, float]] = []
     for contacts in feet:
         if contacts.size:
-            points += [
-                (x, y) for (x, y, _), c in zip(contacts.positions.tolist(), contacts.carries.tolist(), strict=True) if c
-            ]
+            near = (contacts.carries | (contacts.distances <= reach)).tolist()
+            points += [(x, y) for (x, y, _), n in zip(contacts.positions.tolist(), near, strict=True) if n]
     return np.array(small_hull(points)).reshape(-1, 2)
 
 

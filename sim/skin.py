@@ -13,6 +13,9 @@ centre, as a real one does. A load beyond the outermost covered centroids goes t
 contact along a line or at a point presses on the strip or square that the rubber's thickness makes of it; a contact
 on the sole's bare rim is carried by the cells nearest to it. In every case the taxel forces add up to the true normal
 force.
+
+A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
+`gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
 """
 
 from __future__ import annotations
@@ -30,7 +33,7 @@ from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layout import DEFAULT_RANGES, SoleLayout
 from plantar.polygon import closest_point, convex_hull, inner_offset
 from plantar.reading import Reading
-from sim.contact_truth import ContactSet, foot_contacts
+from sim.contact_truth import REACH, ContactSet, foot_contacts
 
 __all__ = ["SkinSensor", "SolePressure", "SoleSkin"]
 
@@ -258,9 +261,17 @@ class SoleSkin:
         forces = (contacts.forces @ rotation).tolist()
         torques = (contacts.torques @ rotation).tolist()
         pairs: dict[tuple[int, int], list[Any]] = {}
-        for own, other, (x, y, z), (fx, fy, fz), (tx, ty, _) in zip(
-            contacts.own_geoms.tolist(), contacts.other_geoms.tolist(), points, forces, torques, strict=True
+        for own, other, (x, y, z), (fx, fy, fz), (tx, ty, _), gap in zip(
+            contacts.own_geoms.tolist(),
+            contacts.other_geoms.tolist(),
+            points,
+            forces,
+            torques,
+            contacts.distances.tolist(),
+            strict=True,
         ):
+            if gap > REACH and fz == 0.0:
+                continue
             pair = pairs.get((own, other))
             if pair is None:
                 pair = pairs[(own, other)] = [0.0, 0.0, 0.0, []]

@@ -169,3 +169,17 @@ def test_small_hull_agrees_with_the_array_hull() -> None:
         assert set(ours) <= {tuple(p) for p in points.tolist()}
     assert small_hull([]) == []
     assert small_hull([(0.0, 0.0), (1.0, 1.0), (0.5, 0.5)]) == [(0.0, 0.0), (1.0, 1.0)]
+
+
+def test_corner_lifted_by_micrometres_still_supports() -> None:
+    """Under a load near a corner the opposite corner of a rigid box lifts; with a gap it stays in the polygon."""
+    com = "0.09 0.055 0.05"
+    bare = foot_model("<geom name='floor' type='plane' size='2 2 0.1'/>", com=com)
+    seen = foot_model("<geom name='floor' type='plane' size='2 2 0.1' gap='0.001'/>", com=com)
+    triangle = support_polygon_of_contacts([sole_contacts(bare, settled(bare))])
+    contacts = sole_contacts(seen, settled(seen))
+    assert len(triangle) == 3
+    assert contacts.carries.sum() == 3
+    assert 0.0 < contacts.distances.max() < 5e-4
+    assert area(support_polygon_of_contacts([contacts])) == pytest.approx(0.25 * 0.155, rel=1e-3)
+    assert len(support_polygon_of_contacts([contacts], reach=0.0)) == 3

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from plantar import InputError, LayoutError, RobotError, SoleLayout, center_of_pressure, hex_layout
 from plantar.polygon import convex_hull, inner_offset, signed_margin
-from sim.contact_truth import contact_wrench_in_frame
+from sim.contact_truth import ContactSet, contact_wrench_in_frame
 from sim.skin import SkinSensor, SolePressure, SoleSkin
 
 GRAVITY = 9.81
@@ -356,3 +356,23 @@ def test_dead_taxels_read_nan_and_leave_the_others_alone() -> None:
     assert np.isnan(b).nonzero()[0].tolist() == [2, 5]
     alive = ~np.isnan(b)
     assert (a[alive] == b[alive]).all()
+
+
+@pytest.mark.parametrize(("gap", "whole"), [(1e-4, True), (1e-3, False)])
+def test_corner_lifted_by_micrometres_stays_in_the_patch(gap: float, whole: bool) -> None:
+    """Three corners carry, the fourth hovers: near enough, the patch is the whole sole, else half of it."""
+    model, data, skin = rig(PLANE)
+    mujoco.mj_forward(model, data)
+    contacts = ContactSet(
+        own_geoms=np.full(4, 1),
+        other_geoms=np.zeros(4, dtype=np.int64),
+        positions=np.column_stack([OUTLINE, np.zeros(4)]),
+        forces=np.array([[0.0, 0.0, f] for f in (0.0, 100.0, 100.0, 100.0)]),
+        torques=np.zeros((4, 3)),
+        distances=np.array([gap, 0.0, 0.0, 0.0]),
+        carries=np.array([False, True, True, True]),
+    )
+    force = skin.taxel_forces(data, contacts)
+    assert force.sum() == pytest.approx(300.0)
+    beyond = LAYOUT.positions[:, :2] @ (1.0 / HALF) < -0.3  # on the hovering corner's side of the diagonal
+    assert (force[beyond].max() > 1.0) == whole
