@@ -86,7 +86,7 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     axes.plot(-ring[:, 1], ring[:, 0], color=COLOURS["edge"], linewidth=1.0)
     axes.set_aspect("equal")
     axes.autoscale_view()
-    axes.locator_params(axis="x", nbins=4)
+    axes.locator_params(axis="x", nbins=3, steps=[1, 5, 10])
     return cells
 
 

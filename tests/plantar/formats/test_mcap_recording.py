@@ -1,0 +1,65 @@
+"""The project's own recordings, read as plantar pressure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar import FormatError, hex_layout, mirrored
+from plantar.formats import read_recording
+from plantar.layout import SoleLayout
+from plantar.recorder import Recorder
+
+
+@pytest.fixture
+def layout() -> SoleLayout:
+    return hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+
+
+def write(path: Path, layouts: dict[str, SoleLayout], sides: tuple[str, ...], taxels: int) -> np.ndarray:
+    force = np.random.default_rng(1).uniform(0, 20, size=(100, taxels))
+    with Recorder(path, {"robot": "h1"}, layouts) as recorder:
+        channels = [recorder.channel(f"/skin/{side}", [("force", taxels), ("proximity", 2)]) for side in sides]
+        for i, row in enumerate(force):
+            for channel in channels:
+                channel.write(i * 0.004, np.concatenate([row, [0.05, 0.05]]))
+    return force
+
+
+def test_two_soles(tmp_path: Path, layout: SoleLayout) -> None:
+    layouts = {"left": layout, "right": mirrored(layout)}
+    force = write(tmp_path / "run.mcap", layouts, ("left", "right"), len(layout))
+    recording = read_recording(tmp_path / "run.mcap")
+    assert (recording.format, recording.metadata["robot"]) == ("mcap", "h1")
+    assert recording.rate_hz == pytest.approx(250.0)
+    assert recording.warnings == ()
+    assert (recording.feet["right"].force == force).all()
+    assert recording.feet["left"].layout is not None
+    assert recording.feet["left"].vertical_force == pytest.approx(force.sum(axis=1))
+
+
+def test_one_sole_without_layout_says_so(tmp_path: Path, layout: SoleLayout) -> None:
+    write(tmp_path / "run.mcap", {}, ("right",), len(layout))
+    recording = read_recording(tmp_path / "run.mcap")
+    assert recording.feet["right"].pressure is None
+    assert recording.feet["right"].center_of_pressure(1.0) is None
+    assert any("--layout" in w for w in recording.warnings)
+    assert any("left foot" in w for w in recording.warnings)
+    given = read_recording(tmp_path / "run.mcap", layout=layout).feet["right"].layout
+    assert given is not None
+    assert given.side == "right"
+
+
+def test_a_recording_without_skin_names_its_topics(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "run.mcap") as recorder:
+        recorder.channel("/joints", [("position", 2)]).write(0.0, np.zeros(2))
+    with pytest.raises(FormatError, match=r"no taxel forces .* its topics: /joints"):
+        read_recording(tmp_path / "run.mcap")
+
+
+def test_a_layout_of_another_size_is_refused(tmp_path: Path, layout: SoleLayout) -> None:
+    write(tmp_path / "run.mcap", {"left": layout}, ("left",), 5)
+    with pytest.raises(FormatError, match="5 taxels"):
+        read_recording(tmp_path / "run.mcap")

@@ -1,0 +1,315 @@
+"""The pedar and pliance reader, on exports of every kind that the format allows."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar import FormatError, PlantarError, write_layout
+from plantar.formats import detect_format, read_recording
+from plantar.formats.nominal_insole import CELL_AREA, nominal_insole
+from plantar.formats.polygon_layout import polygon_layout
+
+
+def export(
+    path: Path,
+    left: np.ndarray | None,
+    right: np.ndarray | None,
+    *,
+    rate: float = 100.0,
+    unit: str | None = "kPa",
+    sensor: str = "y-1865l-1870r-pxf306",
+    end: str = "\n",
+    comma: bool = False,
+    mask: bool = True,
+    stated_rate: bool = True,
+    tail: str = "",
+    cells: list[int] | None = None,
+) -> np.ndarray:
+    """Write an export of pressures (n, cells) a foot; returns the times."""
+    feet = [f for f in (left, right) if f is not None]
+    time = (np.arange(len(feet[0])) + 1) / rate
+    lines = ["file name:  walk.sol\tdate/time  01.01.26 10.00", f"sensor type:  {sensor} "]
+    if stated_rate:
+        lines.append(
+            f"total time [secs]:  {time[-1]:.3f}\ttime per frame [secs]:  {1 / rate:.5f}"
+            f"\tscanning rate [Hz]:   {rate:g}"
+        )
+    if unit is not None:
+        lines.append(f"pressure values in  {unit}")
+    lines.append("")
+    numbers = [list(range(1, f.shape[1] + 1)) if cells is None else cells for f in feet]
+    if mask:
+        lines.append("mask definition: ")
+        for name, foot in (("left", left), ("right", right)):
+            listed = "" if foot is None else ",".join(str(c) for c in numbers[0]) + ","
+            lines.append(f"{name} insole: {listed}")
+        lines.append("")
+    lines.append("time[secs]    \t" + "\t".join(f"{c:7d}" for n in numbers for c in n) + "\t")
+    for t, *rows in zip(time, *feet, strict=True):
+        values = [f"{t:12.5f}", *(f"{v:7.3f}" for row in rows for v in row)]
+        lines.append("\t".join(v.replace(".", ",") if comma else v for v in values) + "\t")
+    path.write_bytes((end.join(lines) + end + tail).encode("latin-1"))
+    return time
+
+
+@pytest.fixture
+def pressures() -> tuple[np.ndarray, np.ndarray]:
+    random = np.random.default_rng(5)
+    left, right = (np.round(random.uniform(0, 200, size=(50, 99)), 3) for _ in range(2))
+    return left, right
+
+
+def read_pa(path: Path, side: str) -> np.ndarray:
+    pressure = read_recording(path).feet[side].pressure  # type: ignore[index]
+    assert pressure is not None
+    return pressure
+
+
+def test_two_insoles(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    time = export(path, *pressures)
+    assert detect_format(path).name == "pedar"
+    recording = read_recording(path)
+    assert recording.rate_hz == 100.0
+    assert np.abs(recording.time - time).max() < 1e-9
+    for side, truth in zip(("left", "right"), pressures, strict=True):
+        assert np.abs(read_pa(path, side) - truth * 1e3).max() < 1e-6
+        layout = recording.feet[side].layout  # type: ignore[index]
+        assert layout is not None
+        assert layout.side == side
+        assert layout.areas.mean() == pytest.approx(193e-6)
+        assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)  # type: ignore[index]
+    assert any("nominal 99-cell insole of size Y" in w for w in recording.warnings)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"rate": 50.0},
+        {"rate": 62.5},
+        {"end": "\r\n"},
+        {"comma": True},
+        {"mask": False},
+        {"stated_rate": False, "unit": "kPa"},
+        {"end": "\r\n", "comma": True, "mask": False, "rate": 200.0},
+    ],
+)
+def test_variants_hold_the_same_values(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], options: dict[str, object]
+) -> None:
+    path = tmp_path / "walk.ASC"
+    export(path, *pressures, **options)  # type: ignore[arg-type]
+    recording = read_recording(path)
+    assert recording.rate_hz == pytest.approx(options.get("rate", 100.0), rel=1e-3)
+    for side, truth in zip(("left", "right"), pressures, strict=True):
+        assert np.abs(read_pa(path, side) - truth * 1e3).max() < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("unit", "pascals"), [("kPa", 1e3), ("N/cm²", 1e4), ("N/cm2", 1e4), ("mmHg", 133.322), ("psi", 6894.757)]
+)
+def test_units(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], unit: str, pascals: float) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, unit=unit)
+    assert read_pa(path, "left") == pytest.approx(pressures[0] * pascals)
+
+
+def test_unit_that_is_missing_is_said_and_an_unknown_one_refused(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]
+) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, unit=None)
+    assert any("kPa is assumed" in w for w in read_recording(path).warnings)
+    export(path, *pressures, unit="kQa")
+    with pytest.raises(FormatError, match=r"unknown unit of pressure 'kQa'; allowed: kpa, n/cm2"):
+        read_recording(path)
+
+
+@pytest.mark.parametrize(
+    ("which", "mask", "sensor", "side", "assumed"),
+    [
+        ("left", True, "y-1865l-1870r", "left", False),
+        ("right", True, "y-1865l-1870r", "right", False),
+        ("right", False, "w-1870r-x", "right", False),
+        ("left", False, "w-1870l-x", "left", False),
+        ("right", False, "w", "left", True),
+    ],
+)
+def test_one_foot(
+    tmp_path: Path,
+    pressures: tuple[np.ndarray, np.ndarray],
+    which: str,
+    mask: bool,
+    sensor: str,
+    side: str,
+    assumed: bool,
+) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *((pressures[0], None) if which == "left" else (None, pressures[0])), mask=mask, sensor=sensor)
+    recording = read_recording(path)
+    assert list(recording.feet) == [side]
+    assert any("does not say which foot" in w for w in recording.warnings) == assumed
+    assert read_pa(path, side) == pytest.approx(pressures[0] * 1e3)
+
+
+def test_masked_cells_keep_their_places(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    cells = [1, 2, 3, 50, 98, 99]
+    export(path, pressures[0][:, :6], pressures[1][:, :6], cells=cells)
+    left = read_recording(path).feet["left"]
+    assert left.layout is not None
+    assert left.layout.ids.tolist() == cells
+    whole = nominal_insole("y", "left")
+    assert left.layout.positions == pytest.approx(whole.positions[[c - 1 for c in cells]])
+
+
+@pytest.mark.parametrize("size", sorted(CELL_AREA))
+def test_the_size_is_taken_from_the_sensor(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], size: str) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, sensor=f"{size.upper()}-12l-12r")
+    layout = read_recording(path).feet["right"].layout
+    assert layout is not None
+    assert layout.areas.mean() == pytest.approx(CELL_AREA[size])
+
+
+def test_truncated_last_row_is_dropped_and_said(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-700])
+    recording = read_recording(path)
+    assert len(recording.time) == 49
+    assert any("last frame is cut short" in w for w in recording.warnings)
+
+
+def test_a_damaged_frame_is_a_dropout_not_a_zero(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    lines = path.read_text("latin-1").splitlines(keepends=True)
+    lines[-20] = lines[-20].replace("\t", "\tx", 3)
+    path.write_text("".join(lines), "latin-1")
+    recording = read_recording(path)
+    assert len(recording.time) == 50
+    assert np.isnan(recording.feet["left"].vertical_force).sum() == 1
+    assert np.diff(recording.time) == pytest.approx(0.01)
+    assert any("1 damaged frame" in w for w in recording.warnings)
+
+
+def test_layout_file_overrides_the_geometry(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    small = nominal_insole("u", "left")
+    recording = read_recording(path, layout=small)
+    left, right = recording.feet["left"], recording.feet["right"]
+    assert left.layout is not None
+    assert right.layout is not None
+    assert left.layout.areas == pytest.approx(small.areas)
+    assert right.layout.positions[:, 1] == pytest.approx(-small.positions[:, 1])
+    assert not any("nominal" in w for w in recording.warnings)
+    square = np.array([[0.0, 0.0], [0.01, 0.0], [0.01, 0.01], [0.0, 0.01]])
+    other = polygon_layout([square], ids=[7], side="left", name="one cell")
+    write_layout(other, tmp_path / "layout.json")
+    with pytest.raises(FormatError, match="left foot has 99 cells, layout 'one cell' 1"):
+        read_recording(path, layout=other)
+
+
+def pliance(path: Path, *, geometry: bool = True) -> np.ndarray:
+    """A mat of 2 x 3 cells of 10 x 20 mm with the corner table that pliance appends."""
+    values = np.round(np.random.default_rng(2).uniform(0, 90, size=(12, 6)), 3)
+    lines = [
+        "file name: mat.mat date/time 17.06.23 15.21",
+        "mat type s2160_001",
+        "total times [secs]: 0.5 time per frame [secs]: 0.04167 scanning rate [Hz]: 24",
+        "pressure values in kPa",
+        "",
+        "electrical:",
+        "time[secs]       4       5       6      12      13      14",
+    ]
+    lines += [f"{5.8 + i / 24:10.5f} " + " ".join(f"{v:7.3f}" for v in row) for i, row in enumerate(values)]
+    lines += ["MVP " + " ".join(f"{v:7.3f}" for v in values.max(axis=0)), ""]
+    if geometry:
+        x0, y0 = np.array([0, 1, 2, 0, 1, 2.0]), np.array([0, 0, 0, 2, 2, 2.0])
+        lines.append("corner coordinates [cm]")
+        for k, (dx, dy) in enumerate(((0, 0), (1, 0), (1, 2), (0, 2))):
+            lines.append(f"x[{k}] " + " ".join(f"{v:8.4f}" for v in x0 + dx))
+            lines.append(f"y[{k}] " + " ".join(f"{v:8.4f}" for v in y0 + dy))
+        lines.append("area " + " ".join(["2.0000"] * 6))
+    path.write_text("\n".join(lines) + "\n")
+    return values
+
+
+def test_pliance_mat_with_its_own_geometry(tmp_path: Path) -> None:
+    values = pliance(tmp_path / "mat.asc")
+    recording = read_recording(tmp_path / "mat.asc")
+    foot = recording.feet["left"]
+    assert recording.rate_hz == pytest.approx(24.0)
+    assert foot.layout is not None
+    assert foot.layout.areas == pytest.approx([2e-4] * 6)
+    assert foot.force == pytest.approx(values * 1e3 * 2e-4)
+    assert foot.layout.positions[0, :2] == pytest.approx([0.01, -0.005])
+    assert [len(n) for n in foot.layout.neighbours] == [2, 3, 2, 2, 3, 2]
+
+
+def test_cells_without_geometry_ask_for_a_layout(tmp_path: Path) -> None:
+    pliance(tmp_path / "mat.asc", geometry=False)
+    text = (tmp_path / "mat.asc").read_text().replace("     14\n", "    400\n")
+    (tmp_path / "mat.asc").write_text(text)
+    with pytest.raises(FormatError, match="give one with --layout"):
+        read_recording(tmp_path / "mat.asc")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\x00\x01\x02\x03" * 500,
+        b"hello\n" * 100,
+        b"time,left,right\n0,1,2\n",
+        b"pressure values in kPa\ntime[secs]\t1\t2\n",
+        b"pressure values in kPa\ntime[secs]\t1\t2\nabc\tdef\tghi\nx\ty\tz\n",
+        b"scanning rate [Hz]: 0\npressure values in kPa\ntime[secs]\t1\t2\n0.0\t1\t2\n",
+        b"scanning rate [Hz]: 100\ntime[secs]\t1\t2\t1\t2\t1\t2\n0.0\t1\t2\t1\t2\t1\t2\n",
+    ],
+)
+def test_nonsense_is_refused_in_one_line(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "bad.asc"
+    path.write_bytes(content)
+    for name in (None, "pedar"):
+        with pytest.raises(FormatError) as caught:
+            read_recording(path, name)
+        assert "\n" not in str(caught.value)
+
+
+def test_random_corruption_never_gives_a_traceback(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    whole = path.read_bytes()
+    random = np.random.default_rng(7)
+    read = 0
+    for trial in range(50):
+        data = bytearray(whole)
+        for at in random.integers(0, len(data) if trial % 2 else 2500, size=random.integers(1, 12)):
+            data[at] = random.integers(0, 256)
+        path.write_bytes(bytes(data))
+        try:
+            recording = read_recording(path)
+        except PlantarError:
+            continue
+        read += 1
+        if recording.metadata["pressure_unit_pa"] != 1e3:
+            pytest.fail("a corrupted file was read in another unit without a word")
+        assert recording.rate_hz == pytest.approx(100.0)
+    assert read > 20
+
+
+@pytest.mark.skipif("PLANTAR_REAL_DATA" not in os.environ, reason="PLANTAR_REAL_DATA is not set")
+def test_real_recording() -> None:
+    path = Path(os.environ["PLANTAR_REAL_DATA"]) / "recordings" / "pedar_walk.asc"
+    recording = read_recording(path)
+    assert (recording.format, len(recording.time), recording.rate_hz) == ("pedar", 1505, 100.0)
+    assert {side: foot.force.shape[1] for side, foot in recording.feet.items()} == {"left": 99, "right": 99}
+    assert read_pa(path, "right").max() == pytest.approx(247.5e3)
