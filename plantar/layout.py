@@ -133,10 +133,10 @@ class SoleLayout:
             raise LayoutError("layout field 'ids' holds an id twice; every taxel needs its own")
         if len(self.neighbours) != n:
             raise LayoutError(f"layout field 'neighbours' has {len(self.neighbours)} rows; expected {n}")
-        if not (self.areas > 0.0).all():
-            raise LayoutError("layout field 'areas' holds an area that is not above 0")
-        if not (math.isfinite(self.cell_area) and self.cell_area > 0.0):
-            raise LayoutError(f"layout field 'cell_area' is {self.cell_area}; allowed: above 0")
+        if not ((self.areas > 0.0) & (self.areas <= 1.0)).all():
+            raise LayoutError("layout field 'areas' holds an area that is not above 0 and up to 1 m^2")
+        if not 0.0 < self.cell_area <= 1.0:
+            raise LayoutError(f"layout field 'cell_area' is {self.cell_area} m^2; allowed: above 0 and up to 1 m^2")
         if len(self.outline) < 3:
             raise LayoutError(f"layout field 'outline' has {len(self.outline)} points; expected 3 or more")
         if not self.sole_area > 0.0:

@@ -14,9 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.atomic import replacing
+from plantar.errors import InputError
 from plantar.layout import SoleLayout
 
-__all__ = ["COLOURS", "draw_cells", "new_figure", "save_figure", "thinned"]
+__all__ = ["COLOURS", "FORMATS", "draw_cells", "new_figure", "save_figure", "thinned"]
+
+FORMATS: tuple[str, ...] = ("pdf", "png", "svg")
+"""Formats that a figure is saved in, by the suffix of its path."""
 
 COLOURS = {
     "left": "#1f6fb4",
@@ -55,12 +59,29 @@ def new_figure(
 
 
 def save_figure(figure: Any, path: str | os.PathLike[str]) -> Path:
-    """Save a figure in the format of the path's suffix (png, svg, pdf); it appears whole or not at all."""
-    with replacing(path) as temporary:
-        # No date and fixed ids: the same figure gives the same bytes.
-        metadata = {"Date": None} if temporary.suffix == ".svg" else None
+    """Save a figure; it appears whole or not at all, and the same figure gives the same bytes.
+
+    Args:
+        figure: A figure of `new_figure`.
+        path: Where to; its suffix, one of FORMATS, says the format.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: If the suffix is none of FORMATS, or the file cannot be written.
+    """
+    from matplotlib import rc_context
+
+    final = Path(path)
+    suffix = final.suffix[1:].lower()
+    if suffix not in FORMATS:
+        raise InputError(f"cannot write {final}: unknown figure format {suffix!r}; allowed: {', '.join(FORMATS)}")
+    # No date, and ids that do not depend on the process.
+    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(suffix)
+    with replacing(final) as temporary, rc_context({"svg.hashsalt": "plantar"}):
         figure.savefig(temporary, metadata=metadata)
-    return Path(path)
+    return final
 
 
 def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highest: float) -> Any:
