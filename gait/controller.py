@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceGains, DcmBalance
-from gait.estimator import BaseState, EstimatorGains, FloatingBaseEstimator, LegKinematics
+from gait.estimator import BaseState, EstimatorGains, FloatingBaseEstimator, LegKinematics, heading
 from gait.footsteps import Footstep, other_side
 from gait.lip import dcm, pendulum_frequency
 from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
@@ -40,6 +40,9 @@ class ControllerSettings:
         swing_height: Clearance of the swing foot in m.
         contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
         landing_speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
+        landing_acceleration: Its acceleration in m/s^2.
+        landing_reach: Distance in m that it goes down at most.
+        alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
         feedback: False walks the plan in open loop, for comparison.
@@ -52,6 +55,9 @@ class ControllerSettings:
     swing_height: float = 0.05
     contact_force: float = 70.0
     landing_speed: float = 0.05
+    landing_acceleration: float = 0.5
+    landing_reach: float = 0.03
+    alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     feedback: bool = True
@@ -98,14 +104,15 @@ class Command:
     """What the controller asks of the body, for inverse kinematics and servos.
 
     Attributes:
-        com: CoM reference (3,) in the world frame in m.
-        heading: Heading of the upright torso in rad.
-        feet: Target of each sole.
+        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in.
+        heading: Heading of the upright torso in rad, same frame.
+        feet: Target of each sole, same frame.
         phase: Phase of the walk.
         reference: The plan now.
         zmp_desired: Desired ZMP (2,) in m.
         state: Estimated state.
         dcm: Estimated DCM (2,) in m.
+        percepts: What each sole felt.
     """
 
     com: NDArray[np.float64]
@@ -116,6 +123,7 @@ class Command:
     zmp_desired: NDArray[np.float64]
     state: BaseState
     dcm: NDArray[np.float64]
+    percepts: Mapping[Side, Percept]
 
 
 class WalkingController:
@@ -165,6 +173,10 @@ class WalkingController:
         self._swing: SwingTrajectory | None = None
         self._swing_step = -1
         self._landed = True
+        self._lowered = self._lowering = 0.0
+        self._anchor = feet["left"].position
+        self._offset = np.zeros(3)
+        self._turn = 0.0
         self._region_of: list[tuple[NDArray[np.float64], float]] = []
         self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
@@ -180,6 +192,7 @@ class WalkingController:
         percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
         state = self.estimator.update(sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts)
         phase = self.schedule.at(sensors.time)
+        self._align(state)
         self._move_feet(phase, sensors.time, state)
         reference = self.plan.at(sensors.time)
         xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
@@ -190,16 +203,38 @@ class WalkingController:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
         height = self._com_height(phase, sensors.time)
         yaws = [self._foothold[side][1] for side in _SIDES]
+        target = self._to_command(com)
         return Command(
-            com=np.array([com[0], com[1], height]),
+            com=np.array([target[0], target[1], height]),
             heading=yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi),
-            feet=self._foot_targets(phase, zmp, acceleration),
+            feet=self._foot_targets(phase, self._to_command(zmp), acceleration),
             phase=phase,
             reference=reference,
             zmp_desired=zmp,
             state=state,
             dcm=xi,
+            percepts=percepts,
         )
+
+    def _align(self, state: BaseState) -> None:
+        """Follow where the loaded foot really stands: servos give a little, so a commanded foothold and the real one
+        drift apart by a millimetre or two a step. World and command frame differ by this (filtered) offset."""
+        s = self.settings
+        side: Side = "left" if state.loads["left"] >= state.loads["right"] else "right"
+        position, yaw = self._foothold[side]
+        if state.loads[side] <= s.estimator.minimum_load:
+            return
+        share = min(1.0, s.period / s.alignment_time)
+        self._anchor = position
+        self._offset += share * (state.positions_sole[side] - position - self._offset)
+        turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
+        self._turn += share * (turn - self._turn)
+
+    def _to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A horizontal point (2,) of the world in the frame of the commanded footholds."""
+        dx, dy = (point - self._anchor[:2] - self._offset[:2]).tolist()
+        c, s = math.cos(self._turn), math.sin(self._turn)
+        return np.array([self._anchor[0] + c * dx + s * dy, self._anchor[1] - s * dx + c * dy])
 
     def _move_feet(self, phase: Phase, time: float, state: BaseState) -> None:
         """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground."""
@@ -207,30 +242,34 @@ class WalkingController:
         if phase.swing is not None and self._swing_step != phase.step:
             step = self.schedule.steps[phase.step]
             position, yaw = self._foothold[phase.swing]
-            target = step.position
-            target[2] = self._foothold[other_side(phase.swing)][0][2]
+            ground = self._foothold[other_side(phase.swing)][0][2]
+            target = np.array([*self._to_command(step.position[:2]), ground])
             self._swing = SwingTrajectory(
-                position.copy(), target, yaw, step.yaw, s.swing_height, phase.end - phase.start
+                position.copy(), target, yaw, step.yaw - self._turn, s.swing_height, phase.end - phase.start
             )
             self._swing_step = phase.step
             self._landed = False
-        if self._landed or self._swing is None:
+            self._lowered = self._lowering = 0.0
+        if self._swing is None:
             return
         side = self.schedule.steps[self._swing_step].side
         position, yaw = self._foothold[side]
-        elapsed = time - (phase.start if phase.swing is not None else self.schedule.at(time).start)
         if phase.swing is not None:
-            late_enough = elapsed > 0.5 * self._swing.duration
-            if late_enough and state.loads[side] > s.contact_force:
+            elapsed = time - phase.start
+            if elapsed > 0.5 * self._swing.duration and state.loads[side] > s.contact_force:
                 self._landed = True
-                return
-            self._foothold[side] = self._swing.at(elapsed)
-        elif state.loads[side] > s.contact_force or elapsed > s.timing.double_support:
-            self._landed = True
+            if not self._landed:
+                self._foothold[side] = self._swing.at(elapsed)
+            return
+        self._landed = True  # the plan puts weight on it now
+        if state.loads[side] < s.contact_force and self._lowered < s.landing_reach:
+            self._lowering = min(s.landing_speed, self._lowering + s.landing_acceleration * s.period)
         else:
-            position = position.copy()
-            position[2] -= s.landing_speed * s.period
-            self._foothold[side] = (position, yaw)
+            self._lowering = max(0.0, self._lowering - 4.0 * s.landing_acceleration * s.period)
+        if self._lowering > 0.0:
+            drop = self._lowering * s.period
+            self._lowered += drop
+            self._foothold[side] = (position - np.array([0.0, 0.0, drop]), yaw)
 
     def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, at their commanded
@@ -243,7 +282,7 @@ class WalkingController:
             parts = []
             for side, (position, yaw) in zip(standing, footholds, strict=True):
                 rotation = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
-                parts.append(polygon_in_world(self._outline[side], rotation, position))
+                parts.append(polygon_in_world(self._outline[side], rotation, position + self._offset))
             self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
             self._region_of = footholds
         return self._region
@@ -281,10 +320,6 @@ class WalkingController:
         # What is left of the desired ZMP after sharing is realised by each foot's own centre of pressure.
         rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
         return {
-            side: FootTarget(
-                self._foothold[side][0], rotations[side], share[side] * force, centers[side] + rest
-            )
+            side: FootTarget(self._foothold[side][0], rotations[side], share[side] * force, centers[side] + rest)
             for side in _SIDES
         }
-
-

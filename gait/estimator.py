@@ -22,7 +22,7 @@ from plantar.force import zmp_of_feet
 from plantar.layout import Side
 from plantar.percept import Percept
 
-__all__ = ["BaseState", "EstimatorGains", "FloatingBaseEstimator", "LegKinematics", "Posture"]
+__all__ = ["BaseState", "EstimatorGains", "FloatingBaseEstimator", "LegKinematics", "Posture", "heading"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 

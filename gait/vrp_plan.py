@@ -65,9 +65,7 @@ class VrpPlan:
         [0.0, 0.1]
     """
 
-    def __init__(
-        self, times: Sequence[float], vrps: ArrayLike, omega: float, com: ArrayLike | None = None
-    ) -> None:
+    def __init__(self, times: Sequence[float], vrps: ArrayLike, omega: float, com: ArrayLike | None = None) -> None:
         knots = np.asarray(times, dtype=float)
         points = np.asarray(vrps, dtype=float)
         if knots.ndim != 1 or len(knots) < 2 or points.shape != (len(knots), 2):

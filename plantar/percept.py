@@ -46,6 +46,11 @@ class Percept:
         self.reading = reading
         self.force_threshold = layout.force_threshold if force_threshold is None else force_threshold
 
+    @classmethod
+    def members(cls) -> tuple[str, ...]:
+        """Names of all lazy members; those in a percept's `__dict__` have been computed."""
+        return tuple(name for name, value in vars(cls).items() if isinstance(value, cached_property))
+
     @cached_property
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22)."""

@@ -26,9 +26,7 @@ class LegModel:
         torso: Name of the body that is kept upright.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str
-    ) -> None:
+    def __init__(self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str) -> None:
         self.model = model
         self._data = mujoco.MjData(model)  # of the solution
         self._probe = mujoco.MjData(model)  # of the measured posture

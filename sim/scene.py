@@ -89,9 +89,7 @@ class Push:
 
     impulse: float = field(default=0.0, metadata=limits(0.0, 1000.0))
     duration: float = field(default=0.1, metadata=limits(0.001, 10.0))
-    direction: str = field(
-        default="seeded", metadata={"choices": ("seeded", "forward", "backward", "left", "right")}
-    )
+    direction: str = field(default="seeded", metadata={"choices": ("seeded", "forward", "backward", "left", "right")})
     step: int = field(default=-1, metadata=limits(-1, 100000))
     phase: float = field(default=0.5, metadata=limits(0.0, 1.0))
 
@@ -201,9 +199,7 @@ def _value(text: str) -> Any:
         return text
 
 
-def load_scene(
-    name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None
-) -> Scene:
+def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None) -> Scene:
     """Load a scene by its built-in name or from a TOML file.
 
     Args:

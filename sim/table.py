@@ -62,5 +62,7 @@ def _checked(item: Field[Any], value: Any, where: str) -> Any:
     whole = isinstance(default, int)
     numeric = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not numeric or not low <= value <= high or (whole and value != int(value)):
-        raise SceneError(f"{name} is {value!r}; allowed: {'a whole number' if whole else 'a number'} {low:g} to {high:g}")
+        raise SceneError(
+            f"{name} is {value!r}; allowed: {'a whole number' if whole else 'a number'} {low:g} to {high:g}"
+        )
     return int(value) if whole else float(value)

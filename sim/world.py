@@ -58,6 +58,13 @@ def build_leg_model(robot: Robot) -> LegModel:
     return LegModel(model, joints, {s: robot.legs[s].sole_site for s in _SIDES}, robot.torso_body)
 
 
+def _add_touch(spec: Any, sole: Any, name: str) -> None:
+    """Add a sensor of the normal force on a sole box: a touch site that encloses it with 10 mm to spare."""
+    site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
+    site.size = np.asarray(sole.size) + 0.01
+    spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
+
+
 @dataclass(frozen=True)
 class World:
     """A compiled world and the addresses of what is read and written in it.
@@ -76,6 +83,7 @@ class World:
         damping: Servo velocity gains (k,) in N m s/rad.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
+        touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
     """
 
     model: Any
@@ -91,6 +99,7 @@ class World:
     damping: NDArray[np.float64]
     gyro: int
     accelerometer: int
+    touch: dict[Side, int]
 
 
 def build_world(robot: Robot, terrain: Terrain) -> World:
@@ -122,6 +131,8 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "ground"
     spec.worldbody.add_light(pos=[0, 0, 4], dir=[0.2, 0.3, -1], type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
     terrain.add_to(spec)
+    for side in _SIDES:
+        _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     for geom in spec.geoms:
         if geom.contype:
             geom.condim = 3
@@ -151,4 +162,5 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
         damping=-model.actuator_biasprm[servos, 2].copy(),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+        touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in _SIDES},
     )

@@ -76,6 +76,7 @@ class Robot:
         torso_body: Body that is kept upright.
         imu_site: Site of the IMU.
         posture: Joint angles of each leg in rad when standing.
+        com_height: CoM height above the outer soles when walking in m.
         stiffness: Servo position gain in N m/rad.
         damping: Servo velocity gain in N m s/rad.
         balance: Balance law and its gains.
@@ -95,6 +96,7 @@ class Robot:
     torso_body: str
     imu_site: str
     posture: Mapping[str, tuple[float, ...]]
+    com_height: float
     stiffness: float
     damping: float
     balance: Mapping[str, Any]
@@ -231,6 +233,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         torso_body=_text(torso, "body", f"{where}: [torso]"),
         imu_site=_text(torso, "imu_site", f"{where}: [torso]"),
         posture=angles,
+        com_height=_number(_table(source, "gait", where), "com_height", f"{where}: [gait]", 0.05, 5.0),
         stiffness=_number(servo, "stiffness", f"{where}: [servo]"),
         damping=_number(servo, "damping", f"{where}: [servo]"),
         balance=dict(_table(source, "balance", where)),

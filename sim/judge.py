@@ -1,0 +1,117 @@
+"""The judge: what really happened, from MuJoCo's state and contact forces. The controller never sees it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import Side
+from plantar.polygon import area, convex_hull
+from sim.contact_truth import GroundTruth, foot_contacts, ground_truth
+from sim.world import PHYSICS_PERIOD, World
+
+__all__ = ["Judge", "Landing"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+_TOUCH = 5.0  # N: less than this is no contact
+_AIRBORNE = 0.1  # s without contact before a touch counts as a landing
+_IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
+_SETTLED = 0.6  # s after touchdown in which the contact area is looked for
+_FALLEN_TILT = 40.0  # degrees
+_FALLEN_HEIGHT = 0.6  # of the standing CoM height
+
+
+@dataclass
+class Landing:
+    """One landing of one foot.
+
+    Attributes:
+        side: Which foot.
+        time: Touchdown in s: the first physics step with ground force after at least 0.1 s in the air.
+        impact: Largest vertical ground force in N within 50 ms.
+        area: Largest contact area in m^2 (hull of the contact points) in the 0.6 s after touchdown.
+    """
+
+    side: Side
+    time: float
+    impact: float = 0.0
+    area: float = 0.0
+
+
+@dataclass
+class Judge:
+    """Follows a run.
+
+    Attributes:
+        world: The world.
+        standing_height: CoM height above the ground at the start in m.
+    """
+
+    world: World
+    standing_height: float
+    fell: bool = False
+    tilt_max: float = 0.0
+    margin_min: float = math.inf
+    landings: list[Landing] = field(default_factory=list)
+    estimate_error_max: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    zmp_error: list[float] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
+        self._air = {s: 0 for s in _SIDES}
+        self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
+        self._adr = tuple(self.world.touch[s] for s in _SIDES)
+        self.truth: GroundTruth | None = None
+        self.wrenches: dict[Side, Any] = {}
+
+    def watch(self) -> None:
+        """After each physics step: landings and their impacts."""
+        data = self.world.data
+        for side, address in zip(_SIDES, self._adr, strict=True):
+            force = float(data.sensordata[address])
+            if force < _TOUCH:
+                self._air[side] += 1
+                continue
+            if self._air[side] * PHYSICS_PERIOD >= _AIRBORNE:
+                landing = Landing(side, float(data.time))
+                self.landings.append(landing)
+                self._landing[side] = landing
+            self._air[side] = 0
+            last = self._landing[side]
+            if last is not None and data.time - last.time <= _IMPACT_WINDOW:
+                last.impact = max(last.impact, force)
+
+    def look(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> GroundTruth:
+        """At each control tick: tilt, ZMP margin, contact areas and the controller's errors.
+
+        Args:
+            com: The controller's estimate of the CoM (3,) in m.
+            zmp: The controller's estimate of the ZMP (2,) in m, or None.
+
+        Returns:
+            Ground reaction, true ZMP and true support polygon.
+        """
+        world, data = self.world, self.world.data
+        contacts = {s: foot_contacts(world.model, data, self._geoms[s]) for s in _SIDES}
+        truth = ground_truth(list(contacts.values()))
+        if truth.margin is not None:
+            self.margin_min = min(self.margin_min, truth.margin)
+        tilt = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
+        self.tilt_max = max(self.tilt_max, tilt)
+        center = data.subtree_com[world.torso]
+        self.estimate_error_max = np.maximum(self.estimate_error_max, np.abs(com - center))
+        if zmp is not None and truth.zmp is not None:
+            self.zmp_error.append(float(np.hypot(*(zmp - truth.zmp))))
+        for side in _SIDES:
+            last = self._landing[side]
+            if last is not None and data.time - last.time <= _SETTLED and contacts[side].size >= 3:
+                last.area = max(last.area, area(convex_hull(contacts[side].positions[:, :2])))
+        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
+        if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
+            self.fell = True
+        self.truth = truth
+        return truth

@@ -1,0 +1,255 @@
+"""Run one scenario: physics, skin, control and judge in one loop."""
+
+from __future__ import annotations
+
+import math
+import os
+import time as clock
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gait.balance import BalanceGains
+from gait.controller import Command, ControllerSettings, WalkingController
+from gait.footsteps import straight_plan
+from gait.phases import Timing
+from gait.walk_plan import vrp_of_step
+from plantar.atomic import replacing
+from plantar.layout import Side
+from plantar.polygon import centroid
+from sim.judge import Judge
+from sim.log import RunLog
+from sim.pushing import Pusher
+from sim.robots.robot import Robot, load_robot
+from sim.scene import Scene
+from sim.sensors import SensorSuite
+from sim.servos import LegServos
+from sim.standing import stand
+from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world
+
+__all__ = ["Simulation", "run_scene"]
+
+Progress = Callable[[float, str], None]
+
+CONTROL_PERIOD = 0.005
+"""Control period of both robots in s."""
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+_EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
+
+
+@dataclass(frozen=True)
+class _Result:
+    """What a run leaves behind for its summary."""
+
+    ticks_us: list[float]
+    wall_time: float
+    skipped: dict[str, int]
+
+
+class Simulation:
+    """A scene with a robot in it, ready to run.
+
+    Args:
+        scene: The scene.
+        seed: Seed of sensor noise and of what the scene leaves to chance.
+
+    Raises:
+        RobotError: If the robot is unknown or not valid.
+        SceneError: If the robot cannot do what the scene asks for.
+    """
+
+    def __init__(self, scene: Scene, seed: int = 0) -> None:
+        self.scene = scene
+        self.seed = seed
+        robot = load_robot(scene.robot)
+        self.robot: Robot = robot
+        self.world: World = build_world(robot, scene.terrain)
+        self.legs = build_leg_model(robot)
+        walk = scene.walk
+        self.feet, self.steps = straight_plan(
+            walk.steps,
+            length=walk.length,
+            sideways=walk.sideways,
+            width=walk.width,
+            first="left" if walk.first == "left" else "right",
+        )
+        self.settings = ControllerSettings(
+            com_height=robot.com_height,
+            mass=self.legs.mass,
+            period=CONTROL_PERIOD,
+            timing=Timing(walk.single_support, walk.double_support, walk.start, walk.end, walk.settle),
+            swing_height=walk.swing_height,
+            gains=BalanceGains.from_table(robot.balance),
+            feedback=scene.control.feedback,
+        )
+        self.controller = WalkingController(
+            self.settings, self.feet, self.steps, robot.layouts, self.legs, begin=walk.begin
+        )
+        self.sensors = SensorSuite(self.world, scene.sensing, seed)
+        self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
+        self.pusher = Pusher(scene.push, self.controller.schedule, seed)
+        centers = {}
+        for side in _SIDES:
+            middle = centroid(robot.layouts[side].outline)
+            assert middle is not None
+            centers[side] = vrp_of_step(self.feet[side], middle)
+        stand(self.world, self.legs, self.servos, self.feet, centers, robot.com_height)
+        self.judge = Judge(self.world, robot.com_height)
+
+    def run(self, *, record: str | os.PathLike[str] | None = None, progress: Progress | None = None) -> dict[str, Any]:
+        """Run the scene to its end or to the fall.
+
+        Args:
+            record: MCAP file to write; it takes its name when the run is over.
+            progress: Called about ten times a second with the fraction done and a text.
+
+        Returns:
+            The summary (see DESIGN: `plantar sim --json`).
+        """
+        with ExitStack() as stack:
+            log = None
+            if record is not None:
+                temporary = stack.enter_context(replacing(record))
+                log = stack.enter_context(RunLog(temporary, self.world, self._identity()))
+            result = self._loop(log, progress)
+        return self._summary(result)
+
+    def _loop(self, log: RunLog | None, progress: Progress | None) -> _Result:
+        world, model, data = self.world, self.world.model, self.world.data
+        controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
+        everything = self.scene.control.skip == "none"
+        ticks: list[float] = []
+        skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
+        last_step = math.ceil(controller.end / PHYSICS_PERIOD)
+        began = shown = clock.perf_counter()
+        for k in range(last_step):
+            fresh = sensors.sample_skin(k)
+            if fresh and log is not None:
+                log.skin(sensors.readings)
+            if k % _EVERY == 0:
+                reading = sensors.sample_body()
+                start = clock.perf_counter()
+                command = controller.step(reading)
+                joints = servos.command(command)
+                ticks.append(1e6 * (clock.perf_counter() - start))
+                skipped["percept_members"] += _compute_rest(command, everything)
+                truth = judge.look(command.state.com, command.state.zmp)
+                if log is not None:
+                    log.tick(reading, command, joints, truth)
+                else:
+                    skipped["recorded_ticks"] += 1
+                if judge.fell:
+                    break
+                if progress is not None and start - shown > 0.1:
+                    shown = start
+                    done = len([x for x in judge.landings if x.time <= data.time])
+                    progress(k / last_step, f"{data.time:.1f} s, {done} of {len(self.steps)} steps")
+            servos.drive()
+            self.pusher.apply(world)
+            mujoco.mj_step(model, data)
+            judge.watch()
+        wall = clock.perf_counter() - began
+        skipped["rendered_frames"] = int(30.0 * data.time)
+        return _Result(ticks, wall, skipped)
+
+    def _identity(self) -> dict[str, object]:
+        return {
+            "scene": self.scene.name,
+            "robot": self.robot.name,
+            "seed": self.seed,
+            "mass_kg": self.legs.mass,
+            "settings": {
+                name: asdict(getattr(self.scene, name)) for name in ("terrain", "walk", "sensing", "push", "control")
+            },
+        }
+
+    def _summary(self, result: _Result) -> dict[str, Any]:
+        world, data, judge = self.world, self.world.data, self.judge
+        taken = min(len(judge.landings), len(self.steps))
+        position, yaw = self._final_error()
+        upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
+        completed = not judge.fell and taken == len(self.steps) and position < 0.10 and yaw < 5.0 and upright < 5.0
+        ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
+        sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in _SIDES}
+        summary: dict[str, Any] = {
+            "scene": self.scene.name,
+            "robot": self.robot.name,
+            "seed": self.seed,
+            "completed": bool(completed),
+            "fell": judge.fell,
+            "steps_planned": len(self.steps),
+            "steps_taken": taken,
+            "sim_time_s": round(float(data.time), 4),
+            "wall_time_s": round(result.wall_time, 4),
+            "real_time_factor": round(float(data.time) / max(result.wall_time, 1e-9), 2),
+            "tilt_max_deg": round(judge.tilt_max, 3),
+            "zmp_margin_min_m": round(judge.margin_min, 5) if math.isfinite(judge.margin_min) else None,
+            "impacts_N": [round(x.impact, 1) for x in judge.landings],
+            "landings_s": [round(x.time, 3) for x in judge.landings],
+            "landing_sides": [x.side for x in judge.landings],
+            "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in judge.landings],
+            "replans": 0,
+            "control_us": {
+                "p50": round(float(np.percentile(ticks, 50)), 1),
+                "p99": round(float(np.percentile(ticks, 99)), 1),
+            },
+            "skipped": result.skipped,
+            "final": {
+                "position_error_m": round(position, 4),
+                "heading_error_deg": round(yaw, 3),
+                "tilt_deg": round(upright, 3),
+            },
+            "estimate": {
+                "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],
+                "zmp_error_rms_m": round(float(np.sqrt(np.mean(np.square(judge.zmp_error)))), 5)
+                if judge.zmp_error
+                else None,
+            },
+        }
+        if self.pusher.step is not None:
+            summary["push"] = {
+                "impulse_Ns": self.scene.push.impulse,
+                "direction": self.pusher.direction,
+                "step": self.pusher.step,
+                "time_s": round(self.pusher.start, 3),
+            }
+        return summary
+
+    def _final_error(self) -> tuple[float, float]:
+        """Distance in m and heading error in degrees of the true torso from the plan's end."""
+        world, data = self.world, self.world.data
+        com = data.subtree_com[world.torso, :2]
+        plan = self.controller.plan.vrps[-1]
+        heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
+        wanted = self.steps[-1].yaw if self.steps else self.feet["left"].yaw
+        return float(np.hypot(*(com - plan))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
+
+
+def _compute_rest(command: Command, everything: bool) -> int:
+    """Count the members of both percepts that the controller did not ask for; compute them where all is wanted."""
+    count = 0
+    for percept in command.percepts.values():
+        missing = [name for name in percept.members() if name not in percept.__dict__]
+        if everything:
+            for name in missing:
+                getattr(percept, name)
+        else:
+            count += len(missing)
+    return count
+
+
+def run_scene(
+    scene: Scene,
+    seed: int = 0,
+    *,
+    record: str | os.PathLike[str] | Path | None = None,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Run one scene; see `Simulation`."""
+    return Simulation(scene, seed).run(record=record, progress=progress)

@@ -1,0 +1,76 @@
+"""What the robot's sensors deliver: encoders, IMU and soles, with their noise."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gait.controller import Sensors
+from plantar.layout import Side
+from plantar.reading import Reading
+from sim.scene import Sensing
+from sim.skin import SkinSensor, SoleSkin
+from sim.world import PHYSICS_PERIOD, World
+
+__all__ = ["SensorSuite"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+class SensorSuite:
+    """Samples all sensors of a world.
+
+    Args:
+        world: The world.
+        sensing: Rates, noise and delay.
+        seed: Seed of all noise; each sensor draws from its own stream.
+    """
+
+    def __init__(self, world: World, sensing: Sensing, seed: int) -> None:
+        self._world = world
+        self._sensing = sensing
+        streams = np.random.SeedSequence([seed, 0x5E]).spawn(3)
+        self._body_noise = np.random.default_rng(streams[2])
+        self.skins = {
+            side: SkinSensor(
+                SoleSkin(
+                    world.model,
+                    world.robot.layouts[side],
+                    world.robot.legs[side].sole_site,
+                    [world.model.geom(g).name for g in world.sole_geoms[side]],
+                ),
+                rate_hz=sensing.skin_rate,
+                noise_std_N=sensing.force_noise,
+                delay_periods=sensing.delay_periods,
+                rng=np.random.default_rng(streams[i]),
+            )
+            for i, side in enumerate(_SIDES)
+        }
+        self._skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
+        self.readings: dict[Side, Reading] = {}
+
+    def sample_skin(self, tick: int) -> bool:
+        """Sample the soles where a sample is due; returns whether one was.
+
+        Args:
+            tick: Number of physics steps since the controller started.
+        """
+        if tick % self._skin_every:
+            return False
+        for side in _SIDES:
+            self.readings[side] = self.skins[side].read(self._world.data)
+        return True
+
+    def sample_body(self) -> Sensors:
+        """Sample encoders and IMU, with the soles' latest readings."""
+        w, s, rng = self._world, self._sensing, self._body_noise
+        k = len(w.joint_qpos)
+        noise = rng.standard_normal(k + 6)
+        data = w.data
+        return Sensors(
+            time=float(data.time),
+            joint_positions=data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k],
+            gyro=data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3],
+            accelerometer=data.sensordata[w.accelerometer : w.accelerometer + 3]
+            + s.accelerometer_noise * noise[k + 3 :],
+            readings=dict(self.readings),
+        )

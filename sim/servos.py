@@ -1,0 +1,75 @@
+"""Joint servos: position set-points with velocity and torque feed-forward, interpolated at the servo's own rate."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.controller import Command
+from plantar.layout import Side
+from sim.inverse_kinematics import LegModel
+from sim.world import PHYSICS_PERIOD, World
+
+__all__ = ["LegServos"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+
+
+class LegServos:
+    """Turns commands of the walking controller into servo set-points.
+
+    A servo computes torque = kp (u - q) - kv q'. With u = q_d + (kv q'_d + tau_ff) / kp it follows q_d without lag and
+    holds the expected load without error. Between control ticks u moves on at q'_d: held set-points would make a saw
+    tooth of kp q'_d dt in every torque.
+
+    Args:
+        world: The world.
+        legs: Kinematics of the robot.
+        period: Control period in s.
+    """
+
+    def __init__(self, world: World, legs: LegModel, period: float) -> None:
+        self._world = world
+        self._legs = legs
+        self._period = period
+        self._last: NDArray[np.float64] | None = None
+        self._setpoint = np.zeros(len(world.servos))
+        self._rate = np.zeros(len(world.servos))
+        self.largest_error = 0.0
+
+    def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
+        """Hold a posture (k,) in rad with feed-forward torques (k,) in N m."""
+        self._last = joints.copy()
+        self._setpoint = joints + torques / self._world.stiffness
+        self._rate = np.zeros_like(joints)
+        self._world.data.ctrl[self._world.servos] = self._setpoint
+
+    def command(self, command: Command) -> NDArray[np.float64]:
+        """Solve a command for the joints; returns the joint reference (k,) in rad."""
+        c, s = math.cos(command.heading), math.sin(command.heading)
+        feet = command.feet
+        joints, error = self._legs.solve(
+            command.com,
+            np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]),
+            {side: feet[side].position for side in _SIDES},
+            {side: feet[side].rotation for side in _SIDES},
+        )
+        self.largest_error = max(self.largest_error, error)
+        torques = self._legs.static_torques(
+            {side: feet[side].force for side in _SIDES},
+            {side: np.array([*feet[side].center_of_pressure, feet[side].position[2]]) for side in _SIDES},
+        )
+        last = joints if self._last is None else self._last
+        velocity = (joints - last) / self._period
+        w = self._world
+        self._setpoint = joints + (w.damping * velocity + torques) / w.stiffness
+        self._rate = velocity * PHYSICS_PERIOD
+        self._last = joints
+        return joints
+
+    def drive(self) -> None:
+        """Write the set-points of one physics step."""
+        self._world.data.ctrl[self._world.servos] = self._setpoint
+        self._setpoint = self._setpoint + self._rate

@@ -1,0 +1,74 @@
+"""Put a robot on its feet: solve the standing posture and let the contacts settle before control begins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.footsteps import Footstep
+from gait.lip import GRAVITY
+from plantar.errors import SceneError
+from plantar.layout import Side
+from sim.inverse_kinematics import LegModel
+from sim.servos import LegServos
+from sim.world import PHYSICS_PERIOD, World
+
+__all__ = ["stand"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+_SETTLING = 0.5  # s
+
+
+def stand(
+    world: World,
+    legs: LegModel,
+    servos: LegServos,
+    feet: Mapping[Side, Footstep],
+    centers: Mapping[Side, NDArray[np.float64]],
+    com_height: float,
+) -> None:
+    """Stand the robot on its footholds, CoM between the sole centres, and let it settle until time 0.
+
+    Args:
+        world: The world; its state is replaced.
+        legs: Kinematics, which start from this posture afterwards.
+        servos: Servos, which hold this posture afterwards.
+        feet: Where the soles stand.
+        centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
+        com_height: CoM height above the soles in m.
+
+    Raises:
+        SceneError: If the legs cannot reach that stance.
+    """
+    posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
+    ground = float(np.mean([feet[s].z for s in _SIDES]))
+    middle = np.mean([centers[s] for s in _SIDES], axis=0)
+    com = np.array([middle[0], middle[1], ground + com_height])
+    yaw = feet["left"].yaw
+    rotation = Footstep("left", 0.0, 0.0, yaw).rotation_sole_to_world
+    quaternion = np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)])
+    legs.set_configuration(com, quaternion, posture)
+    joints, error = legs.solve(
+        com,
+        rotation,
+        {s: feet[s].position for s in _SIDES},
+        {s: feet[s].rotation_sole_to_world for s in _SIDES},
+        iterations=50,
+    )
+    if not error < 1e-6:
+        raise SceneError(
+            f"robot '{world.robot.name}' cannot stand with its CoM at {com_height:.3f} m and feet "
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart"
+        )
+    half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
+    torques = legs.static_torques({s: half for s in _SIDES}, {s: np.array([*centers[s], ground]) for s in _SIDES})
+    data = world.data
+    mujoco.mj_resetData(world.model, data)
+    data.qpos[:] = legs.configuration
+    data.time = -_SETTLING
+    servos.start(joints, torques)
+    mujoco.mj_step(world.model, data, round(_SETTLING / PHYSICS_PERIOD))
+    data.time = 0.0
