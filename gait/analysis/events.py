@@ -103,6 +103,10 @@ def force_levels(force: NDArray[np.float64]) -> Levels | None:
     if not top > 0.0:
         return None
     peak = float(np.percentile(smooth[smooth >= 0.2 * top], 90.0))
+    # Second differences see the noise and not the slopes.
+    bend = np.abs(np.diff(measured, 2))
+    if peak <= _NOISE_CONTACT * float(np.median(bend)) / (0.6745 * np.sqrt(6.0)):
+        return None
     rest = float(np.percentile(smooth, 5.0))
     if rest > 0.3 * peak:  # the foot never leaves the ground: nothing tells what it would rest at
         rest = 0.0

@@ -19,10 +19,10 @@ UNITS: Mapping[str, tuple[str, str, float]] = {
     "swing_percent": ("Swing", "% of stride", 1.0),
     "double_support_percent": ("Double support", "% of stride", 1.0),
     "peak_force_N": ("Peak vertical force", "N", 1.0),
-    "impulse_Ns": ("Impulse (force-time integral)", "N s", 1.0),
+    "impulse_Ns": ("Impulse (force-time integral)", "N·s", 1.0),
     "landing_impact_N": ("Landing impact (50 ms)", "N", 1.0),
     "peak_pressure_Pa": ("Peak pressure", "kPa", 1e-3),
-    "pressure_time_integral_Pas": ("Pressure-time integral", "kPa s", 1e-3),
+    "pressure_time_integral_Pas": ("Pressure-time integral", "kPa·s", 1e-3),
     "contact_area_m2": ("Contact area", "cm²", 1e4),
     "cop_path_m": ("CoP path length", "mm", 1e3),
     "cop_excursion_ap_m": ("CoP excursion, back to front", "mm", 1e3),
@@ -97,7 +97,7 @@ def _number(value: float | None, digits: int = 3) -> str:
     if value is None:
         return "–"
     decimals = max(0, digits - len(str(int(abs(value))))) if abs(value) >= 1.0 else digits
-    return f"{value:.{decimals}f}"
+    return f"{value:.{decimals}f}".replace("-", "−")
 
 
 def _tiles(metrics: Mapping[str, Any]) -> str:

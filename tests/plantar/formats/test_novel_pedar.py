@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -306,9 +305,8 @@ def test_random_corruption_never_gives_a_traceback(tmp_path: Path, pressures: tu
     assert read > 20
 
 
-@pytest.mark.skipif("PLANTAR_REAL_DATA" not in os.environ, reason="PLANTAR_REAL_DATA is not set")
-def test_real_recording() -> None:
-    path = Path(os.environ["PLANTAR_REAL_DATA"]) / "recordings" / "pedar_walk.asc"
+def test_real_recording(real_data: Path) -> None:
+    path = real_data / "recordings" / "pedar_walk.asc"
     recording = read_recording(path)
     assert (recording.format, len(recording.time), recording.rate_hz) == ("pedar", 1505, 100.0)
     assert {side: foot.force.shape[1] for side, foot in recording.feet.items()} == {"left": 99, "right": 99}

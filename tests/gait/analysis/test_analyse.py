@@ -1,0 +1,178 @@
+"""From the file to the report, and the command."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import cli
+from gait.analysis.analyse import analyse_recording
+from plantar import FormatError, InputError, LayoutError
+from plantar.plotting import thinned
+from plantar.recorder import Recorder
+
+FILES = {"metrics.json", "steps.csv", "report.html"} | {
+    f"{name}.{kind}" for name in ("pressure", "force", "steps") for kind in ("png", "svg")
+}
+
+
+@pytest.fixture
+def run(tmp_path: Path, walk: Callable[..., Any]) -> tuple[Path, Any]:
+    """A robot's recording of 8 steps with its truth."""
+    made = walk(steps=8, noise=1.4715)
+    feet = made.recording.feet
+    path = tmp_path / "run.mcap"
+    layouts = {side: foot.layout for side, foot in feet.items()}
+    with Recorder(path, {"robot": "h1"}, layouts) as recorder:
+        channels = {s: recorder.channel(f"/skin/{s}", [("force", f.force.shape[1])]) for s, f in feet.items()}
+        for i, t in enumerate(made.recording.time):
+            for side, channel in channels.items():
+                channel.write(t, feet[side].force[i])
+    return path, made
+
+
+def test_all_outputs_of_a_robot_recording(tmp_path: Path, run: tuple[Path, Any]) -> None:
+    path, made = run
+    calls: list[float] = []
+    result = analyse_recording(path, tmp_path / "out", progress=lambda fraction, text: calls.append(fraction))
+    assert {p.name for p in (tmp_path / "out").iterdir()} == FILES
+    assert {Path(f).name for f in result["files"]} == FILES
+    assert calls == sorted(calls)
+    assert calls[-1] == 1.0
+    stored = json.loads((tmp_path / "out" / "metrics.json").read_text())
+    assert stored == {k: v for k, v in result.items() if k != "files"}
+    assert stored["format"] == "mcap"
+    assert stored["rate_hz"] == pytest.approx(250.0)
+    for side, foot in stored["feet"].items():
+        assert foot["steps"] == len(foot["events"]) == 3
+        assert np.abs(np.array(foot["landings_s"]) - made.touchdowns[side]).max() < 0.010
+        assert len(foot["incomplete"]) == 2
+    assert stored["gait"]["landings"] == 8
+    rows = list(csv.DictReader((tmp_path / "out" / "steps.csv").read_text().splitlines()))
+    assert len(rows) == 6
+    strikes = [float(r["heel_strike_s"]) for r in rows]
+    assert strikes == sorted(strikes)
+    assert {r["side"] for r in rows} == {"left", "right"}
+
+
+def test_report_stands_alone(tmp_path: Path, run: tuple[Path, Any]) -> None:
+    path, _ = run
+    strange = path.rename(tmp_path / "a <b> & c.mcap")
+    analyse_recording(strange, tmp_path / "out")
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert len(page) < 3_000_000
+    assert "a &lt;b&gt; &amp; c.mcap" in page
+    assert "<b>" not in page
+    assert not re.findall(r'(?:src|href)="(?!data:)', page)
+    assert "http" not in re.sub(r'base64,[^"]*', "", page)
+    assert page.count("<img alt=") == page.count("<img ") == 3
+    assert "prefers-color-scheme:dark" in page
+    assert "@media print" in page
+
+
+def test_nothing_is_left_behind_on_an_error(tmp_path: Path, run: tuple[Path, Any]) -> None:
+    (tmp_path / "bad.asc").write_bytes(b"nonsense")
+    with pytest.raises(FormatError):
+        analyse_recording(tmp_path / "bad.asc", tmp_path / "out")
+    with pytest.raises(LayoutError):
+        analyse_recording(run[0], tmp_path / "out", layout=tmp_path / "bad.asc")
+    with pytest.raises(InputError, match="is a file"):
+        analyse_recording(run[0], tmp_path / "bad.asc")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_recording_without_steps_still_gives_a_report(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "still.mcap") as recorder:
+        channel = recorder.channel("/skin/left", [("force", 3)])
+        for i in range(100):
+            channel.write(i * 0.004, np.zeros(3))
+    result = analyse_recording(tmp_path / "still.mcap", tmp_path / "out")
+    assert result["feet"]["left"]["steps"] == 0
+    assert result["gait"]["cadence_steps_per_min"] is None
+    assert any("no load above its noise" in w for w in result["warnings"])
+    assert "no complete step" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_command_prints_one_json_object(tmp_path: Path, run: tuple[Path, Any]) -> None:
+    done = CliRunner().invoke(cli.app, ["analyze", str(run[0]), "-o", str(tmp_path / "out"), "--json"])
+    assert done.exit_code == 0
+    result = json.loads(done.stdout)
+    assert list(result["feet"]) == ["left", "right"]
+    assert set(result["feet"]["left"]["events"][0]) == {"heel_strike_s", "toe_off_s"}
+
+
+def plantar(*arguments: str) -> subprocess.CompletedProcess[str]:
+    code = "import cli, sys; sys.argv[0] = 'plantar'; cli.main()"
+    return subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=False)
+
+
+def test_bad_input_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
+    (tmp_path / "bad.asc").write_bytes(b"\x00" * 100)
+    for arguments, text in (
+        (["analyze", str(tmp_path / "bad.asc")], "known: mcap"),
+        (["analyze", str(tmp_path / "none.asc")], "cannot be read"),
+        (["analyze", str(tmp_path / "bad.asc"), "--format", "x"], "allowed: mcap, pedar"),
+        (["list", "feet"], "allowed: robots, scenes, formats"),
+    ):
+        extra = ["-o", str(tmp_path / "out")] if arguments[0] == "analyze" else []
+        done = plantar(*arguments, *extra)
+        assert done.returncode == 2
+        assert done.stdout == ""
+        assert done.stderr.startswith("plantar: ")
+        assert done.stderr.count("\n") == 1
+        assert text in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_list_names_what_there_is() -> None:
+    for what, name in (("formats", "pedar"), ("robots", "h1"), ("scenes", "flat")):
+        done = CliRunner().invoke(cli.app, ["list", what, "--json"])
+        assert done.exit_code == 0
+        assert name in [entry["name"] for entry in json.loads(done.stdout)[what]]
+
+
+@pytest.mark.parametrize("arguments", [["analyze", "--help"], ["list", "robots"], ["analyze", "RUN", "-o", "OUT"]])
+def test_analysis_loads_neither_mujoco_nor_cadquery(
+    tmp_path: Path, run: tuple[Path, Any], arguments: list[str]
+) -> None:
+    words = {"RUN": str(run[0]), "OUT": str(tmp_path / "out")}
+    code = (
+        "import atexit, sys, cli\n"
+        "heavy = ('mujoco', 'cadquery', 'OCP', 'trimesh', 'mink')\n"
+        "atexit.register(lambda: print('LOADED', [m for m in heavy if m in sys.modules]))\n"
+        "sys.argv[0] = 'plantar'\n"
+        "cli.main()\n"
+    )
+    command = [sys.executable, "-c", code, *(words.get(a, a) for a in arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_thinned_lines_keep_their_extremes() -> None:
+    x = np.arange(100_000.0)
+    y = np.sin(x / 900.0)
+    y[54_321] = 5.0
+    few_x, few_y = thinned(x, y)
+    assert len(few_x) <= 6002
+    assert few_y.max() == 5.0
+    assert few_y.min() == y.min()
+    assert (np.diff(few_x) > 0).all()
+
+
+def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path: Path, real_data: Path) -> None:
+    path = real_data / "recordings" / "pedar_walk.asc"
+    result = analyse_recording(path, tmp_path / "out")
+    assert {side: foot["steps"] for side, foot in result["feet"].items()} == {"left": 9, "right": 8}
+    assert 600.0 < result["feet"]["right"]["measures"]["peak_force_N"]["mean"] < 1200.0
+    assert 85.0 < result["gait"]["cadence_steps_per_min"] < 100.0

@@ -1,0 +1,102 @@
+"""Heel strikes and toe offs against contacts that are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from gait.analysis.events import find_contacts, force_levels
+
+
+def steps(rate: float = 100.0, n: int = 5, peak: float = 700.0, rest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+    """Half-sine contacts of 0.6 s every second, from 0.2 s on."""
+    time = np.arange(0.0, n, 1.0 / rate)
+    phase = (time % 1.0 - 0.2) / 0.6
+    force = np.where((phase > 0) & (phase < 1), (peak - rest) * np.sin(np.pi * np.clip(phase, 0, 1)), 0.0)
+    return time, force + rest
+
+
+@pytest.mark.parametrize("rate", [31.25, 75.0, 100.0, 250.0])
+def test_half_sine_contacts_are_timed_between_samples(rate: float) -> None:
+    time, force = steps(rate)
+    contacts = find_contacts(time, force)
+    assert len(contacts) == 5
+    levels = force_levels(force)
+    assert levels is not None
+    late = 0.6 / np.pi * np.arcsin(levels.release / 700.0)  # where the half sine crosses the level
+    for i, contact in enumerate(contacts):
+        assert contact.heel_strike == pytest.approx(i + 0.2 + late, abs=0.25 / rate)
+        assert contact.toe_off == pytest.approx(i + 0.8 - late, abs=0.25 / rate)
+
+
+@pytest.mark.parametrize("scale", [0.05, 1.0, 20.0])
+@pytest.mark.parametrize("rest", [0.0, 0.04])
+def test_levels_follow_the_foot(scale: float, rest: float) -> None:
+    time, force = steps(peak=700.0 * scale, rest=700.0 * scale * rest)
+    assert [c.complete for c in find_contacts(time, force)] == [True] * 5
+
+
+def test_contacts_cut_by_the_ends_are_incomplete() -> None:
+    time, force = steps()
+    keep = (time >= 0.5) & (time < 4.5)
+    contacts = find_contacts(time[keep], force[keep])
+    assert [c.complete for c in contacts] == [False, True, True, True, False]
+    assert contacts[0].heel_strike is None
+    assert contacts[0].toe_off == pytest.approx(0.78, abs=0.02)
+    assert contacts[-1].heel_strike == pytest.approx(4.22, abs=0.02)
+    assert contacts[-1].toe_off is None
+
+
+def test_standing_and_silence_have_no_complete_contact() -> None:
+    time = np.arange(0.0, 10.0, 0.01)
+    random = np.random.default_rng(0)
+    assert find_contacts(time, np.zeros_like(time)) == []
+    assert find_contacts(time, random.normal(0.0, 9.5, len(time))) == []
+    assert find_contacts(time, np.maximum(random.normal(0.0, 9.5, len(time)), 0.0)) == []
+    taxels = np.maximum(random.normal(0.0, 1.47, (len(time), 42)), 0.0)
+    assert find_contacts(time, taxels.sum(axis=1)) == []  # a mean of 25 N from noise that is clipped at zero
+    standing = find_contacts(time, 400.0 + random.normal(0.0, 9.5, len(time)))
+    assert [(c.heel_strike, c.toe_off) for c in standing] == [(None, None)]
+    assert find_contacts(time[:2], np.zeros(2)) == []
+    assert find_contacts(time, np.full_like(time, np.nan)) == []
+
+
+def test_a_short_loss_does_not_split_a_contact_and_a_brush_is_none() -> None:
+    time, force = steps()
+    force[(time > 2.48) & (time < 2.52)] = 0.0  # 40 ms within the third contact
+    force[(time > 3.93) & (time < 3.97)] = 300.0  # 40 ms in swing
+    assert len(find_contacts(time, force)) == 5
+
+
+def test_dropouts_are_bridged_when_short_and_cut_when_long() -> None:
+    time, force = steps()
+    short, long = force.copy(), force.copy()
+    short[(time > 2.46) & (time < 2.54)] = np.nan
+    assert [c.complete for c in find_contacts(time, short)] == [True] * 5
+    long[(time > 2.4) & (time < 2.6)] = np.nan
+    contacts = find_contacts(time, long)
+    assert [c.complete for c in contacts] == [True, True, False, False, True, True]
+    # A filled zero would have made an event at the edge of the gap.
+    assert contacts[2].toe_off is None
+    assert contacts[3].heel_strike is None
+
+
+def test_one_damaged_frame_is_not_a_peak() -> None:
+    time, force = steps()
+    force[55] = 1e6
+    assert [c.complete for c in find_contacts(time, force)] == [True] * 5
+
+
+@pytest.mark.parametrize("clip", [False, True])
+@pytest.mark.parametrize("seed", range(5))
+def test_noisy_robot_soles_land_within_10_ms(walk: Callable[..., object], clip: bool, seed: int) -> None:
+    made = walk(steps=20, noise=1.4715, clip=clip, seed=seed)
+    for side, foot in made.recording.feet.items():  # type: ignore[attr-defined]
+        contacts = find_contacts(made.recording.time, foot.vertical_force)  # type: ignore[attr-defined]
+        landings = [c.heel_strike for c in contacts if c.heel_strike is not None]
+        truth = made.touchdowns[side]  # type: ignore[attr-defined]
+        assert len(landings) == len(truth) == 10
+        assert np.abs(np.array(landings) - truth).max() < 0.010
+        assert sum(c.complete for c in contacts) == 9  # the last contact stands until the end

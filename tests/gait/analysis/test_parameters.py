@@ -1,0 +1,119 @@
+"""Measures of steps against closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gait.analysis.parameters import analyse_foot, gait_of_feet, spread, summary_of_foot, symmetry
+from plantar.formats.nominal_insole import nominal_insole
+from plantar.pressure_recording import FootRecording, PressureRecording
+
+
+def rolling(steps: int = 4, rate: float = 200.0, peak: float = 800.0) -> PressureRecording:
+    """A left foot whose load, a half sine of 0.6 s, wanders over a strip of cells from heel to toe at even speed."""
+    layout = nominal_insole("x", "left")
+    time = np.arange(0.0, steps, 1.0 / rate)
+    phase = (time % 1.0 - 0.2) / 0.6
+    total = np.where((phase > 0) & (phase < 1), peak * np.sin(np.pi * np.clip(phase, 0.0, 1.0)), 0.0)
+    length = float(layout.outline[:, 0].max())
+    centre = length * (0.3 + 0.4 * np.clip(phase, 0.0, 1.0))
+    near = np.exp(-0.5 * ((layout.positions[:, 0] - centre[:, None]) / 0.02) ** 2) * layout.areas
+    force = total[:, None] * near / near.sum(axis=1, keepdims=True)
+    return PressureRecording(Path("x"), "synthetic", rate, time, {"left": FootRecording("left", force, layout)})
+
+
+def test_a_rolling_half_sine_has_the_measures_of_its_formula() -> None:
+    recording = rolling()
+    gait = analyse_foot(recording, "left")
+    assert len(gait.steps) == 4
+    step = gait.steps[1]
+    assert gait.levels is not None
+    late = 0.6 / np.pi * np.arcsin(gait.levels.release / 800.0)
+    assert step.contact_time_s == pytest.approx(0.6 - 2 * late, rel=0.01)
+    assert step.stride_time_s == pytest.approx(1.0, abs=1e-6)
+    assert step.stance_percent == pytest.approx(100 * (0.6 - 2 * late), rel=0.01)
+    assert step.stance_percent + step.swing_percent == pytest.approx(100.0)
+    assert step.peak_force_N == pytest.approx(800.0, rel=1e-3)
+    lost = 1.0 - np.cos(np.pi * late / 0.6)  # the tails outside the events
+    assert step.impulse_Ns == pytest.approx(800.0 * 2 * 0.6 / np.pi * (1 - lost), rel=0.01)
+    layout = recording.feet["left"].layout
+    assert layout is not None
+    travel = float(layout.outline[:, 0].max()) * 0.4 * (0.6 - 2 * late) / 0.6
+    assert step.cop_excursion_ap_m == pytest.approx(travel, rel=0.03)
+    assert step.cop_path_m == pytest.approx(travel, rel=0.05)
+    assert step.cop_velocity_m_s == pytest.approx(step.cop_path_m / step.contact_time_s, rel=0.03)
+    pressure = recording.feet["left"].pressure
+    assert pressure is not None
+    assert step.peak_pressure_Pa == pytest.approx(pressure.max(), rel=1e-3)
+    assert 0.02 < step.cop_margin_m < 0.05
+    assert np.isnan(step.step_time_s)  # one foot only
+    assert np.isnan(gait.steps[-1].stride_time_s)
+
+
+def test_contact_area_of_a_uniform_load_is_the_loaded_area(walk: Callable[..., Any]) -> None:
+    made = walk(steps=8)
+    for side, foot in made.recording.feet.items():
+        for step in analyse_foot(made.recording, side).steps:
+            assert step.contact_area_m2 == pytest.approx(foot.layout.areas.sum())
+            assert step.peak_pressure_Pa == pytest.approx(made.weight / foot.layout.areas.sum())
+            assert step.cop_excursion_ap_m < 1e-9
+
+
+def test_walk_as_a_whole(walk: Callable[..., Any]) -> None:
+    made = walk(steps=20, noise=1.4715)
+    feet = {side: analyse_foot(made.recording, side) for side in made.recording.feet}
+    whole = gait_of_feet(feet)
+    assert whole["landings"] == 20
+    assert whole["cadence_steps_per_min"] == pytest.approx(60 / 1.2, rel=0.005)
+    assert whole["stride_time_s"] == pytest.approx(2.4, abs=0.005)
+    assert whole["double_support_percent"] == pytest.approx(100 * 0.6 / 2.4, abs=1.5)
+    left = summary_of_foot(feet["left"])
+    assert left["stance_percent"].mean == pytest.approx(100 * 1.5 / 2.4, abs=1.0)
+    assert left["step_time_s"].mean == pytest.approx(1.2, abs=0.01)
+    assert left["landing_impact_N"].mean == pytest.approx(made.weight / 2, rel=0.08)
+    for value in symmetry(feet).values():
+        assert value is not None
+        assert abs(value) < 60.0
+    index = symmetry(feet)["contact_time_s"]
+    assert index is not None
+    assert abs(index) < 1.0
+
+
+def test_noise_does_not_count_as_contact_area(walk: Callable[..., Any]) -> None:
+    made = walk(steps=8, noise=1.4715)
+    gait = analyse_foot(made.recording, "left")
+    assert gait.cell_threshold == pytest.approx([3 * 1.4715] * len(gait.cell_threshold), rel=0.2)
+
+
+def test_symmetry_index_has_the_sign_of_the_larger_side(walk: Callable[..., Any]) -> None:
+    made = walk(steps=12)
+    recording = made.recording
+    left = recording.feet["left"]
+    doubled = FootRecording("left", left.force * 3.0, left.layout)
+    heavy = PressureRecording(recording.path, "x", 250.0, recording.time, {**recording.feet, "left": doubled})
+    feet = {side: analyse_foot(heavy, side) for side in heavy.feet}
+    assert symmetry(feet)["peak_force_N"] == pytest.approx(100 * (3 - 1) / 2)
+    assert set(symmetry({"left": feet["left"]}).values()) == {None}
+
+
+def test_a_foot_without_geometry_gives_forces_only(walk: Callable[..., Any]) -> None:
+    made = walk(steps=6)
+    bare = FootRecording("left", made.recording.feet["left"].force, None)
+    recording = PressureRecording(Path("x"), "x", 250.0, made.recording.time, {"left": bare})
+    step = analyse_foot(recording, "left").steps[0]
+    assert step.peak_force_N == pytest.approx(made.weight, rel=1e-6)
+    assert np.isnan([step.peak_pressure_Pa, step.contact_area_m2, step.cop_path_m, step.cop_margin_m]).all()
+
+
+def test_spread_of_few_values() -> None:
+    assert spread([]).mean is None
+    assert spread([float("nan")]).n == 0
+    one = spread([2.0])
+    assert (one.mean, one.sd, one.cv_percent, one.n) == (2.0, None, None, 1)
+    two = spread([1.0, 3.0])
+    assert (two.sd, two.cv_percent) == pytest.approx((np.sqrt(2.0), 50 * np.sqrt(2.0)))
