@@ -29,6 +29,7 @@ __all__ = [
 ]
 
 Side = Literal["left", "right"]
+"""Which foot a sole belongs to."""
 
 MODALITIES: tuple[str, ...] = ("force", "proximity", "temperature", "acceleration")
 """What a taxel can sense (T 4.2.1)."""

@@ -1,0 +1,129 @@
+"""The wheel as a user gets it: built, installed in an environment of its own, and used away from the checkout."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def run(*command: str | Path, cwd: Path, check: bool = True) -> subprocess.CompletedProcess[str]:
+    """Run a command in an environment that knows nothing of the checkout."""
+    clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV", "PLANTAR"))}
+    done = subprocess.run([str(c) for c in command], cwd=cwd, env=clean, capture_output=True, text=True)
+    assert not check or done.returncode == 0, f"{command}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory) -> Path:
+    """The wheel of what is in the checkout; built from a copy, so that the checkout stays as it is."""
+    folder = tmp_path_factory.mktemp("wheel")
+    source = folder / "source"
+    for path in tracked():
+        (source / path).parent.mkdir(parents=True, exist_ok=True)
+        (source / path).write_bytes((ROOT / path).read_bytes())
+    run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source, cwd=folder)
+    [built] = folder.glob("*.whl")
+    return built
+
+
+def tracked() -> list[Path]:
+    """Files of the distribution in the checkout."""
+    parts = ("plantar", "shoes", "gait", "sim", "wholebody")
+    inside = [p for part in parts for p in (ROOT / part).rglob("*") if p.is_file() and "__pycache__" not in p.parts]
+    return [
+        p.relative_to(ROOT)
+        for p in [*inside, *(ROOT / n for n in ("cli.py", "pyproject.toml", "README.md", "LICENSE"))]
+    ]
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory) -> Path:
+    """The scripts folder of an environment with the wheel in it.
+
+    The libraries that Plantar needs come from this environment by a path file. Path files found in a folder that is
+    itself added by one are not read, so the checkout, which is there as an editable install, stays out.
+    """
+    folder = tmp_path_factory.mktemp("clean")
+    venv.create(folder, with_pip=False, symlinks=os.name != "nt")
+    scripts = folder / ("Scripts" if os.name == "nt" else "bin")
+    here = sysconfig.get_paths(vars={"base": str(folder), "platbase": str(folder)})["purelib"]
+    pip = (sys.executable, "-m", "pip", "--python", scripts / "python", "--disable-pip-version-check")
+    run(*pip, "install", "--quiet", "--no-deps", "--no-index", wheel, cwd=folder)
+    (Path(here) / "libraries.pth").write_text(sysconfig.get_paths()["purelib"] + "\n")
+    return scripts
+
+
+def test_the_wheel_holds_code_and_data(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = {n for n in archive.namelist() if ".dist-info/" not in n}
+    data = {".toml", ".json", ".html", ".css", ".js", ".typed"}
+    wanted = {
+        p.as_posix() for p in tracked() if len(p.parts) > 1 and (p.suffix in {".py", *data} or p.name == "py.typed")
+    }
+    assert names == wanted | {"cli.py"}
+    assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "sim")} <= names
+    assert any(n.startswith("sim/robots/") and n.endswith(".toml") for n in names)
+    assert any(n.startswith("sim/scenes/") and n.endswith(".toml") for n in names)
+
+
+def test_the_wheel_names_its_license_and_its_extras(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        [info] = [n for n in archive.namelist() if n.endswith(".dist-info/METADATA")]
+        metadata = archive.read(info).decode()
+        assert any(n.endswith("licenses/LICENSE") for n in archive.namelist())
+    assert "License-Expression: Apache-2.0" in metadata
+    needed = [line for line in metadata.splitlines() if line.startswith("Requires-Dist:") and "extra" not in line]
+    assert not [line for line in needed if any(heavy in line for heavy in ("cadquery", "mujoco", "trimesh"))]
+
+
+def test_it_runs_from_the_environment_and_not_from_the_checkout(installed, tmp_path):
+    code = "import cli, plantar, shoes, gait, sim\nfor m in (cli, plantar, shoes, gait, sim): print(m.__file__)"
+    files = run(installed / "python", "-c", code, cwd=tmp_path).stdout.splitlines()
+    assert len(files) == 5
+    assert all(Path(f).is_relative_to(installed.parent) for f in files), files
+
+
+def test_help_and_lists(installed, tmp_path):
+    assert "analyze" in run(installed / "plantar", "--help", cwd=tmp_path).stdout
+    assert "flat" in run(installed / "plantar", "list", "scenes", cwd=tmp_path).stdout
+    robots = json.loads(run(installed / "plantar", "list", "robots", "--json", cwd=tmp_path).stdout)
+    assert "h1" in [r["name"] for r in robots["robots"]]
+
+
+def test_one_analysis(installed, tmp_path):
+    """A made-up walk on insoles: each foot stands 0.6 s in each second, the right one half a second later."""
+    rate, cells = 50, 99
+    lines = ["Novel export", "pressure values in kPa", f"scanning rate [Hz]: {rate}"]
+    lines.append("time[secs]\t" + "\t".join(str(1 + i % cells) for i in range(2 * cells)))
+    for frame in range(7 * rate):
+        time = frame / rate
+        load = [100.0 if (time + 0.2 + shift) % 1.0 < 0.6 and time > 0.8 else 0.0 for shift in (0.0, 0.5)]
+        lines.append("\t".join([f"{time:.3f}", *[f"{load[0]:.1f}"] * cells, *[f"{load[1]:.1f}"] * cells]))
+    (tmp_path / "walk.asc").write_text("\n".join(lines) + "\n")
+    done = run(installed / "plantar", "analyze", "walk.asc", "--json", "-o", "out", cwd=tmp_path)
+    result = json.loads(done.stdout)
+    assert result["frames"] == 7 * rate
+    assert result["rate_hz"] == pytest.approx(rate)
+    for side in ("left", "right"):
+        assert 5 <= result["feet"][side]["steps"] <= 6
+    assert {"metrics.json", "steps.csv", "report.html"} <= {p.name for p in (tmp_path / "out").iterdir()}
+
+
+def test_bad_input_is_one_line_and_exit_code_2(installed, tmp_path):
+    done = run(installed / "plantar", "analyze", "nothing.asc", cwd=tmp_path, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert "nothing.asc" in done.stderr
+    assert list(tmp_path.iterdir()) == []
