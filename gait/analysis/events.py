@@ -11,6 +11,7 @@ are raised to 4 and 8 of its standard deviations.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +36,7 @@ RELEASE_FRACTION = 0.05
 MINIMUM_STANCE = 0.1
 """Shortest contact in s; shorter ones are a brush of the ground or a disturbance and are dropped."""
 
-MINIMUM_SWING = 0.1
+MINIMUM_SWING = 0.15
 """Shortest time in s off the ground; over shorter ones the foot counts as in contact."""
 
 LONGEST_BRIDGE = 0.1
@@ -192,18 +193,16 @@ def _contacts_of_span(
     starts += [int(e) + 1 for e in edges if above[e + 1]]
     stops = [int(e) + 1 for e in edges if above[e]]
     stops += [len(force)] if above[-1] else []
-    # Frames above the release level that reach the contact level; then swings too short, then contacts too short.
-    spans = [(a, b) for a, b in zip(starts, stops, strict=True) if force[a:b].max() >= levels.contact]
+    spans = list(zip(starts, stops, strict=True))
+    reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
-    for a, b in spans:
-        if (
-            merged
-            and _crossing(time, force, a, levels.release) - _crossing(time, force, merged[-1][1], levels.release)
-            < minimum_swing
-        ):
-            merged[-1] = (merged[-1][0], b)
+    for last, k in zip([None, *reaching[:-1]], reaching, strict=True):
+        # Off the ground between two contacts only if the force stays below the event level for long enough: a foot
+        # that lands lightly and chatters does not.
+        if last is not None and _longest_gap(time, force, spans[last : k + 1], levels.release) < minimum_swing:
+            merged[-1] = (merged[-1][0], spans[k][1])
         else:
-            merged.append((a, b))
+            merged.append(spans[k])
     contacts: list[Contact] = []
     for a, b in merged:
         strike = _crossing(time, force, a, levels.release) if a > 0 else None
@@ -212,6 +211,16 @@ def _contacts_of_span(
             continue
         contacts.append(Contact(strike, lift, a + offset, b + offset))
     return contacts
+
+
+def _longest_gap(
+    time: NDArray[np.float64], force: NDArray[np.float64], spans: list[tuple[int, int]], level: float
+) -> float:
+    """Longest time in s between one span and the next."""
+    return max(
+        _crossing(time, force, later[0], level) - _crossing(time, force, earlier[1], level)
+        for earlier, later in pairwise(spans)
+    )
 
 
 def _crossing(time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float) -> float:

@@ -70,6 +70,30 @@ def test_a_short_loss_does_not_split_a_contact_and_a_brush_is_none() -> None:
     assert len(find_contacts(time, force)) == 5
 
 
+def test_a_light_landing_that_chatters_is_one_contact() -> None:
+    """A touch, 90 ms of air, then 0.2 s of chatter that often stays below the contact level."""
+    time = np.arange(0.0, 6.0, 0.004)
+    random = np.random.default_rng(4)
+    force = np.full(len(time), 400.0)
+    force[(time > 1.0) & (time < 2.0)] = 0.0
+    force[(time >= 2.004) & (time < 2.094)] = 0.0
+    chatter = (time >= 2.1) & (time < 2.4)
+    force[chatter] = random.uniform(0.0, 38.0, chatter.sum())  # the contact level is at 40 N
+    force[time >= 2.4] = 150.0
+    force[np.searchsorted(time, [2.1, 2.25])] = 60.0
+    contacts = find_contacts(time, force)
+    assert [(c.heel_strike is None, c.toe_off is None) for c in contacts] == [(True, False), (False, True)]
+    assert contacts[1].heel_strike == pytest.approx(2.0, abs=0.004)
+
+
+def test_a_spike_of_noise_in_swing_does_not_join_two_contacts() -> None:
+    time, force = steps()
+    force[(time > 2.98) & (time < 3.0)] = 50.0  # above the event level of 35 N, below the contact level of 70 N
+    contacts = find_contacts(time, force)
+    assert len(contacts) == 5
+    assert contacts[3].heel_strike == pytest.approx(3.21, abs=0.01)
+
+
 def test_dropouts_are_bridged_when_short_and_cut_when_long() -> None:
     time, force = steps()
     short, long = force.copy(), force.copy()
