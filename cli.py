@@ -256,6 +256,74 @@ def _described(pattern: str, name: Callable[[Path], str]) -> dict[str, str]:
     return found
 
 
+@app.command()
+def bench(
+    what: Annotated[str, typer.Argument(help="contact or all.")] = "all",
+    layout: Annotated[
+        Path | None,
+        typer.Option(help="Layout file of the sole to measure. Default: 250 x 155 mm with taxels of 691 mm^2."),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/bench"),
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """Measure run time against error, and write tables, figures and bench.json.
+
+    contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
+    chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
+
+    Example: plantar bench contact -o out/bench
+    """
+    from plantar.atomic import output_folder, write_text
+
+    if what not in ("contact", "all"):
+        raise InputError(f"cannot measure '{what}'; allowed: contact, all")
+    with output_folder(output) as folder, _progress() as tell:
+        result: dict[str, Any] = {"contact": _bench_contact(folder, layout, tell)}
+        result["files"] = [str(output / name) for name in result["contact"].pop("files")]
+        result["files"].append(str(output / "bench.json"))
+        write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")
+    if as_json:
+        print(json.dumps(result))
+    else:
+        _print_contact(result["contact"])
+        for name in result["files"]:
+            print(f"  {name}")
+    if not result["contact"]["holds"]:
+        print("plantar: the chosen contact model is not as right as it must be", file=sys.stderr)
+        raise typer.Exit(1)
+
+
+def _bench_contact(folder: Path, layout: Path | None, tell: Callable[[float, str], None]) -> dict[str, Any]:
+    """Compare contact models; gives the rows, the parameters and the names of the files."""
+    from plantar import hex_layout, read_layout
+    from sim.contact_models import compare_contact_models, holds, study_contact_parameters, write_contact_report
+
+    if layout is None:
+        sole = hex_layout([[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]])
+    else:
+        sole = read_layout(layout)
+    rows = compare_contact_models(sole, progress=lambda f, text: tell(0.9 * f, text))
+    parameters = study_contact_parameters(sole, progress=lambda f, text: tell(0.9 + 0.1 * f, text))
+    return {
+        "chosen": rows[0].name,
+        "holds": holds(rows[0]),
+        "models": [r.as_dict() for r in rows],
+        "parameters": [p.as_dict() for p in parameters],
+        "files": write_contact_report(folder, sole, rows, parameters),
+    }
+
+
+def _print_contact(result: dict[str, Any]) -> None:
+    """The comparison's main figures for people."""
+    print(f"{'contact model':24}{'CoP max mm':>12}{'edge mm':>10}{'step us':>10}{'read us':>10}")
+    for row in result["models"]:
+        edges = [row["edge_x_mm"], row["edge_y_mm"]]
+        edge = "-" if None in edges else f"{round(max(edges, key=abs), 2) + 0.0:.2f}"
+        cop = "-" if row["cop_max_mm"] is None else f"{row['cop_max_mm']:.2f}"
+        print(f"{row['name']:24}{cop:>12}{edge:>10}{row['step_us']:>10.1f}{row['read_us']:>10.1f}")
+    print(f"chosen: {result['chosen']}, {'holds' if result['holds'] else 'DOES NOT HOLD'} what is required")
+
+
 @contextmanager
 def _progress() -> Iterator[Callable[[float, str], None]]:
     """A progress bar on stderr; gives the callback that moves it. Silent where stderr is no terminal."""

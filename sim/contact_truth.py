@@ -7,14 +7,13 @@ robot.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-
-from plantar.polygon import signed_margin
 
 __all__ = [
     "REACH",
@@ -236,10 +235,56 @@ def ground_truth(
     Returns:
         The truth, in the world frame.
     """
-    wrench = _total_wrench(feet)
-    zmp = _zmp(wrench, feet, plane_height, minimum_force)
-    polygon = support_polygon_of_contacts(feet)
-    return GroundTruth(wrench, zmp, polygon, None if zmp is None else signed_margin(polygon, zmp))
+    # Plain floats: on the handful of contacts that two feet have, numpy's calls cost more than the sums.
+    fx = fy = fz = tx = ty = tz = height = 0.0
+    points: list[tuple[float, float]] = []
+    for c in feet:
+        if c.size:
+            near = (c.carries | (c.distances <= REACH)).tolist()
+            for (x, y, z), (a, b, f), (p, q, r), n in zip(
+                c.positions.tolist(), c.forces.tolist(), c.torques.tolist(), near, strict=True
+            ):
+                fx, fy, fz = fx + a, fy + b, fz + f
+                tx, ty, tz = tx + p + y * f - z * b, ty + q + z * a - x * f, tz + r + x * b - y * a
+                height += z * f
+                if n:
+                    points.append((x, y))
+    wrench = np.array([fx, fy, fz, tx, ty, tz])
+    ring = small_hull(points)
+    polygon = np.array(ring).reshape(-1, 2)
+    if not fz >= minimum_force:
+        return GroundTruth(wrench, None, polygon, None)
+    if plane_height is None:
+        plane_height = height / fz
+    x, y = (plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz
+    return GroundTruth(wrench, np.array([x, y]), polygon, small_margin(ring, x, y))
+
+
+def small_margin(ring: Sequence[tuple[float, float]], x: float, y: float) -> float:
+    """Signed distance in m of a point to the edge of a small hull: `plantar.polygon.signed_margin` on plain floats.
+
+    Args:
+        ring: Hull as `small_hull` gives it.
+        x: Point in m.
+        y: Point in m.
+
+    Returns:
+        The distance, positive inside; -inf for an empty hull.
+    """
+    if len(ring) < 2:
+        return -math.hypot(x - ring[0][0], y - ring[0][1]) if ring else -math.inf
+    inner, outer = math.inf, math.inf
+    ax, ay = ring[-1]
+    for bx, by in ring:
+        lx, ly, dx, dy = bx - ax, by - ay, x - ax, y - ay
+        length = math.hypot(lx, ly)
+        depth = (lx * dy - ly * dx) / length
+        inner = min(inner, depth)
+        if depth <= 0.0 or len(ring) == 2:
+            t = min(1.0, max(0.0, (dx * lx + dy * ly) / (length * length)))
+            outer = min(outer, math.hypot(dx - t * lx, dy - t * ly))
+        ax, ay = bx, by
+    return inner if inner > 0.0 and len(ring) > 2 else -outer
 
 
 def small_hull(points: Sequence[tuple[float, float]], tolerance: float = 1e-9) -> list[tuple[float, float]]:

@@ -8,13 +8,14 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.polygon import area, convex_hull
+from plantar.polygon import area, convex_hull, signed_margin
 from sim.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
     foot_contacts,
     ground_truth,
     small_hull,
+    small_margin,
     support_polygon_of_contacts,
     zmp_of_contacts,
 )
@@ -169,6 +170,30 @@ def test_small_hull_agrees_with_the_array_hull() -> None:
         assert set(ours) <= {tuple(p) for p in points.tolist()}
     assert small_hull([]) == []
     assert small_hull([(0.0, 0.0), (1.0, 1.0), (0.5, 0.5)]) == [(0.0, 0.0), (1.0, 1.0)]
+
+
+def test_small_margin_agrees_with_the_array_margin() -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(300):
+        ring = small_hull([tuple(p) for p in rng.uniform(-0.2, 0.2, (rng.integers(1, 9), 2)).tolist()])
+        x, y = (float(v) for v in rng.uniform(-0.3, 0.3, 2))
+        assert small_margin(ring, x, y) == pytest.approx(signed_margin(np.array(ring), [x, y]), abs=1e-12)
+    assert small_margin([], 0.0, 0.0) == -np.inf
+    assert small_margin([(0.0, 0.0), (1.0, 0.0)], 0.5, 0.0) == 0.0
+
+
+def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
+    """One pass over both feet gives what wrench, ZMP and polygon give on their own."""
+    model = foot_model(BLOCK, com="0.02 0.01 0.2")
+    left = sole_contacts(model, settled(model, push=(20.0, -10.0, -30.0, 2.0, 3.0, 1.0)))
+    right = left._replace(positions=left.positions + np.array([0.05, -0.3, 0.02]))
+    feet = [left, right]
+    truth = ground_truth(feet)
+    parts = [contact_wrench_in_world(c, np.zeros(3)) for c in feet]
+    assert truth.wrench == pytest.approx(parts[0] + parts[1], abs=1e-9)
+    assert truth.zmp == pytest.approx(zmp_of_contacts(feet), abs=1e-12)
+    assert truth.polygon == pytest.approx(support_polygon_of_contacts(feet), abs=1e-12)
+    assert truth.margin == pytest.approx(signed_margin(truth.polygon, truth.zmp), abs=1e-12)
 
 
 def test_corner_lifted_by_micrometres_still_supports() -> None:
