@@ -13,7 +13,7 @@ from gait.balance import BalanceGains, DcmBalance
 from gait.estimator import BaseState, EstimatorGains, FloatingBaseEstimator, LegKinematics, heading
 from gait.footsteps import Footstep, other_side
 from gait.lip import dcm, pendulum_frequency
-from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
+from gait.phases import Phase, Timing, WalkSchedule
 from gait.swing import SwingTrajectory
 from gait.vrp_plan import LipReference
 from gait.walk_plan import plan_vrps
@@ -177,7 +177,7 @@ class WalkingController:
         self._anchor = feet["left"].position
         self._offset = np.zeros(3)
         self._turn = 0.0
-        self._region_of: list[tuple[NDArray[np.float64], float]] = []
+        self._region_of: list[tuple[Side, float, float, float]] = []
         self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
 
@@ -275,25 +275,27 @@ class WalkingController:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, at their commanded
         places, moved inwards by the offset. It is made anew only when a foot comes, goes or moves."""
         standing = [s for s in _SIDES if self._landed or phase.swing != s]
-        footholds = [self._foothold[s] for s in standing]
-        if len(footholds) != len(self._region_of) or any(
-            a is not b for a, b in zip(footholds, self._region_of, strict=True)
-        ):
-            parts = []
-            for side, (position, yaw) in zip(standing, footholds, strict=True):
-                rotation = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
-                parts.append(polygon_in_world(self._outline[side], rotation, position + self._offset))
+        places = []
+        for side in standing:
+            position, yaw = self._foothold[side]
+            places.append((side, float(position[0]), float(position[1]), yaw))
+        if places != self._region_of:
+            parts = [
+                polygon_in_world(
+                    self._outline[side],
+                    Footstep(side, x, y, yaw).rotation_sole_to_world,
+                    np.array([x, y, 0.0]) + self._offset,
+                )
+                for side, x, y, yaw in places
+            ]
             self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
-            self._region_of = footholds
+            self._region_of = places
         return self._region
 
     def _com_height(self, phase: Phase, time: float) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: float(self._foothold[side][0][2]) for side in _SIDES}
-        if phase.stance is not None:
-            target = heights[phase.stance]
-        else:
-            target = 0.5 * (heights["left"] + heights["right"])
+        target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
         rate = min(1.0, 5.0 * self.settings.period)
         self._ground += rate * (target - self._ground)
         return self._ground + self.settings.com_height

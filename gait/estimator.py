@@ -1,10 +1,10 @@
 """Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
 
-Orientation: the gyro is integrated; gravity, freed from the pendulum's acceleration, corrects roll and pitch slowly, and
-the heading of the loaded feet corrects yaw. Position: the material point of each loaded sole that lies at its centre of
-pressure does not move, so the base moves by what the leg's kinematics say, weighted by load; a foot that rolls about
-its edge is followed too. Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as
-input and the kinematic CoM as measurement. A skin that yields a ZMP makes the velocity without differentiating encoders.
+Orientation: the gyro is integrated; gravity, freed from the pendulum's acceleration, corrects roll and pitch slowly,
+and the heading of the loaded feet corrects yaw. Position: the material point of each loaded sole that lies at its
+centre of pressure does not move, so the base moves by what the leg's kinematics say, weighted by load; a foot that
+rolls about its edge is followed too. Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the
+taxels' ZMP p as input and the kinematic CoM as measurement, so that no encoder is differentiated.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from plantar.percept import Percept
 __all__ = ["BaseState", "EstimatorGains", "FloatingBaseEstimator", "LegKinematics", "Posture", "heading"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_THREE_HALVES = 1.5 * np.eye(3)
 
 
 @dataclass(frozen=True)
@@ -97,16 +98,18 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotation (3, 3) of a rotation vector (3,) in rad (Rodrigues)."""
     x, y, z = vector.tolist()
     angle = math.sqrt(x * x + y * y + z * z)
-    if angle < 1e-12:
-        return np.array([[1.0, -z, y], [z, 1.0, -x], [-y, x, 1.0]])
-    s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
-    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(np.eye(3) + s * k + c * (k @ k))
+    if angle < 1e-6:
+        s, c = 1.0, 0.5
+    else:
+        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
+    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
+    x, y, z = s * x, s * y, s * z
+    return np.array([[1.0 - yy - zz, xy - z, xz + y], [xy + z, 1.0 - xx - zz, yz - x], [xz - y, yz + x, 1.0 - xx - yy]])
 
 
 def _orthonormal(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """First-order re-orthonormalisation, enough for a rotation that is updated at every tick."""
-    return np.asarray(0.5 * rotation @ (3.0 * np.eye(3) - rotation.T @ rotation))
+    return np.asarray(rotation @ (_THREE_HALVES - 0.5 * (rotation.T @ rotation)))
 
 
 def heading(rotation: NDArray[np.float64]) -> float:
@@ -221,7 +224,7 @@ class FloatingBaseEstimator:
         # Gravity: the specific force minus the pendulum's own acceleration points up.
         specific = rotation @ accelerometer
         specific[:2] -= self._acceleration
-        size = float(np.linalg.norm(specific))
+        size = math.sqrt(float(specific @ specific))
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
             tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
             rate += self.gains.gravity * (rotation.T @ tilt)

@@ -7,8 +7,8 @@ solutions
     xi(t) = p(t) + p'/w + A e^(w t)              x(t) = p(t) + A/2 e^(w t) + B e^(-w t)
 
 The DCM is unstable forward in time, so its waypoints run backward from the last knot (T 4.14 corrected:
-xi_i = r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its END: A e^(w (t - T)) never
-grows, whatever the length of the plan. The CoM is stable forward in time and runs forward.
+xi_i = r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its END: A e^(w (t - T))
+never grows, whatever the length of the plan. The CoM is stable forward in time and runs forward.
 """
 
 from __future__ import annotations

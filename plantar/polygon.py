@@ -7,6 +7,7 @@ k = 0. Points that coincide or lie on one line give a polygon of 1 or 2 vertices
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -150,7 +151,7 @@ def closest_point(polygon: NDArray[np.float64], point: ArrayLike) -> NDArray[np.
     return np.array([px, py]) if inside else np.array([bx, by])
 
 
-def signed_margin(polygon: NDArray[np.float64], point: ArrayLike) -> float:
+def signed_margin(polygon: NDArray[np.float64], point: Sequence[float] | NDArray[np.float64]) -> float:
     """Signed distance in m of a point to the edge of a convex polygon: positive inside, negative outside.
 
     Args:
@@ -164,19 +165,22 @@ def signed_margin(polygon: NDArray[np.float64], point: ArrayLike) -> float:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
         0.25
     """
-    p = np.asarray(point, dtype=float)
-    if len(polygon) == 0:
+    nearest = closest_point(polygon, point)
+    if nearest is None:
         return -math.inf
-    nearest = closest_point(polygon, p)
-    assert nearest is not None
-    gap = float(np.hypot(*(p - nearest)))
+    px, py = (float(v) for v in point)
+    gap = math.hypot(px - nearest[0], py - nearest[1])
     if gap > 0.0 or len(polygon) < 3:
         return -gap
-    edge = np.roll(polygon, -1, axis=0) - polygon
-    length = np.hypot(edge[:, 0], edge[:, 1])
-    d = p - polygon
-    cross = edge[:, 0] * d[:, 1] - edge[:, 1] * d[:, 0]
-    return float((cross[length > 0] / length[length > 0]).min())
+    margin = math.inf
+    ring = polygon.tolist()
+    ax, ay = ring[-1]
+    for bx, by in ring:
+        length = math.hypot(bx - ax, by - ay)
+        if length > 0.0:
+            margin = min(margin, ((bx - ax) * (py - ay) - (by - ay) * (px - ax)) / length)
+        ax, ay = bx, by
+    return margin
 
 
 def inner_offset(polygon: NDArray[np.float64], distance: float) -> NDArray[np.float64]:

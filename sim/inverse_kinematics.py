@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dposv
 
 from gait.estimator import Posture
 from plantar.layout import Side
@@ -43,6 +44,7 @@ class LegModel:
         self._jac = np.zeros((18, n))
         self._jac_torso = np.zeros((3, n))
         self._error = np.zeros(18)
+        self._velocity = np.zeros(n)
         self._static = mujoco.MjData(model)
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
@@ -112,12 +114,12 @@ class LegModel:
                 row += 6
             square = jac[:, self._columns]
             normal = square.T @ square
-            normal[np.diag_indices_from(normal)] += 1e-8
-            step = np.linalg.solve(normal, square.T @ error)
-            velocity = np.zeros(model.nv)
-            velocity[self._columns] = np.clip(step, -0.5, 0.5)
-            mujoco.mj_integratePos(model, data.qpos, velocity, 1.0)
-            data.qpos[self._qpos] = np.clip(data.qpos[self._qpos], self._lower, self._upper)
+            normal.ravel()[:: len(normal) + 1] += 1e-8
+            _, step, _ = dposv(normal, square.T @ error)
+            self._velocity[self._columns] = np.minimum(np.maximum(step, -0.5), 0.5)
+            mujoco.mj_integratePos(model, data.qpos, self._velocity, 1.0)
+            joints = np.minimum(np.maximum(data.qpos[self._qpos], self._lower), self._upper)
+            data.qpos[self._qpos] = joints
         return data.qpos[self._qpos].copy(), float(np.abs(error).max())
 
     def static_torques(
@@ -144,10 +146,11 @@ class LegModel:
                 continue
             mujoco.mj_jac(model, data, jac, None, points[side], model.site_bodyid[self._sites[side]])
             result -= jac.T @ forces[side]
-        return result[self._dof]
+        torques: NDArray[np.float64] = result[self._dof]
+        return torques
 
 
 def _rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotation vector (3,) in the world frame that turns `actual` into `wanted`, exact to first order."""
-    e = wanted @ actual.T
-    return 0.5 * np.array([e[2, 1] - e[1, 2], e[0, 2] - e[2, 0], e[1, 0] - e[0, 1]])
+    (_, xy, xz), (yx, _, yz), (zx, zy, _) = (wanted @ actual.T).tolist()
+    return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])

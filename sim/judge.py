@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layout import Side
-from plantar.polygon import area, convex_hull
-from sim.contact_truth import GroundTruth, foot_contacts, ground_truth
+from plantar.polygon import area
+from sim.contact_truth import GroundTruth, foot_contacts, ground_truth, small_hull
 from sim.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
@@ -62,7 +62,7 @@ class Judge:
 
     def __post_init__(self) -> None:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
-        self._air = {s: 0 for s in _SIDES}
+        self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         self._adr = tuple(self.world.touch[s] for s in _SIDES)
         self.truth: GroundTruth | None = None
@@ -109,7 +109,8 @@ class Judge:
         for side in _SIDES:
             last = self._landing[side]
             if last is not None and data.time - last.time <= _SETTLED and contacts[side].size >= 3:
-                last.area = max(last.area, area(convex_hull(contacts[side].positions[:, :2])))
+                hull = small_hull([(x, y) for x, y, _ in contacts[side].positions.tolist()])
+                last.area = max(last.area, area(np.array(hull)))
         ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
         if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
             self.fell = True

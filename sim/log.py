@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from gait.controller import Command, Sensors
 from plantar.layout import Side
-from plantar.recorder import Recorder
 from plantar.reading import Reading
+from plantar.recorder import Recorder
 from sim.contact_truth import GroundTruth
 from sim.world import World
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
-from dataclasses import asdict, dataclass
-from pathlib import Path
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import mujoco
@@ -20,11 +19,12 @@ from gait.footsteps import straight_plan
 from gait.phases import Timing
 from gait.walk_plan import vrp_of_step
 from plantar.atomic import replacing
-from plantar.layout import Side
+from plantar.layout import Side, SoleLayout
 from plantar.polygon import centroid
 from sim.judge import Judge
 from sim.log import RunLog
 from sim.pushing import Pusher
+from sim.render import FRAME_RATE, Film
 from sim.robots.robot import Robot, load_robot
 from sim.scene import Scene
 from sim.sensors import SensorSuite
@@ -41,6 +41,7 @@ CONTROL_PERIOD = 0.005
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
+_FRAME_EVERY = round(1.0 / (FRAME_RATE * PHYSICS_PERIOD))
 
 
 @dataclass(frozen=True)
@@ -58,16 +59,19 @@ class Simulation:
     Args:
         scene: The scene.
         seed: Seed of sensor noise and of what the scene leaves to chance.
+        layouts: Sole layouts to wear instead of the robot's own, for example from a freshly built shoe.
 
     Raises:
         RobotError: If the robot is unknown or not valid.
         SceneError: If the robot cannot do what the scene asks for.
     """
 
-    def __init__(self, scene: Scene, seed: int = 0) -> None:
+    def __init__(self, scene: Scene, seed: int = 0, layouts: Mapping[Side, SoleLayout] | None = None) -> None:
         self.scene = scene
         self.seed = seed
         robot = load_robot(scene.robot)
+        if layouts is not None:
+            robot = replace(robot, layouts=dict(layouts))
         self.robot: Robot = robot
         self.world: World = build_world(robot, scene.terrain)
         self.legs = build_leg_model(robot)
@@ -102,25 +106,34 @@ class Simulation:
         stand(self.world, self.legs, self.servos, self.feet, centers, robot.com_height)
         self.judge = Judge(self.world, robot.com_height)
 
-    def run(self, *, record: str | os.PathLike[str] | None = None, progress: Progress | None = None) -> dict[str, Any]:
+    def run(
+        self,
+        *,
+        record: str | os.PathLike[str] | None = None,
+        video: str | os.PathLike[str] | None = None,
+        progress: Progress | None = None,
+    ) -> dict[str, Any]:
         """Run the scene to its end or to the fall.
 
         Args:
             record: MCAP file to write; it takes its name when the run is over.
+            video: MP4 file to write, in real time.
             progress: Called about ten times a second with the fraction done and a text.
 
         Returns:
             The summary (see DESIGN: `plantar sim --json`).
         """
         with ExitStack() as stack:
-            log = None
+            log = film = None
             if record is not None:
                 temporary = stack.enter_context(replacing(record))
                 log = stack.enter_context(RunLog(temporary, self.world, self._identity()))
-            result = self._loop(log, progress)
+            if video is not None:
+                film = stack.enter_context(Film(video, self.world))
+            result = self._loop(log, film, progress)
         return self._summary(result)
 
-    def _loop(self, log: RunLog | None, progress: Progress | None) -> _Result:
+    def _loop(self, log: RunLog | None, film: Film | None, progress: Progress | None) -> _Result:
         world, model, data = self.world, self.world.model, self.world.data
         controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
         everything = self.scene.control.skip == "none"
@@ -148,15 +161,17 @@ class Simulation:
                     break
                 if progress is not None and start - shown > 0.1:
                     shown = start
-                    done = len([x for x in judge.landings if x.time <= data.time])
-                    progress(k / last_step, f"{data.time:.1f} s, {done} of {len(self.steps)} steps")
+                    progress(k / last_step, f"{data.time:.1f} s, {len(judge.landings)} of {len(self.steps)} steps")
+            if k % _FRAME_EVERY == 0:
+                if film is not None:
+                    film.add()
+                else:
+                    skipped["rendered_frames"] += 1
             servos.drive()
             self.pusher.apply(world)
             mujoco.mj_step(model, data)
             judge.watch()
-        wall = clock.perf_counter() - began
-        skipped["rendered_frames"] = int(30.0 * data.time)
-        return _Result(ticks, wall, skipped)
+        return _Result(ticks, clock.perf_counter() - began, skipped)
 
     def _identity(self) -> dict[str, object]:
         return {
@@ -248,8 +263,10 @@ def run_scene(
     scene: Scene,
     seed: int = 0,
     *,
-    record: str | os.PathLike[str] | Path | None = None,
+    layouts: Mapping[Side, SoleLayout] | None = None,
+    record: str | os.PathLike[str] | None = None,
+    video: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run one scene; see `Simulation`."""
-    return Simulation(scene, seed).run(record=record, progress=progress)
+    """Run one scene; see `Simulation` and `Simulation.run` for arguments and result."""
+    return Simulation(scene, seed, layouts).run(record=record, video=video, progress=progress)

@@ -64,7 +64,7 @@ def stand(
             f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart"
         )
     half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
-    torques = legs.static_torques({s: half for s in _SIDES}, {s: np.array([*centers[s], ground]) for s in _SIDES})
+    torques = legs.static_torques(dict.fromkeys(_SIDES, half), {s: np.array([*centers[s], ground]) for s in _SIDES})
     data = world.data
     mujoco.mj_resetData(world.model, data)
     data.qpos[:] = legs.configuration

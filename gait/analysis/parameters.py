@@ -26,6 +26,9 @@ __all__ = [
     "symmetry",
 ]
 
+COP_WINDOW = 0.05
+"""Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
+
 IMPACT_WINDOW = 0.05
 """Time in s after touchdown in which the landing impact is looked for."""
 
@@ -106,7 +109,8 @@ class FootGait:
         levels: Force levels of its events, None where the foot carries no load.
         contacts: All contacts, also those cut by the recording.
         steps: The complete ones, measured.
-        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, NaN without load; None without geometry.
+        cop: Centre of pressure (n, 2) of each frame in the sole frame in m, averaged over 50 ms; NaN without load, None
+            without geometry.
         cell_threshold: Force in N (k,) above which a cell counts as loaded.
     """
 
@@ -137,6 +141,8 @@ def analyse_foot(recording: PressureRecording, side: Side) -> FootGait:
     if other in recording.feet:
         others = find_contacts(recording.time, recording.feet[other].vertical_force)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
+    if cop is not None:
+        cop = _averaged(cop, force, round(COP_WINDOW * recording.rate_hz))
     threshold = _cell_threshold(foot, contacts)
     steps: list[Step] = []
     for i, contact in enumerate(contacts):
@@ -148,6 +154,27 @@ def analyse_foot(recording: PressureRecording, side: Side) -> FootGait:
             _measure(recording, foot, contact, previous, following, others, cop, threshold, number=len(steps) + 1)
         )
     return FootGait(foot, levels, tuple(contacts), tuple(steps), cop, threshold)
+
+
+def _averaged(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+    """Running mean of points (n, 2), weighted, over about so many frames; NaN stays NaN.
+
+    The window is centred and shrinks towards the ends of a span of points, so that an even motion keeps its ends.
+    """
+    known = np.isfinite(points[:, 0])
+    n = len(known)
+    index = np.arange(n)
+    before = index - np.maximum.accumulate(np.where(known, -1, index))
+    after = np.minimum.accumulate(np.where(known, n, index)[::-1])[::-1] - index
+    half = np.minimum(frames // 2, np.minimum(before, after) - 1).clip(0)
+    load = np.where(known, weight, 0.0)
+    total = np.concatenate([[0.0], np.cumsum(load)])
+    out = np.full_like(points, np.nan)
+    first, last = (index - half)[known], (index + half + 1)[known]
+    for axis in range(2):
+        moment = np.concatenate([[0.0], np.cumsum(load * np.where(known, points[:, axis], 0.0))])
+        out[known, axis] = (moment[last] - moment[first]) / (total[last] - total[first])
+    return out
 
 
 def _cell_threshold(foot: FootRecording, contacts: Sequence[Contact]) -> NDArray[np.float64]:

@@ -133,6 +133,7 @@ def _leg(
     ax, ay = p.ankle_offset
     cx, cy = sole["center"]
     lx, ly = sole["half_size"]
+    knee = f"{ax:.6g} {mirror * ay:.6g} {-p.thigh_length:.6g}"
     bottom = -(p.ankle_height + thickness)
     foot_x, foot_y, foot_z = 2 * lx * 0.9, 2 * ly * 0.9, 0.05
     return f"""
@@ -146,11 +147,12 @@ def _leg(
         <body name="{side}_thigh">
           {_mass_attributes(m[2], (0.11, 0.11, p.thigh_length), (0, 0, -p.thigh_length / 2))}
           {joint(2)}
-          <geom class="look" type="capsule" size="0.055" fromto="0 0 -.03 {ax:.6g} {mirror * ay:.6g} {-p.thigh_length:.6g}"/>
-          <body name="{side}_shank" pos="{ax:.6g} {mirror * ay:.6g} {-p.thigh_length:.6g}">
+          <geom class="look" type="capsule" size="0.055" fromto="0 0 -.03 {knee}"/>
+          <body name="{side}_shank" pos="{knee}">
             {_mass_attributes(m[3], (0.09, 0.09, p.shank_length), (0, 0, -p.shank_length / 2))}
             {joint(3)}
-            <geom class="look" type="capsule" size="0.045" fromto="0 0 0 0 0 {-p.shank_length:.6g}" rgba=".25 .27 .3 1"/>
+            <geom class="look" type="capsule" size="0.045" rgba=".25 .27 .3 1"
+              fromto="0 0 0 0 0 {-p.shank_length:.6g}"/>
             <body name="{side}_ankle" pos="0 0 {-p.shank_length:.6g}">
               {_mass_attributes(m[4], (0.06, 0.06, 0.06), (0, 0, 0))}
               {joint(4)}
@@ -229,8 +231,16 @@ def biped_mjcf(
         raise RobotError(f"robot '{name}': the links weigh more than total_mass = {p.total_mass} kg")
     chest_z = _chest_height(p, np.asarray(posture, dtype=float), shoe_mass, shoe_thickness)
     w, d, h = p.chest_size[1], p.chest_size[0], p.chest_size[2]
+
+    def arm(mirror: float) -> str:
+        shoulder = f"0 {mirror * w * 0.5:.6g} {chest_z + 0.28:.6g}"
+        return (
+            f'<geom class="look" type="capsule" size=".045" '
+            f'fromto="{shoulder} 0 {mirror * w * 0.62:.6g} {chest_z - 0.25:.6g}"/>'
+        )
+
     sole = {"center": sole_center, "half_size": sole_half_size}
-    legs = "".join(_leg(side, p, sole, shoe_mass, shoe_thickness) for side in ("left", "right"))  # type: ignore[arg-type]
+    legs = "".join(_leg(side, p, sole, shoe_mass, shoe_thickness) for side in ("left", "right"))
     servos = "\n".join(
         f'    <position name="{side}_{joint}" joint="{side}_{joint}" kp="{stiffness:.6g}" kv="{damping:.6g}" '
         f'forcerange="{-p.effort_limits[i]:.6g} {p.effort_limits[i]:.6g}"/>'
@@ -253,8 +263,8 @@ def biped_mjcf(
         {_mass_attributes(chest, (d, w, h), (0, 0, chest_z))}
         <geom class="look" type="box" size="{d * 0.4:.6g} {w * 0.4:.6g} {h * 0.5:.6g}" pos="0 0 {chest_z + 0.08:.6g}"/>
         <geom class="look" type="sphere" size=".09" pos="0 0 {chest_z + 0.5 * h + 0.2:.6g}"/>
-        <geom class="look" type="capsule" size=".045" fromto="0 {w * 0.5:.6g} {chest_z + 0.28:.6g} 0 {w * 0.62:.6g} {chest_z - 0.25:.6g}"/>
-        <geom class="look" type="capsule" size=".045" fromto="0 {-w * 0.5:.6g} {chest_z + 0.28:.6g} 0 {-w * 0.62:.6g} {chest_z - 0.25:.6g}"/>
+        {arm(1.0)}
+        {arm(-1.0)}
       </body>{legs}
     </body>
   </worldbody>

@@ -11,17 +11,17 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from plantar.errors import LayoutError, RobotError
-from plantar.layout import SoleLayout
+from plantar.layout import Side, SoleLayout
 from plantar.layout_file import read_layout
 from sim.robots.biped import BipedParameters
 
 __all__ = ["FootShape", "LegNames", "Robot", "builtin_robots", "load_robot"]
 
 _FOLDER = Path(__file__).parent
-_SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
+_SIDES: tuple[Side, ...] = ("left", "right")
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class Robot:
     foot: FootShape
     shoe_thickness: float
     shoe_mass: float
-    layouts: Mapping[str, SoleLayout]
+    layouts: Mapping[Side, SoleLayout]
     legs: Mapping[str, LegNames]
     torso_body: str
     imu_site: str
@@ -102,7 +102,7 @@ class Robot:
     balance: Mapping[str, Any]
     path: Path
 
-    def sole_rectangle(self, side: str) -> tuple[tuple[float, float], tuple[float, float]]:
+    def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
         """Bounding rectangle of a sole's outline: centre (x, y) and half size (x, y) in the sole frame in m."""
         outline = self.layouts[side].outline
         low, high = outline.min(axis=0), outline.max(axis=0)

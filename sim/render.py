@@ -1,0 +1,165 @@
+"""Pictures and videos of a run. Without a display MuJoCo needs MUJOCO_GL=egl before it is first imported."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import replacing
+from plantar.errors import DependencyError, InputError
+
+if TYPE_CHECKING:
+    from sim.world import World
+
+__all__ = ["FRAME_RATE", "Camera", "Film", "VideoWriter", "save_picture"]
+
+FRAME_RATE = 25.0
+"""Frames a second of a video; a whole number of physics steps apart."""
+
+
+class Camera:
+    """Looks at the robot from its right front side and follows it.
+
+    Args:
+        model: MuJoCo model.
+        body: Id of the body to follow.
+        width: Picture width in pixels.
+        height: Picture height in pixels.
+        distance: Distance of the eye in m.
+        azimuth: Viewing direction about z in degrees.
+        elevation: Viewing direction against the horizon in degrees.
+
+    Raises:
+        InputError: If no renderer can be made; the message names the cause.
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        body: int,
+        width: int = 960,
+        height: int = 540,
+        distance: float = 2.6,
+        azimuth: float = 145.0,
+        elevation: float = -12.0,
+    ) -> None:
+        import mujoco
+
+        self._body = body
+        self._camera = mujoco.MjvCamera()
+        self._camera.distance, self._camera.azimuth, self._camera.elevation = distance, azimuth, elevation
+        model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
+        model.vis.global_.offheight = max(model.vis.global_.offheight, height)
+        try:
+            self._renderer = mujoco.Renderer(model, height, width)
+        except Exception as error:  # MuJoCo raises what its OpenGL loader raises
+            raise InputError(
+                f"cannot render without a display ({error}); set MUJOCO_GL=egl before Python starts, and install "
+                "the OpenGL library where it is missing: apt-get install libegl1 libgl1-mesa-dri"
+            ) from None
+
+    def picture(self, data: Any) -> NDArray[np.uint8]:
+        """The scene now, RGB (height, width, 3)."""
+        self._camera.lookat[:] = data.xpos[self._body] - np.array([0.0, 0.0, 0.25])
+        self._renderer.update_scene(data, self._camera)
+        return np.asarray(self._renderer.render())
+
+    def close(self) -> None:
+        """Free the renderer."""
+        self._renderer.close()
+
+
+def _opencv() -> Any:
+    try:
+        import cv2
+    except ImportError:
+        raise DependencyError("opencv-contrib-python-headless", "sim") from None
+    return cv2
+
+
+def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Path:
+    """Save an RGB picture (height, width, 3) as PNG or JPEG; it appears whole or not at all."""
+    cv2 = _opencv()
+    with replacing(path) as temporary:
+        cv2.imwrite(str(temporary), picture[:, :, ::-1])
+    return Path(path)
+
+
+class VideoWriter:
+    """Writes an MP4; a context manager. The file takes its name when it is complete.
+
+    Args:
+        path: File to write, ending in .mp4.
+        rate: Frames a second.
+
+    Raises:
+        InputError: If the name does not end in .mp4 or the file cannot be written.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], rate: float = FRAME_RATE) -> None:
+        if Path(path).suffix != ".mp4":
+            raise InputError(f"video {path} needs a name that ends in .mp4")
+        self._cv2 = _opencv()
+        self._rate = rate
+        self._replacing = replacing(path)
+        self._writer: Any = None
+
+    def __enter__(self) -> Self:
+        self._temporary = self._replacing.__enter__()
+        return self
+
+    def add(self, picture: NDArray[np.uint8]) -> None:
+        """Add an RGB frame (height, width, 3)."""
+        if self._writer is None:
+            height, width = picture.shape[:2]
+            code = self._cv2.VideoWriter.fourcc(*"mp4v")
+            self._writer = self._cv2.VideoWriter(str(self._temporary), code, self._rate, (width, height))
+            if not self._writer.isOpened():
+                raise InputError("cannot encode MP4: this OpenCV has no video encoder")
+        self._writer.write(picture[:, :, ::-1])
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._writer is not None:
+            self._writer.release()
+        self._replacing.__exit__(kind, error, trace)
+
+
+class Film:
+    """A video of a world; a context manager.
+
+    Args:
+        path: MP4 file to write.
+        world: The world, followed at its torso.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], world: World) -> None:
+        self._world = world
+        self._writer = VideoWriter(path)
+        self._camera = Camera(world.model, world.torso)
+
+    def __enter__(self) -> Self:
+        self._writer.__enter__()
+        return self
+
+    def add(self) -> None:
+        """Add a frame of the world as it is now."""
+        self._writer.add(self._camera.picture(self._world.data))
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._writer.__exit__(kind, error, trace)
+        self._camera.close()
