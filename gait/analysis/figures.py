@@ -35,7 +35,10 @@ def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
     shown = {side: values for side, values in maps.items() if values is not None}
     if not shown:
         return None
-    figure, axes = new_figure(3.2 * len(shown) + 1.6, 6.2, columns=len(shown), squeeze=False)
+    extents = [np.ptp(layout.outline, axis=0) for side in shown if (layout := feet[side].foot.layout) is not None]
+    slender = max(float(length / width) for length, width in extents)
+    height = min(6.4, 1.8 + 2.5 * slender)
+    figure, axes = new_figure(3.2 * len(shown) + 1.6, height, columns=len(shown), squeeze=False)
     highest = max(float(values.max()) for values in shown.values()) / 1e3
     drawn = None
     for panel, (side, values) in zip(axes[0], shown.items(), strict=True):
