@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Annotated, Any, cast
 
 import typer
 
-from plantar.errors import InputError, PlantarError, RobotError
+from plantar.atomic import write_text
+from plantar.errors import DependencyError, InputError, PlantarError, RobotError
 
 app = typer.Typer(
     name="plantar",
@@ -209,6 +211,171 @@ def analyze(
         print(f"  note: {warning}", file=sys.stderr)
     for name in result["files"]:
         print(f"  {name}")
+
+
+@app.command()
+def sim(
+    scene: Annotated[str, typer.Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],
+    robot: Annotated[
+        str | None, typer.Option(help="Robot to use instead of the scene's: a built-in name or a robot .toml file.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the sensor noise and of what the scene leaves to chance.")] = 0,
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Change a value of the scene; repeatable.")
+    ] = None,
+    record: Annotated[Path | None, typer.Option(help="Write a recording: an .mcap file that Foxglove reads.")] = None,
+    video: Annotated[Path | None, typer.Option(help="Write a video: an .mp4 file (slow without a GPU).")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Folder for figures: balance, plane and feet.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """Run one scenario in MuJoCo and judge it by the true contact forces.
+
+    The controller reads taxels, encoders and IMU only; the judge reads the simulator. Exit code 1 if the robot fell or
+    did not do what was planned.
+
+    Example: plantar sim flat --robot h1 --plot out/flat
+
+    Example: plantar sim push --seed 3 --set feedback=false --json
+    """
+    from tempfile import TemporaryDirectory
+
+    if seed < 0:
+        raise InputError(f"--seed is {seed}; allowed: 0 or more")
+    if record is not None and record.suffix != ".mcap":
+        raise InputError(f"--record {record} needs a name that ends in .mcap")
+    if video is not None:
+        os.environ.setdefault("MUJOCO_GL", "egl")
+    _need("mujoco", "sim")
+    from plantar.atomic import output_folder
+    from sim.figures import plot_run
+    from sim.runner import run_scene
+    from sim.scene import load_scene
+
+    loaded = load_scene(scene, settings or [], robot)
+    with ExitStack() as stack:
+        folder = None if plot is None else stack.enter_context(output_folder(plot))
+        kept = record
+        if kept is None and folder is not None:
+            kept = Path(stack.enter_context(TemporaryDirectory())) / "run.mcap"
+        with _progress() as tell:
+            summary = run_scene(loaded, seed, record=kept, video=video, progress=tell)
+        if folder is not None and kept is not None:
+            figures = [str(cast(Path, plot) / f.name) for f in plot_run(kept, folder)]
+            summary["figures"] = figures
+    if as_json:
+        print(json.dumps(summary))
+    else:
+        _print_run(summary)
+    if not summary["completed"]:
+        raise typer.Exit(1)
+
+
+def _print_run(summary: dict[str, Any]) -> None:
+    """A run's figures for people."""
+    end = "completed" if summary["completed"] else ("FELL" if summary["fell"] else "NOT COMPLETED")
+    print(
+        f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']} of "
+        f"{summary['steps_planned']} steps in {summary['sim_time_s']:.1f} s"
+    )
+    margin = summary["zmp_margin_min_m"]
+    print(
+        f"  largest tilt {summary['tilt_max_deg']:.2f} deg, smallest true ZMP margin "
+        f"{'-' if margin is None else f'{1e3 * margin:.1f} mm'}"
+    )
+    if summary["impacts_N"]:
+        impacts = sorted(summary["impacts_N"])
+        print(f"  landing impact: median {impacts[len(impacts) // 2]:.0f} N, largest {impacts[-1]:.0f} N")
+    final = summary["final"]
+    print(
+        f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan; "
+        f"estimated CoM off by at most {1e3 * max(summary['estimate']['com_error_max_m']):.1f} mm"
+    )
+    tick = summary["control_us"]
+    print(
+        f"  {summary['real_time_factor']:.1f} x real time; control tick {tick['p50']:.0f} us (median), "
+        f"{tick['p99']:.0f} us (99 %)"
+    )
+    for name in summary.get("figures", []):
+        print(f"  {name}")
+
+
+@app.command()
+def demo(
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything that is made.")] = Path("out"),
+    seed: Annotated[int, typer.Option(help="Seed of the sensor noise.")] = 0,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """The main job in one go: build the H1's tactile shoes, walk on them, analyse the walk.
+
+    The simulator wears the layouts that the shoe builder has just written, and the analysis reads the recording that
+    the simulator has just made.
+
+    Example: plantar demo -o out
+    """
+    _need("cadquery", "shoes")
+    _need("mujoco", "sim")
+    from gait.analysis.analyse import analyse_recording
+    from plantar.atomic import output_folder
+    from plantar.layout_file import read_layout
+    from shoes import ShoeParameters, build_shoe, export_shoe
+    from sim.figures import plot_run
+    from sim.runner import run_scene
+    from sim.scene import load_scene
+
+    with output_folder(output) as folder, _progress() as tell:
+        for name in ("shoe", "walk", "analysis"):
+            (folder / name).mkdir()
+        shape, taxels = _robot_foot("h1")
+        build = build_shoe(
+            shape,
+            side="both",
+            taxels=taxels,
+            parameters=ShoeParameters(),
+            progress=lambda share, text: tell(0.3 * share, f"shoe: {text}"),
+        )
+        report = export_shoe(
+            build, folder / "shoe", progress=lambda share, text: tell(0.3 + 0.2 * share, f"shoe: {text}")
+        ).as_dict()
+        walk = run_scene(
+            load_scene("flat"),
+            seed,
+            layouts={s: read_layout(folder / "shoe" / f"layout_{s}.json") for s in ("left", "right")},
+            record=folder / "walk" / "run.mcap",
+            progress=lambda share, text: tell(0.5 + 0.3 * share, f"walk: {text}"),
+        )
+        plot_run(folder / "walk" / "run.mcap", folder / "walk")
+        write_text(folder / "walk" / "summary.json", json.dumps(walk, indent=1) + "\n")
+        analysis = analyse_recording(
+            folder / "walk" / "run.mcap",
+            folder / "analysis",
+            progress=lambda share, text: tell(0.8 + 0.2 * share, f"analysis: {text}"),
+        )
+        files = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+    done = bool(walk["completed"]) and bool(report["holds"])
+    if as_json:
+        print(json.dumps({"completed": done, "shoe": report, "walk": walk, "analysis": analysis, "files": files}))
+    else:
+        print(
+            f"shoe: {report['taxels']} taxels, {report['mass_g']:.0f} g, "
+            f"{'all checks hold' if report['holds'] else 'A CHECK DOES NOT HOLD'}"
+        )
+        _print_run(walk)
+        steps = {side: foot["steps"] for side, foot in analysis["feet"].items()}
+        print(f"analysis: {steps.get('left', 0)} left and {steps.get('right', 0)} right complete steps")
+        print("made:")
+        for name in files:
+            print(f"  {name}")
+        print(f"open {output / 'analysis' / 'report.html'} in a browser")
+    if not done:
+        raise typer.Exit(1)
+
+
+def _need(library: str, extra: str) -> None:
+    """Raise a clear error where an optional library is missing."""
+    from importlib.util import find_spec
+
+    if find_spec(library) is None:
+        raise DependencyError(library, extra)
 
 
 @app.command(name="list")
