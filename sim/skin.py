@@ -31,9 +31,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layout import DEFAULT_RANGES, SoleLayout
-from plantar.polygon import closest_point, convex_hull, inner_offset
+from plantar.polygon import closest_point, inner_offset
 from plantar.reading import Reading
-from sim.contact_truth import REACH, ContactSet, foot_contacts
+from sim.contact_truth import REACH, ContactSet, foot_contacts, small_hull
 
 __all__ = ["SkinSensor", "SolePressure", "SoleSkin"]
 
@@ -87,6 +87,7 @@ class SolePressure:
         self.layout = layout
         self.rubber = rubber
         self._cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
+        self._area = shapely.area(self._cells)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         self._patches: dict[tuple[tuple[int, int], ...], _Patch] = {}
 
@@ -129,13 +130,18 @@ class SolePressure:
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
         import shapely
 
-        polygon = shapely.Polygon(_at_least_wide(convex_hull(points), self.rubber))
-        covered = shapely.intersection(self._cells, polygon)
-        area = shapely.area(covered)
+        polygon = shapely.Polygon(_at_least_wide(_hull(points), self.rubber))
+        shapely.prepare(polygon)
+        whole = shapely.contains(polygon, self._cells)
+        cut = np.flatnonzero(shapely.intersects(polygon, self._cells) & ~whole)
+        area = np.where(whole, self._area, 0.0)
+        points = self.layout.positions[:, :2].copy()
+        parts = shapely.intersection(self._cells[cut], polygon)
+        area[cut] = shapely.area(parts)
         if area.sum() > 0.5 * polygon.area:
-            cells = np.flatnonzero(area > _LEAST_SHARE * self.layout.areas)
-            area = area[cells]
-            points = shapely.get_coordinates(shapely.centroid(covered[cells]))
+            cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
+            points[cut[area[cut] > 0.0]] = shapely.get_coordinates(shapely.centroid(parts[area[cut] > 0.0]))
+            area, points = area[cells], points[cells]
         else:  # on the bare rim beside the cells: the cells nearest to the patch's edge carry it
             rim = shapely.get_coordinates(shapely.segmentize(polygon, 0.5 * self.rubber))
             nearest = shapely.STRtree(self._cells).nearest(shapely.points(rim))
@@ -158,7 +164,7 @@ class SolePressure:
             np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]]),
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
             np.asarray(np.linalg.pinv(weighted.T @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
-            inner_offset(convex_hull(u[:, 1:]), 2e-3),
+            inner_offset(_hull(u[:, 1:]), 2e-3),
         )
 
 
@@ -379,6 +385,10 @@ def _id_of(model: Any, kind: Any, word: str, name: str) -> int:
         known = ", ".join(n for n in names if n) or "none"
         raise RobotError(f"the model has no {word} named {name!r}; it has: {known}")
     return found
+
+
+def _hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.array(small_hull([(x, y) for x, y in points.tolist()]))
 
 
 def _largest(residual: NDArray[np.float64]) -> float:

@@ -162,6 +162,8 @@ at its own position. "A ms, ratio" is a physics step and a quarter of a reading 
 
 {stance}
 
+- The patches are fitted to the exact wrench, so their error is zero as far as the taxels' centres reach; what could go
+  wrong is a load beyond that reach, a sole that tips elsewhere or a patch that is not the contact's (below).
 - A penetration field cannot give the centre of pressure: the box rests on corners at +-a, whose springs answer an
   eccentric load with a tilt three times smaller than a foundation under the whole face would need (a^2 against
   a^2 / 3), so the tactile sensor scaled to fz alone shows a third of the way. Scaled to the whole wrench it is right.
@@ -195,9 +197,9 @@ Recommended for a sole on stiff position servos, at 1 ms: `solref="{best.time_co
 solimp="{impedance}" condim="{best.condim}" gap="{best.gap:g}"`, cone {best.cone}, impratio {best.friction_ratio:g}.
 
 - The landing peak is the leg's, not the contact's: it hardly moves. Harder contacts than these rebound more.
-- Creep under a tangential load falls with impratio; without it a standing robot walks off by itself. The elliptic
-  cone at impratio {best.friction_ratio:g} costs no time.
-- Four corners resist a twist by themselves: condim 4 changes nothing for a box. It would for a single sphere.
+- Creep under a tangential load falls with impratio and with softness; with MuJoCo's defaults the sole drifts by
+  millimetres a second. The elliptic cone at impratio {best.friction_ratio:g} costs no time.
+- Four corners resist a twist by themselves: condim 4 changes nothing for a box.
 - `gap` makes MuJoCo report corners that hover by micrometres under an eccentric load, so that the patch stays whole.
 """
 
