@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -14,7 +15,7 @@ from plantar.layout import Side, SoleLayout
 from shoes.fit import LatticeFit, fit_lattice
 from shoes.foot import Foot
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan, mirrored_plan, plan_shoe
+from shoes.plan import CORNER, ShoePlan, mirrored_plan, plan_shoe
 from shoes.tray import build_tray, load_cadquery, surface_of
 
 __all__ = ["Progress", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
@@ -106,14 +107,15 @@ def build_shoe(
         >>> foot = foot_from_dimensions("a", length=0.2, width=0.1, sole_center=(0.02, 0.0), corner_radius=0.01)
         >>> build = build_shoe(foot, layout_only=True)
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
-        [('left', 20), ('right', 20)]
+        [('left', 21), ('right', 21)]
     """
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
     sides: tuple[Side, ...] = ("left", "right") if side == "both" else (side,)
     tell = progress or (lambda fraction, text: None)
     p = parameters or ShoeParameters()
-    room = p.overhang_max - p.border - p.pocket_clearance
+    # A recess reaches beyond the corner of a cell by the clearance over sin 60 degrees.
+    room = p.overhang_max - CORNER * p.border - p.pocket_clearance / math.sin(math.pi / 3)
     if overhang > max(room, 0.0):
         raise InputError(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {max(room, 0.0):g} mm (overhang_max)"

@@ -96,6 +96,7 @@ def check_shoe(shoe: Shoe, parameters: ShoeParameters, *, surface: NDArray[np.fl
     ]
     wall = min(*walls, floor_thickness(surface, centres))
     corners = _pocket_corner_error(shoe, p, step)
+    gap = _gap_to_foot(shoe, section(surface, p.plate_thickness + 0.5 * p.rim_height))
     outside = _taxels_outside(shoe)
     size = np.ptp(surface.reshape(-1, 3), axis=0)
     overhang = shoe.plan.overhang
@@ -106,6 +107,7 @@ def check_shoe(shoe: Shoe, parameters: ShoeParameters, *, surface: NDArray[np.fl
         Check("separate surfaces in the STL", mesh.body_count == 1, float(mesh.body_count), "1"),
         Check("STL against STEP volume, %", difference <= 0.5, round(difference, 6), "0.5 or less"),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-3, round(wall, 3), f"{p.wall_min:g} or more"),
+        Check("gap between foot and rim, mm", gap >= p.clearance - 0.02, round(gap, 3), f"{p.clearance:g} or more"),
         Check("pocket corners against the layout, mm", corners <= 0.05, round(corners, 6), "0.05 or less"),
         Check("taxels beyond the contact face", outside == 0, float(outside), "0"),
         Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), f"{p.overhang_max:g} or less"),
@@ -222,6 +224,15 @@ def _pocket_corner_error(shoe: Shoe, parameters: ShoeParameters, step: Any) -> f
         gaps = np.hypot(wanted[:, None, 0] - found[None, :, 0], wanted[:, None, 1] - found[None, :, 1]).min(axis=1)
         worst = max(worst, float(gaps.max()))
     return worst
+
+
+def _gap_to_foot(shoe: Shoe, cut: Any) -> float:
+    """Smallest distance in mm between the foot and the rim in a section of the rim; 0 where it is not inside."""
+    import shapely
+
+    holes = [shapely.Polygon(h) for part in getattr(cut, "geoms", [cut]) for h in part.interiors]
+    around = [h for h in holes if h.covers(shoe.plan.foot)]
+    return float(min((h.exterior.distance(shoe.plan.foot) for h in around), default=0.0))
 
 
 def _taxels_outside(shoe: Shoe) -> int:

@@ -19,11 +19,11 @@ CELL_AREAS = (100.0, 5000.0)
 
 _ANGLES = (0.0, 30.0, 15.0, 45.0, 5.0, 10.0, 20.0, 25.0, 35.0, 40.0, 50.0, 55.0)
 """Lattice angles in degrees, in the order in which ties are decided; a hexagonal lattice repeats every 60."""
-_GRID = 0.05  # mm: placements lie on this grid, so that a layout has short numbers
-_COARSE = 24  # offsets along each axis of the lattice's unit cell
+_DECIMALS = 4  # of a placement in mm
+_COARSE = 12  # sampled offsets along each axis of the lattice's unit cell
 _OVERHANG_STEP = 0.5  # mm
 _KEPT = 40  # placements compared at each angle and number of cells
-_SLACK = 1e-6  # mm by which a cell may leave the region
+_SLACK = 1e-3  # mm by which a cell may leave the region; above the rounding of a placement
 
 
 @dataclass(frozen=True)
@@ -71,27 +71,28 @@ def whole_cell_region(region: Any, side: float, angle: float) -> Any:
         angle: Rotation of the cell in rad, as `HexLattice.angle`.
 
     Returns:
-        A shapely polygon, multipolygon, or an empty geometry; points on its edge count.
+        A shapely polygon, multipolygon, or an empty geometry; a cell may leave the region by a micrometre.
 
     Example:
         >>> import shapely
-        >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), 1.0, 0.0).area - (10 - 3**0.5) * 8) < 1e-3)
+        >>> bool(abs(whole_cell_region(shapely.box(0, 0, 10, 10), 1.0, 0.0).area - (10 - 3**0.5) * 8) < 0.1)
         True
     """
     import shapely
 
     turns = angle + np.pi / 6 + np.arange(6) * np.pi / 3
     hexagon = side * np.column_stack([np.cos(turns), np.sin(turns)])
+    region = region.buffer(_SLACK, join_style="mitre")
     points = np.array(region.exterior.coords)
     swept = np.concatenate([points[:-1, None] + hexagon, points[1:, None] + hexagon], axis=1)
     blocked = shapely.union_all(shapely.convex_hull(shapely.multipoints(swept)))
-    return region.difference(blocked).buffer(_SLACK, join_style="mitre")
+    return region.difference(blocked)
 
 
 def fit_lattice(
     sole: Any, *, cell_area: float = 691.0, taxels: int | None = None, overhang: float = 0.0, overhang_max: float = 0.0
 ) -> LatticeFit:
-    """Place the lattice so that the most whole cells lie inside a sole.
+    """Place the lattice so that the most whole cells lie inside a sole: at each of twelve angles, the most there are.
 
     Ties are decided by straight rows (0 or 30 degrees before others), by the area of the sole under the cells plus that
     inside their convex hull (the support polygon they can tell), and by how near the patch's centre is to the sole's.
@@ -165,7 +166,7 @@ class _Scan:
 
 
 def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
-    """Count whole cells over one unit cell of lattice origins, at every angle."""
+    """Count whole cells at every angle, at lattice origins among which is the best of that angle."""
     import shapely
 
     region = sole.buffer(overhang) if overhang > 0.0 else sole
@@ -177,15 +178,8 @@ def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
         if allowed.is_empty:
             continue
         shapely.prepare(allowed)
-        offsets = _offsets(lattice)
-        counts = _count(allowed, lattice, offsets)
-        # Placements with the most cells may fill only a sliver between the coarse offsets: look around the best.
-        promising = offsets[np.argsort(-counts, kind="stable")[:24]]
-        step = 1.5 * side / _COARSE / 3.0
-        fine = np.stack(np.meshgrid(*[np.arange(-2, 3) * step] * 2), axis=-1).reshape(-1, 2)
-        near = _on_grid((promising[:, None] + fine).reshape(-1, 2))
-        counts = np.concatenate([counts, _count(allowed, lattice, near)])
-        out.append(_Scan(rank, lattice.angle, allowed, np.concatenate([offsets, near]), counts))
+        offsets = np.concatenate([_sampled_offsets(lattice), _critical_offsets(allowed, lattice)])
+        out.append(_Scan(rank, lattice.angle, allowed, offsets, _count(allowed, lattice, offsets)))
     return out
 
 
@@ -199,7 +193,8 @@ def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) ->
         most = min(int(s.counts[s.counts >= taxels].min(initial=most)) for s in scans)
     out = []
     for scan in scans:
-        for i in np.flatnonzero(scan.counts == most)[:_KEPT]:
+        best = np.flatnonzero(scan.counts == most)
+        for i in best[np.unique(np.linspace(0, len(best) - 1, _KEPT).astype(int))] if len(best) else ():
             x, y = scan.offsets[i]
             lattice = HexLattice(cell_area, (float(x), float(y)), scan.angle)
             cells = _cells_inside(scan.allowed, lattice)
@@ -209,17 +204,47 @@ def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) ->
     return out
 
 
-def _on_grid(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Values on the placement grid, without the last-bit noise of a product."""
-    return np.asarray(np.round(np.rint(values / _GRID) * _GRID, 6))
-
-
-def _offsets(lattice: HexLattice) -> NDArray[np.float64]:
+def _sampled_offsets(lattice: HexLattice) -> NDArray[np.float64]:
     """Lattice origins (k, 2) that sample one unit cell of the lattice."""
     share = np.arange(_COARSE) / _COARSE
     u, v = np.meshgrid(share * lattice.width, share * 1.5 * lattice.side)
     c, s = math.cos(lattice.angle), math.sin(lattice.angle)
-    return _on_grid(np.stack([c * u - s * v, s * u + c * v], axis=-1).reshape(-1, 2))
+    return np.asarray(np.stack([c * u - s * v, s * u + c * v], axis=-1).reshape(-1, 2).round(_DECIMALS))
+
+
+def _critical_offsets(allowed: Any, lattice: HexLattice) -> NDArray[np.float64]:
+    """Lattice origins (k, 2) at which one cell is tight at a corner of the allowed area, or two at its edges.
+
+    The number of cells at an origin is the number of copies of the allowed area, moved by lattice vectors, that hold
+    the origin. The most copies overlap at a corner of one or where the edges of two cross: the best is among these.
+    """
+    import shapely
+
+    edge = allowed.boundary
+    shifts = _difference_vectors(allowed, lattice)
+    corners = shapely.get_coordinates(edge)
+    moved = shapely.transform(
+        np.repeat(edge, len(shifts)), lambda points: points + np.repeat(shifts, len(corners), axis=0)
+    )
+    crossings = shapely.get_coordinates(shapely.intersection(moved, edge))
+    points = np.concatenate([corners, crossings])
+    # The same placement, moved by a lattice vector to the unit cell at the origin.
+    c, s = math.cos(lattice.angle), math.sin(lattice.angle)
+    u, v = c * points[:, 0] + s * points[:, 1], -s * points[:, 0] + c * points[:, 1]
+    row = np.floor(v / (1.5 * lattice.side))
+    u, v = u - 0.5 * lattice.width * row, v - 1.5 * lattice.side * row
+    u = u - lattice.width * np.floor(u / lattice.width)
+    return np.unique(np.column_stack([c * u - s * v, s * u + c * v]).round(_DECIMALS), axis=0)
+
+
+def _difference_vectors(allowed: Any, lattice: HexLattice) -> NDArray[np.float64]:
+    """Lattice vectors (k, 2) between two cells of one placement, one of each opposite pair."""
+    low, high = np.array(allowed.bounds).reshape(2, 2)
+    start = HexLattice(lattice.area, angle=lattice.angle)
+    cells = start.cells_near(low - high, high - low)
+    cells = cells[(cells[:, 1] > 0) | ((cells[:, 1] == 0) & (cells[:, 0] > 0))]
+    vectors = start.centres(cells)
+    return np.asarray(vectors[(np.abs(vectors) <= high - low + _SLACK).all(axis=1)])
 
 
 def _count(allowed: Any, lattice: HexLattice, offsets: NDArray[np.float64]) -> NDArray[np.int64]:
@@ -279,13 +304,13 @@ def _centred(start: _Candidate, sole: Any, region: Any) -> _Candidate:
 
     allowed = whole_cell_region(region, start.lattice.side, start.lattice.angle)
     shapely.prepare(allowed)
-    best, step = start, 32 * _GRID
-    while step >= _GRID * 0.99:
+    best, step = start, 1.6
+    while step >= 0.05:
         moves = [(dx * step, dy * step) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
         trials = []
         for dx, dy in moves:
-            x, y = _on_grid(np.array(best.lattice.origin) + np.array([dx, dy]))
-            lattice = HexLattice(best.lattice.area, (float(x), float(y)), best.lattice.angle)
+            x, y = round(best.lattice.origin[0] + dx, _DECIMALS), round(best.lattice.origin[1] + dy, _DECIMALS)
+            lattice = HexLattice(best.lattice.area, (x, y), best.lattice.angle)
             centres = lattice.centres(best.cells)
             if shapely.contains_xy(allowed, centres[:, 0], centres[:, 1]).all():
                 trials.append(_candidate(sole, lattice, best.cells, best.rank))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from shoes.mesh_file import Unit, read_mesh
-from shoes.outline import outline_below, rounded_rectangle
+from shoes.outline import cut_below, outline_below, rounded_rectangle
 from shoes.units import MM_PER_M, to_mm
 
 __all__ = ["Foot", "Forward", "foot_from_dimensions", "foot_from_mesh"]
@@ -129,6 +129,8 @@ def foot_from_mesh(
     if mesh_side == "right":
         triangles = triangles * np.array([1.0, -1.0, 1.0])
         notes.append("the mesh is a right foot; mirrored to the left")
+    if not _is_closed(triangles):
+        notes.append("the mesh is not closed; only its outline is used")
     lowest = float(triangles[..., 2].min())
     plane = lowest if sole_z is None else sole_z
     if sole_z is None:
@@ -138,14 +140,13 @@ def foot_from_mesh(
         if plane - lowest > 1e-6:
             notes.append(f"{plane - lowest:.1f} mm of the mesh lie below the sole plane and are ignored")
     triangles = triangles - np.array([0.0, 0.0, plane])
-    triangles = triangles[triangles[..., 2].max(axis=1) >= 0.0]
+    flip = np.array([1.0, 1.0, -1.0])
+    triangles = cut_below(triangles * flip, 0.0) * flip
     if not len(triangles):
         raise FootError(f"{path}: no part of the mesh lies above the sole plane z = {plane:g} mm")
     sole = _checked_sole(triangles, sole_band, forward, str(path))
     if not _box_holds(sole.bounds, 0.5):
         notes.append("the mesh's origin lies far from the sole: the layout's origin is below it, not below an ankle")
-    if not _is_closed(triangles):
-        notes.append("the mesh is not closed; only its outline is used")
     box = sole.bounds
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     return Foot(

@@ -87,12 +87,25 @@ def _read_with_trimesh(file: Path, kind: str, data: bytes) -> NDArray[np.float64
         import trimesh
     except ImportError:
         raise DependencyError("trimesh", "shoes") from None
-    if kind == ".stl" and data[:5].lower() == b"solid" and b"facet" in data[:2000] and b"endsolid" not in data[-2000:]:
-        raise FootError(f"{file}: the text STL ends before 'endsolid': the file is cut short")
-    mesh = trimesh.load(file, process=False, force="mesh", skip_materials=True)
+    if kind == ".stl":
+        _check_stl(file, data)
+    with np.errstate(all="ignore"):  # coordinates that are not finite are reported below
+        mesh = trimesh.load(file, process=False, force="mesh", skip_materials=True)
     if not isinstance(mesh, trimesh.Trimesh):
         return np.empty((0, 3, 3))
     return np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]
+
+
+def _check_stl(file: Path, data: bytes) -> None:
+    """Refuse an STL that is cut short or foreign; the readers would take what they find of it."""
+    if data.lstrip()[:5].lower() == b"solid" and b"facet" in data[:4000]:
+        if b"endsolid" not in data[-4000:].lower():
+            raise FootError(f"{file}: the text STL ends before 'endsolid': the file is cut short")
+        return
+    stated = int.from_bytes(data[80:84], "little")
+    held = max(0, len(data) - 84) // 50
+    if len(data) != 84 + 50 * stated:
+        raise FootError(f"{file}: cut short or no STL: its header states {stated} triangles, the file holds {held}")
 
 
 def _read_3mf(file: Path) -> tuple[NDArray[np.float64], Unit]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 
-__all__ = ["outline_below", "ring", "rounded_rectangle", "single_outline", "tidy"]
+__all__ = ["cut_below", "outline_below", "ring", "rounded_rectangle", "single_outline", "tidy"]
 
 GRID = 1e-3
 """Grid in mm that polygon corners lie on."""
@@ -84,7 +84,7 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
     """
     import shapely
 
-    below = _cut_below(triangles, height)
+    below = cut_below(triangles, height)
     flat = below[..., :2]
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
@@ -123,8 +123,16 @@ def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:
     return tidy(shapely.Polygon(bridged.exterior).simplify(detail))
 
 
-def _cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
-    """Parts of triangles at or below z = height, as triangles (m, 3, 3)."""
+def cut_below(triangles: NDArray[np.float64], height: float) -> NDArray[np.float64]:
+    """Parts of a surface at or below a height.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm.
+        height: Height z in mm.
+
+    Returns:
+        Triangles (m, 3, 3); those that cross the height are cut there.
+    """
     z = triangles[..., 2]
     inside = z <= height
     count = inside.sum(axis=1)

@@ -16,7 +16,10 @@ from shoes.outline import ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
 from shoes.units import to_m
 
-__all__ = ["ShoePlan", "mirrored_plan", "plan_shoe"]
+__all__ = ["CORNER", "ShoePlan", "mirrored_plan", "plan_shoe"]
+
+CORNER = 1.2
+"""How much farther than its edges the corner of a grown outline may lie."""
 
 
 @dataclass(frozen=True)
@@ -71,22 +74,21 @@ def plan_shoe(foot: Foot, fit: LatticeFit, parameters: ShoeParameters, *, name: 
     import shapely
 
     outline = tidy(foot.outline_up_to(parameters.rim_height).union(foot.sole))
-    cavity = tidy(outline.buffer(parameters.clearance, quad_segs=8))
-    rim = tidy(outline.buffer(parameters.clearance + parameters.rim_thickness, quad_segs=8))
+    cavity = tidy(_grown(outline, parameters.clearance))
+    rim = tidy(_grown(outline, parameters.clearance + parameters.rim_thickness))
     hexagons = shapely.polygons(fit.lattice.corners(fit.cells))
     # Corners that cells share are bit-identical, so the union leaks no slivers.
     patch = shapely.union_all(hexagons)
     groups = list(getattr(patch, "geoms", [patch]))
-    around = parameters.pocket_clearance + parameters.border
-    walls = patch.convex_hull.buffer(around, join_style="mitre") if len(groups) == 1 else patch.buffer(around)
-    shape = rim.union(walls)
-    contact = single_outline(shape, shape.convex_hull, detail=0.0)
     gap = parameters.pocket_clearance
     recess = shapely.union_all([g.buffer(gap, join_style="mitre") if gap else g for g in groups])
     recesses = tuple(
         shapely.Polygon(g.exterior)  # a hole in the patch is left to the pockets' floor
         for g in sorted(getattr(recess, "geoms", [recess]), key=lambda g: g.bounds)
     )
+    walls = recess.convex_hull if len(groups) == 1 else recess
+    shape = rim.union(_grown(walls, parameters.border))
+    contact = single_outline(shape, shape.convex_hull, detail=0.0)
     pockets = tuple(h.buffer(-0.5 * parameters.rib, join_style="mitre") for h in hexagons)
     if any(p.is_empty or p.area < 0.1 * h.area for p, h in zip(pockets, hexagons, strict=True)):
         raise FootError(
@@ -107,6 +109,11 @@ def plan_shoe(foot: Foot, fit: LatticeFit, parameters: ShoeParameters, *, name: 
     except LayoutError as error:
         raise FootError(f"the shoe's outline cannot carry a layout: {error}") from None
     return ShoePlan("left", outline, contact, cavity, rim, recesses, pockets, layout)
+
+
+def _grown(shape: Any, distance: float) -> Any:
+    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled."""
+    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
 
 
 def mirrored_plan(plan: ShoePlan) -> ShoePlan:

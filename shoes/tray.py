@@ -72,7 +72,7 @@ def surface_of(solid: Any) -> NDArray[np.float64]:
 
 
 def write_step(solid: Any, path: str) -> None:
-    """Write a solid as STEP (mm); the date in its header is fixed, so that the same solid gives the same file."""
+    """Write a solid as STEP (mm); its header is fixed, so that the same solid gives the same file."""
     import re
     from pathlib import Path
 
@@ -80,6 +80,7 @@ def write_step(solid: Any, path: str) -> None:
     cq.exporters.export(cq.Workplane(obj=solid), path, exportType="STEP")
     text = Path(path).read_text(encoding="utf-8")
     text = re.sub(r"(FILE_NAME\('[^']*',)'[^']*'", r"\1'2000-01-01T00:00:00'", text, count=1)
+    text = re.sub(r"(STEP translator \d+\.\d+) \d+", r"\1", text)  # counts the exports of the process
     Path(path).write_text(text, encoding="utf-8")
 
 

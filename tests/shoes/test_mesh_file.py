@@ -1,0 +1,155 @@
+"""Tests of mesh files: every format read gives the same triangles, and a bad file one clear line."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from shoes.mesh_file import read_mesh
+
+Shape = Callable[..., NDArray[np.float64]]
+
+_MODEL = """<?xml version="1.0" encoding="UTF-8"?>
+<model unit="{unit}" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+ <resources>
+  <object id="1" type="model"><mesh>
+   <vertices>{vertices}</vertices>
+   <triangles>{triangles}</triangles>
+  </mesh></object>
+  <object id="2" type="model"><components>
+   <component objectid="1" transform="1 0 0 0 1 0 0 0 1 10 0 0"/>
+  </components></object>
+ </resources>
+ <build>{items}</build>
+</model>"""
+
+
+def _write_3mf(path: Path, mesh: trimesh.Trimesh, unit: str, items: str) -> Path:
+    vertices = "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in mesh.vertices)
+    triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in mesh.faces)
+    with zipfile.ZipFile(path, "w") as package:
+        package.writestr(
+            "3D/3dmodel.model", _MODEL.format(unit=unit, vertices=vertices, triangles=triangles, items=items)
+        )
+    return path
+
+
+def _mesh(box: Shape) -> trimesh.Trimesh:
+    return trimesh.Trimesh(**trimesh.triangles.to_kwargs(box((-50, 150), (-40, 40), (0, 60))))
+
+
+def _sorted(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
+    flat = triangles.reshape(len(triangles), 9)
+    return np.asarray(flat[np.lexsort(flat.T)])
+
+
+@pytest.mark.parametrize("ending", ["stl", "STL", "obj", "ply", "off"])
+def test_every_format_gives_the_same_triangles(tmp_path: Path, box: Shape, ending: str) -> None:
+    mesh = _mesh(box)
+    path = tmp_path / f"foot.{ending}"
+    mesh.export(path, file_type=ending.lower())
+    triangles, unit = read_mesh(path)
+    assert unit is None
+    np.testing.assert_allclose(_sorted(triangles), _sorted(mesh.triangles), atol=1e-4)
+
+
+def test_a_text_stl_is_read(tmp_path: Path, box: Shape) -> None:
+    path = tmp_path / "foot.stl"
+    path.write_text(trimesh.exchange.stl.export_stl_ascii(_mesh(box)))
+    assert len(read_mesh(path)[0]) == len(_mesh(box).faces)
+
+
+def test_an_obj_of_several_parts_is_put_together(tmp_path: Path) -> None:
+    path = tmp_path / "parts.obj"
+    tetrahedron = "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n"
+    path.write_text(f"o a\n{tetrahedron}f 1 3 2\nf 1 2 4\no b\n{tetrahedron}f 5 7 8\nf 6 8 7\nf 1/1/1 2/2/2 3/3/3\n")
+    assert read_mesh(path)[0].shape == (5, 3, 3)
+
+
+def test_3mf_items_are_placed_and_state_their_unit(tmp_path: Path, box: Shape) -> None:
+    mesh = _mesh(box)
+    items = '<item objectid="1"/><item objectid="2" transform="0 1 0 -1 0 0 0 0 1 0 0 5"/>'
+    triangles, unit = read_mesh(_write_3mf(tmp_path / "foot.3mf", mesh, "centimeter", items))
+    assert unit == "cm"
+    n = len(mesh.faces)
+    np.testing.assert_allclose(triangles[:n], mesh.triangles)
+    x, y, z = np.moveaxis(mesh.triangles, -1, 0)
+    np.testing.assert_allclose(triangles[n:], np.stack([-y, x + 10, z + 5], axis=-1))  # component, then item
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("micron", 1e-3), ("foot", 12.0)])
+def test_3mf_units_without_a_name_here_are_scaled(tmp_path: Path, box: Shape, unit: str, factor: float) -> None:
+    mesh = _mesh(box)
+    triangles, _ = read_mesh(_write_3mf(tmp_path / "foot.3mf", mesh, unit, '<item objectid="1"/>'))
+    np.testing.assert_allclose(triangles, mesh.triangles * factor)
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        "<model",
+        "<model/>",
+        _MODEL.format(unit="parsec", vertices="", triangles="", items=""),
+        _MODEL.format(
+            unit="meter", vertices="", triangles='<triangle v1="0" v2="1" v3="2"/>', items='<item objectid="1"/>'
+        ),
+        _MODEL.format(unit="meter", vertices="", triangles="", items='<item objectid="9"/>'),
+    ],
+)
+def test_a_bad_3mf_gives_one_line(tmp_path: Path, model: str) -> None:
+    with zipfile.ZipFile(tmp_path / "foot.3mf", "w") as package:
+        package.writestr("3D/3dmodel.model", model)
+    with pytest.raises(FootError, match=r"foot\.3mf") as caught:
+        read_mesh(tmp_path / "foot.3mf")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("ending", ["stl", "obj", "ply", "off", "3mf"])
+@pytest.mark.parametrize("content", [b"", b"hello\n" * 30, b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 8, b"solid \n"])
+def test_a_foreign_file_gives_one_line(tmp_path: Path, ending: str, content: bytes) -> None:
+    path = tmp_path / f"foot.{ending}"
+    path.write_bytes(content)
+    with pytest.raises(FootError, match=rf"foot\.{ending}") as caught:
+        read_mesh(path)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.3, 0.5, 0.99])
+@pytest.mark.parametrize("kind", ["stl", "stl_ascii", "ply", "3mf"])
+def test_a_truncated_file_gives_one_line(tmp_path: Path, box: Shape, kind: str, share: float) -> None:
+    mesh = _mesh(box)
+    path = tmp_path / f"foot.{kind.split('_')[0]}"
+    if kind == "3mf":
+        _write_3mf(path, mesh, "millimeter", '<item objectid="1"/>')
+    else:
+        mesh.export(path, file_type=kind)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: int(share * len(whole))])
+    with pytest.raises(FootError, match=r"cut short|no triangles|not a readable") as caught:
+        read_mesh(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_wrong_is_named(tmp_path: Path, box: Shape, stl: Callable[..., Path]) -> None:
+    triangles = box((-50, 150), (-40, 40), (0, 60))
+    broken = triangles.copy()
+    broken[3, 1, 2] = np.nan
+    broken[4, 0, 0] = np.inf
+    with pytest.raises(FootError, match=r"2 of \d+ triangles hold a coordinate that is not finite"):
+        read_mesh(stl(broken))
+    with pytest.raises(FootError, match="has 2 triangles; a foot's body needs 4 or more"):
+        read_mesh(stl(triangles[:2]))
+    with pytest.raises(FootError, match=r"cannot be read \(No such file"):
+        read_mesh(tmp_path / "none.stl")
+    (tmp_path / "folder.stl").mkdir()
+    with pytest.raises(FootError, match=r"cannot be read \(Is a directory"):
+        read_mesh(tmp_path / "folder.stl")
+    with pytest.raises(FootError, match=r"'\.jpg' is no mesh format that is read; allowed: \.stl"):
+        read_mesh(tmp_path / "foot.jpg")

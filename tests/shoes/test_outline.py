@@ -1,0 +1,82 @@
+"""Tests of outlines: a sole's, of any number of patches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+import shapely
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from shoes.outline import cut_below, outline_below, ring, rounded_rectangle, single_outline, tidy
+
+Shape = Callable[..., NDArray[np.float64]]
+
+
+def test_the_outline_of_a_box_is_its_rectangle(box: Shape) -> None:
+    outline = outline_below(box((-50, 100), (-30, 40), (0, 60)), 5.0)
+    assert outline.equals(shapely.box(-50, -30, 100, 40))
+    assert outline.exterior.is_ccw
+
+
+def test_two_patches_give_their_hull(box: Shape) -> None:
+    patches = np.concatenate([box((-80, -20), (-30, 30), (0, 40)), box((60, 120), (-40, 40), (0, 40))])
+    outline = outline_below(patches, 5.0)
+    corners = [(-80, -30), (-80, 30), (60, 40), (120, 40), (120, -40), (60, -40)]
+    assert outline.equals(shapely.MultiPoint(corners).convex_hull)
+
+
+def test_a_groove_and_a_hole_are_bridged() -> None:
+    area = shapely.box(-80, -40, 80, 40) - shapely.box(-5, -40, 5, 30) - shapely.Point(40, 0).buffer(6)
+    outline = single_outline(area, area.convex_hull)
+    assert outline.equals(shapely.box(-80, -40, 80, 40))
+
+
+def test_a_marked_waist_is_kept(prism: Shape) -> None:
+    angle = np.linspace(0, 2 * np.pi, 120, endpoint=False)
+    x, y = 120 * np.cos(angle), 50 * np.sin(angle)
+    waist = y * (1 - 0.6 * np.exp(-((x / 40) ** 2)))
+    outline = outline_below(prism(np.column_stack([x, waist]), 0, 30), 5.0)
+    shape = shapely.Polygon(np.column_stack([x, waist]))
+    assert outline.symmetric_difference(shape).area < 0.02 * shape.area
+    assert outline.area < 0.9 * outline.convex_hull.area
+
+
+def test_only_what_lies_below_the_height_counts(box: Shape) -> None:
+    wide_above = np.concatenate([box((-50, 50), (-20, 20), (0, 10)), box((-90, 90), (-60, 60), (10, 40))])
+    assert outline_below(wide_above, 5.0).bounds == (-50, -20, 50, 20)
+    assert outline_below(wide_above, 12.0).bounds == (-90, -60, 90, 60)
+
+
+def test_a_wedge_is_cut_at_the_height() -> None:
+    # A slope from z = 0 at x = 0 to z = 20 at x = 100: its lowest 5 mm end at x = 25.
+    slope = np.array([[[0, 0, 0], [100, 0, 20], [100, 50, 20]], [[0, 0, 0], [100, 50, 20], [0, 50, 0]]], dtype=float)
+    assert outline_below(slope, 5.0).bounds == pytest.approx((0, 0, 25, 50))
+    cut = cut_below(slope, 5.0)
+    area = 0.5 * np.linalg.norm(np.cross(cut[:, 1] - cut[:, 0], cut[:, 2] - cut[:, 0]), axis=1).sum()
+    assert area == pytest.approx(np.hypot(25, 5) * 50)
+
+
+def test_an_edge_is_no_sole() -> None:
+    ridge = np.array([[[0, 0, 0], [100, 0, 0], [50, 0, 30]], [[0, 0, 0], [50, 0, 30], [100, 0, 0]]], dtype=float)
+    with pytest.raises(FootError, match="no area"):
+        outline_below(ridge, 5.0)
+    with pytest.raises(FootError, match="no surface in its lowest 5 mm"):
+        outline_below(ridge + np.array([0, 0, 50]), 5.0)
+
+
+def test_tidy_takes_the_largest_part_without_holes() -> None:
+    shape = shapely.MultiPolygon([shapely.box(0, 0, 1, 1), shapely.box(5, 5, 15, 15) - shapely.box(7, 7, 9, 9)])
+    assert tidy(shape).equals(shapely.box(5, 5, 15, 15))
+    assert len(ring(tidy(shape))) == 4
+    with pytest.raises(FootError):
+        tidy(shapely.Polygon())
+
+
+@pytest.mark.parametrize("radius", [0.0, 10.0, 35.0, 50.0])
+def test_a_rounded_rectangle_has_its_size_and_area(radius: float) -> None:
+    shape = rounded_rectangle(200.0, 100.0, (20.0, -5.0), radius)
+    assert shape.bounds == pytest.approx((-80, -55, 120, 45), abs=1e-3)
+    assert shape.area == pytest.approx(200 * 100 - (4 - np.pi) * radius**2, rel=5e-3)
