@@ -42,17 +42,23 @@ class FootRecording:
             )
 
     @cached_property
-    def vertical_force(self) -> NDArray[np.float64]:
-        """Vertical force (n,) in N, summed over the cells that were measured; NaN where none was."""
-        measured = np.isfinite(self.force)
-        rise = 1.0 if self.layout is None else self.layout.rotations[:, 2, 2]
-        total = (np.where(measured, self.force, 0.0) * rise).sum(axis=1)
-        return np.asarray(np.where(measured.any(axis=1), total, np.nan))
+    def _measured(self) -> NDArray[np.float64]:
+        """Forces with 0 in place of NaN: the forces themselves where nothing is missing."""
+        missing = np.isnan(self.force)
+        return np.where(missing, 0.0, self.force) if missing.any() else self.force
 
     @cached_property
-    def pressure(self) -> NDArray[np.float64] | None:
-        """Pressure (n, k) in Pa, or None where the cell areas are not known."""
-        return None if self.layout is None else np.asarray(self.force / self.layout.areas)
+    def vertical_force(self) -> NDArray[np.float64]:
+        """Vertical force (n,) in N, summed over the cells that were measured; NaN where none was."""
+        rise = np.ones(self.force.shape[1]) if self.layout is None else self.layout.rotations[:, 2, 2]
+        total = self._measured @ rise
+        if self._measured is not self.force:
+            total[np.isnan(self.force).all(axis=1)] = np.nan
+        return np.asarray(total)
+
+    def pressure(self, frames: slice = slice(None)) -> NDArray[np.float64] | None:
+        """Pressure (m, k) in Pa of some frames, NaN where not measured; None where the cell areas are not known."""
+        return None if self.layout is None else np.asarray(self.force[frames] / self.layout.areas)
 
     def center_of_pressure(self, minimum_force: float) -> NDArray[np.float64] | None:
         """Centre of pressure of each frame (T 4.21).
@@ -65,11 +71,11 @@ class FootRecording:
         """
         if self.layout is None:
             return None
-        force = np.where(np.isfinite(self.force), self.force, 0.0) * self.layout.rotations[:, 2, 2]
-        total = force.sum(axis=1)
-        loaded = np.isfinite(self.vertical_force) & (total >= max(minimum_force, 1e-9))
-        out = np.full((len(total), 2), np.nan)
-        out[loaded] = force[loaded] @ self.layout.positions[:, :2] / total[loaded, None]
+        with np.errstate(invalid="ignore"):
+            loaded = self.vertical_force >= max(minimum_force, 1e-9)
+        moments = self._measured @ (self.layout.positions[:, :2] * self.layout.rotations[:, 2, 2][:, None])
+        out = np.full(moments.shape, np.nan)
+        out[loaded] = moments[loaded] / self.vertical_force[loaded, None]
         return out
 
 

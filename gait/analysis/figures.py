@@ -15,18 +15,20 @@ from plantar.pressure_recording import PressureRecording
 
 __all__ = ["figure_force", "figure_pressure", "figure_steps", "maximum_pressure"]
 
+MOST_PATHS = 60
+"""CoP paths drawn a foot; of more steps every n-th."""
+
 
 def maximum_pressure(gait: FootGait) -> NDArray[np.float64] | None:
     """Maximum pressure picture (k,) in Pa: the mean over the complete steps of each cell's largest pressure.
 
     Of a foot without a complete step the largest pressure in the whole recording; None without geometry.
     """
-    pressure = gait.foot.pressure
-    if pressure is None:
+    if gait.foot.layout is None:
         return None
-    filled = np.where(np.isfinite(pressure), pressure, 0.0)
-    spans = [(c.begin, c.end) for c in gait.contacts if c.complete] or [(0, len(filled))]
-    return np.asarray(np.mean([filled[a:b].max(axis=0) for a, b in spans], axis=0))
+    spans = [slice(c.begin, c.end) for c in gait.contacts if c.complete] or [slice(0, len(gait.foot.force))]
+    highest = [np.where(np.isnan(f := gait.foot.force[span]), 0.0, f).max(axis=0) for span in spans]
+    return np.asarray(np.mean(highest, axis=0) / gait.foot.layout.areas)
 
 
 def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
@@ -45,9 +47,11 @@ def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
         gait = feet[side]
         assert gait.foot.layout is not None
         drawn = draw_cells(panel, gait.foot.layout, values / 1e3, highest)
-        label: str | None = "CoP path of a step"
-        for contact in gait.contacts:
-            if contact.complete and gait.cop is not None:
+        complete = [contact for contact in gait.contacts if contact.complete]
+        every = -(-len(complete) // MOST_PATHS) if complete else 1
+        label: str | None = "CoP path of a step" + (f" (every {every}th)" if every > 1 else "")
+        for contact in complete[::every]:
+            if gait.cop is not None:
                 path = gait.cop[contact.begin : contact.end]
                 panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=2.2, alpha=0.9)
                 panel.plot(-path[:, 1], path[:, 0], color=COLOURS["cop"], linewidth=1.0, label=label)
@@ -111,7 +115,7 @@ def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
             ]
         )
         colour = COLOURS[side]
-        for i, curve in enumerate(curves[:200]):
+        for i, curve in enumerate(curves[:: -(-len(curves) // 100)]):
             panel.plot(100 * share, curve, color=colour, linewidth=0.6, alpha=0.4, label=None if i else "one step")
         mean = curves.mean(axis=0)
         panel.plot(100 * share, mean, color="#111111", linewidth=1.6, label=f"mean of {len(curves)}")

@@ -29,6 +29,9 @@ __all__ = [
 COP_WINDOW = 0.05
 """Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
 
+NOISE_FRAMES = 5000
+"""Frames of swing from which a cell's noise is judged: enough for 2 %."""
+
 IMPACT_WINDOW = 0.05
 """Time in s after touchdown in which the landing impact is looked for."""
 
@@ -184,7 +187,8 @@ def _cell_threshold(foot: FootRecording, contacts: Sequence[Contact]) -> NDArray
     air = np.ones(n, dtype=bool)
     for contact in contacts:
         air[contact.begin : contact.end] = False
-    steps = np.abs(np.diff(foot.force, axis=0))[air[:-1] & air[1:]]
+    pairs = np.flatnonzero(air[:-1] & air[1:])[:NOISE_FRAMES]
+    steps = np.abs(foot.force[pairs + 1] - foot.force[pairs])
     steps = steps[np.isfinite(steps).all(axis=1)]
     if len(steps) < 20:
         return np.full(k, base)
@@ -219,9 +223,9 @@ def _measure(
     with np.errstate(invalid="ignore"):
         loaded = foot.force[span] > threshold
     peak_pressure = integral = area = np.nan
-    pressure = foot.pressure
+    pressure = foot.pressure(span)
     if pressure is not None and foot.layout is not None:
-        frames = np.where(np.isfinite(pressure[span]), pressure[span], 0.0).max(axis=1)
+        frames = np.where(np.isfinite(pressure), pressure, 0.0).max(axis=1)
         peak_pressure = float(frames.max())
         integral = float(np.trapezoid(frames, recording.time[span]))
         area = float((loaded * foot.layout.areas).sum(axis=1).max())

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +44,7 @@ _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
 _LARGEST_HEADER = 400
 _PLAUSIBLE = 5e6
+_BLOCK = 2048
 
 
 def _recognises(head: bytes) -> bool:
@@ -66,17 +69,17 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
     text = "\n".join(header)
     warnings: list[str] = list(rows.warnings)
     pascals = _unit(path, text, warnings)
-    time, rate, notes = sampling(rows.values[:, 0], _rate(text))
+    time, rate, notes = sampling(rows.time, _rate(text))
     warnings += notes
     geometry = _table_geometry(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
-    for side, span in _sides(text, columns, warnings):
-        pressure = rows.values[:, 1 + span.start : 1 + span.stop] * pascals
-        cells = columns[span.start : span.stop]
-        sole = _layout(path, side, cells, layout, geometry, text, warnings)
-        if np.nanmax(pressure, initial=0.0) > _PLAUSIBLE or np.nanmin(pressure, initial=0.0) < -_PLAUSIBLE:
+    sides = _sides(text, columns, warnings)
+    for (side, span), values in zip(sides, rows.take([span for _, span in sides]), strict=True):
+        sole = _layout(path, side, columns[span.start : span.stop], layout, geometry, text, warnings)
+        if pascals * max(np.nanmax(values, initial=0.0), -np.nanmin(values, initial=0.0)) > _PLAUSIBLE:
             warnings.append(f"the {side} foot holds pressures above {_PLAUSIBLE / 1e6:g} MPa: check the unit")
-        feet[side] = FootRecording(side, pressure * sole.areas, sole)
+        values *= pascals * sole.areas
+        feet[side] = FootRecording(side, values, sole)
     if len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
@@ -104,48 +107,85 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]
     raise FormatError(f"{path}: not a pedar or pliance export: no row of column names that starts with time[secs]")
 
 
+@dataclass(frozen=True, eq=False)
 class _Rows:
-    """The frames: values (n, 1 + cells), time first."""
+    """The frames: times (n,) in s, values in blocks (m, cells) with NaN in damaged frames, and what was repaired."""
 
-    def __init__(self, values: NDArray[np.float64], warnings: tuple[str, ...]) -> None:
-        self.values = values
-        self.warnings = warnings
+    time: NDArray[np.float64]
+    blocks: list[NDArray[np.float64]]
+    warnings: tuple[str, ...]
+
+    def take(self, spans: list[range]) -> list[NDArray[np.float64]]:
+        """The values (n, span) of each span of columns; a block is dropped once it is copied."""
+        out = [np.empty((len(self.time), len(span))) for span in spans]
+        at = 0
+        self.blocks.reverse()
+        while self.blocks:
+            block = self.blocks.pop()[: len(self.time) - at]
+            for values, span in zip(out, spans, strict=True):
+                values[at : at + len(block)] = block[:, span.start : span.stop]
+            at += len(block)
+        return out
 
 
 def _take_rows(path: Path, lines: Iterator[str], cells: int) -> tuple[_Rows, list[str]]:
     """Frames up to a blank line or the next section; also the lines after them."""
+    times: list[NDArray[np.float64]] = []
     blocks: list[NDArray[np.float64]] = []
-    block: list[NDArray[np.float64]] = []
-    blank = np.full(1 + cells, np.nan)
-    damaged = 0
-    last_damaged = False
     tail: list[str] = []
-    for line in lines:
-        parts = line.split()
-        if not parts or _LABELS.match(line):
-            tail = [line, *lines] if parts else list(lines)
+    while not tail:
+        block: list[str] = []
+        for line in lines:
+            if not line.strip() or _LABELS.match(line):
+                tail = [line, *lines]
+                break
+            block.append(line)
+            if len(block) == _BLOCK:
+                break
+        if not block:
             break
-        row = _numbers(parts, cells)
-        last_damaged = row is None
-        damaged += last_damaged
-        block.append(blank if row is None else row)
-        if len(block) == 8192:
-            blocks.append(np.array(block))
-            block = []
-    if block:
-        blocks.append(np.array(block))
-    values = np.concatenate(blocks) if blocks else np.empty((0, 1 + cells))
-    warnings: list[str] = []
-    if last_damaged:
-        values, damaged = values[:-1], damaged - 1
-        warnings.append("the last frame is cut short: left out")
-    if len(values) == 0:
+        rows = _frames(block, cells)
+        times.append(rows[:, 0].copy())
+        blocks.append(rows[:, 1:])
+    if not blocks:
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    if damaged > 0.2 * len(values):
-        raise FormatError(f"{path}: {damaged} of {len(values)} frames do not have {cells} numbers; the file is damaged")
+    time = np.concatenate(times)
+    bad = np.concatenate([np.isnan(block[:, 0]) for block in blocks])
+    warnings: list[str] = []
+    if bad[-1]:
+        time, bad = time[:-1], bad[:-1]
+        warnings.append("the last frame is cut short: left out")
+    damaged = int(bad.sum())
+    if damaged == len(time):
+        raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
+    if damaged > 0.2 * len(time):
+        raise FormatError(f"{path}: {damaged} of {len(time)} frames do not have {cells} numbers; the file is damaged")
     if damaged:
         warnings.append(f"{damaged} damaged frame(s) are treated as not measured")
-    return _Rows(values, tuple(warnings)), tail
+    return _Rows(time, blocks, tuple(warnings)), tail
+
+
+def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
+    """Numbers (lines, 1 + cells) of lines; NaN in each line that is not made of as many finite numbers."""
+    width = 1 + cells
+    tabs = block[0].count("\t")
+    if tabs and all(line.count("\t") == tabs for line in block):  # all at once where nothing looks odd
+        try:
+            with catch_warnings():
+                simplefilter("error")
+                flat = np.fromstring("".join(block), sep=" ")
+        except (ValueError, DeprecationWarning):
+            flat = np.empty(0)
+        if flat.size == len(block) * width:
+            rows = flat.reshape(len(block), width)
+            if np.isfinite(rows).all() and (np.diff(rows[:, 0]) > 0.0).all():
+                return rows
+    out = np.full((len(block), width), np.nan)
+    for i, line in enumerate(block):
+        row = _numbers(line.split(), cells)
+        if row is not None:
+            out[i] = row
+    return out
 
 
 def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:

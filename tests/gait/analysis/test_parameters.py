@@ -47,7 +47,7 @@ def test_a_rolling_half_sine_has_the_measures_of_its_formula() -> None:
     assert step.cop_excursion_ap_m == pytest.approx(travel, rel=0.03)
     assert step.cop_path_m == pytest.approx(travel, rel=0.05)
     assert step.cop_velocity_m_s == pytest.approx(step.cop_path_m / step.contact_time_s, rel=0.03)
-    pressure = recording.feet["left"].pressure
+    pressure = recording.feet["left"].pressure()
     assert pressure is not None
     assert step.peak_pressure_Pa == pytest.approx(pressure.max(), rel=1e-3)
     assert 0.02 < step.cop_margin_m < 0.05

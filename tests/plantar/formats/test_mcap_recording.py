@@ -43,7 +43,7 @@ def test_two_soles(tmp_path: Path, layout: SoleLayout) -> None:
 def test_one_sole_without_layout_says_so(tmp_path: Path, layout: SoleLayout) -> None:
     write(tmp_path / "run.mcap", {}, ("right",), len(layout))
     recording = read_recording(tmp_path / "run.mcap")
-    assert recording.feet["right"].pressure is None
+    assert recording.feet["right"].pressure() is None
     assert recording.feet["right"].center_of_pressure(1.0) is None
     assert any("--layout" in w for w in recording.warnings)
     assert any("left foot" in w for w in recording.warnings)

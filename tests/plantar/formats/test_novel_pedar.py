@@ -63,7 +63,7 @@ def pressures() -> tuple[np.ndarray, np.ndarray]:
 
 
 def read_pa(path: Path, side: str) -> np.ndarray:
-    pressure = read_recording(path).feet[side].pressure  # type: ignore[index]
+    pressure = read_recording(path).feet[side].pressure()  # type: ignore[index]
     assert pressure is not None
     return pressure
 
