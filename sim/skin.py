@@ -54,6 +54,7 @@ class _Patch(NamedTuple):
     weighted_uu: NDArray[np.float64]  # (m, 6): area times 1, x, y, xx, xy, yy
     inverse: NDArray[np.float64]  # (3, 3): load to (a, b, c) where every covered cell carries
     reach: NDArray[np.float64]  # (k, 2): polygon of the resultants that the cells can carry, in scaled coordinates
+    last: list[NDArray[np.bool_]]  # the cells (m,) that carried last: where the search for them starts; empty at first
 
 
 class SolePressure:
@@ -165,21 +166,51 @@ class SolePressure:
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
             np.asarray(np.linalg.pinv(weighted.T @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
             inner_offset(_hull(u[:, 1:]), 2e-3),
+            [],
         )
 
 
 def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:
     """Pressures (m,) of a unit load at (x, y) where part of the patch lifts off.
 
-    Newton's method on the convex problem
-
-        minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
-
-    whose gradient is the pressure's wrench minus the load; its pieces are quadratic, so few steps are exact.
+    The cells that carry and the field they give determine each other. Starting from the cells that carried in the last
+    call, which are mostly the same, one or two rounds find both; the result depends on the cells alone, not on the way
+    there. Where the rounds do not settle, `_damped` does.
     """
     inside = closest_point(shape.reach, (x, y))
     assert inside is not None
-    load = np.array([1.0, inside[0], inside[1]])
+    load = [1.0, *inside.tolist()]
+    start = shape.last[0] if shape.last else shape.u @ (shape.inverse @ load) > 0.0
+    pressure = _settled(shape, start, load)
+    if pressure is None:
+        rough = _damped(shape, np.array(load))
+        pressure = _settled(shape, rough > 0.0, load)
+        if pressure is None:
+            return rough
+    return pressure
+
+
+def _settled(shape: _Patch, active: NDArray[np.bool_], load: list[float]) -> NDArray[np.float64] | None:
+    """Pressures (m,) once the cells that carry are those with a field above 0; None where that is not soon."""
+    for _ in range(8):
+        pressure = shape.u @ _solve_symmetric((active @ shape.weighted_uu).tolist(), load, 1e-12)
+        positive = pressure > 0.0
+        if (positive == active).all():
+            shape.last[:] = [positive]
+            return np.asarray(pressure * positive)
+        if not positive.any():
+            break
+        active = positive
+    return None
+
+
+def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Pressures (m,) of a unit load by Newton's method with a line search on the convex problem
+
+        minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
+
+    whose gradient is the pressure's wrench minus the load.
+    """
     field = shape.inverse @ load
     pressure = np.maximum(shape.u @ field, 0.0)
     residual = pressure @ shape.weighted_u - load

@@ -188,6 +188,18 @@ def test_any_patch_and_load_gives_finite_forces_that_add_up(
 SHARED_PRESSURE = SolePressure(LAYOUT)
 
 
+def test_result_does_not_depend_on_the_loads_before() -> None:
+    """The search starts from the last load's cells; its result must be the same to the last bit all the same."""
+    rng = np.random.default_rng(5)
+    used = SolePressure(LAYOUT)
+    beam = [(-0.02, -0.0775), (0.05, -0.0775), (0.05, 0.0775), (-0.02, 0.0775)]
+    for patch, scale in ((WHOLE, HALF), (beam, HALF * [0.2, 1.0])):
+        for _ in range(200):
+            x, y = (float(v) for v in rng.uniform(-1.0, 1.0, 2) * scale)
+            fresh = SolePressure(LAYOUT).spread(patch, 300.0, (x, y))
+            assert (used.spread(patch, 300.0, (x, y)) == fresh).all()
+
+
 @settings(max_examples=100, deadline=None)
 @given(st.floats(-0.7, 0.7), st.floats(-0.7, 0.7), st.floats(10.0, 2e3))
 def test_full_sole_has_the_exact_centre_of_pressure(fx: float, fy: float, force: float) -> None:
