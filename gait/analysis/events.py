@@ -196,10 +196,10 @@ def _contacts_of_span(
     spans = list(zip(starts, stops, strict=True))
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
-    for last, k in zip([None, *reaching[:-1]], reaching, strict=True):
+    for i, k in enumerate(reaching):
         # Off the ground between two contacts only if the force stays below the event level for long enough: a foot
         # that lands lightly and chatters does not.
-        if last is not None and _longest_gap(time, force, spans[last : k + 1], levels.release) < minimum_swing:
+        if i and _longest_gap(time, force, spans[reaching[i - 1] : k + 1], levels.release) < minimum_swing:
             merged[-1] = (merged[-1][0], spans[k][1])
         else:
             merged.append(spans[k])

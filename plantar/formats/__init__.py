@@ -75,4 +75,8 @@ def read_recording(
     if format is not None and format not in known:
         raise FormatError(f"unknown format {format!r}; allowed: {', '.join(known)}")
     chosen = detect_format(path) if format is None else known[format]
-    return chosen.read(Path(path), layout)
+    try:
+        return chosen.read(Path(path), layout)
+    except FormatError as error:
+        text = str(error)
+        raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None

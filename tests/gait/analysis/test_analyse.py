@@ -16,8 +16,10 @@ import pytest
 from typer.testing import CliRunner
 
 import cli
-from gait.analysis.analyse import analyse_recording
+from gait.analysis.analyse import analyse_recording, metrics_of
+from gait.analysis.parameters import analyse_foot
 from plantar import FormatError, InputError, LayoutError
+from plantar.formats import read_recording
 from plantar.plotting import thinned
 from plantar.recorder import Recorder
 
@@ -101,6 +103,26 @@ def test_a_recording_without_steps_still_gives_a_report(tmp_path: Path) -> None:
     assert result["gait"]["cadence_steps_per_min"] is None
     assert any("no load above its noise" in w for w in result["warnings"])
     assert "no complete step" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_random_corruption_never_breaks_the_analysis(tmp_path: Path, run: tuple[Path, Any]) -> None:
+    whole = run[0].read_bytes()
+    random = np.random.default_rng(3)
+    analysed = 0
+    for trial in range(25):
+        data = bytearray(whole)
+        for at in random.integers(0, len(data), size=random.integers(1, 25)):
+            data[at] = random.integers(0, 256)
+        bad = tmp_path / "bad.mcap"
+        bad.write_bytes(bytes(data[: random.integers(1, len(data))]) if trial % 3 == 0 else bytes(data))
+        try:
+            recording = read_recording(bad)
+        except FormatError:
+            continue
+        feet = {side: analyse_foot(recording, side) for side in recording.feet}
+        json.dumps(metrics_of(recording, feet), allow_nan=False)
+        analysed += 1
+    assert analysed > 10
 
 
 def test_command_prints_one_json_object(tmp_path: Path, run: tuple[Path, Any]) -> None:

@@ -107,6 +107,13 @@ def test_dropouts_are_bridged_when_short_and_cut_when_long() -> None:
     assert contacts[3].heel_strike is None
 
 
+def test_a_stretch_between_gaps_may_hold_no_contact() -> None:
+    time, force = steps()
+    force[(time > 2.0) & (time < 2.17)] = np.nan
+    force[(time > 2.19) & (time < 2.9)] = np.nan  # leaves two frames of swing between the gaps
+    assert [c.complete for c in find_contacts(time, force)] == [True] * 4
+
+
 def test_one_damaged_frame_is_not_a_peak() -> None:
     time, force = steps()
     force[55] = 1e6

@@ -280,6 +280,7 @@ def test_nonsense_is_refused_in_one_line(tmp_path: Path, content: bytes) -> None
     for name in (None, "pedar"):
         with pytest.raises(FormatError) as caught:
             read_recording(path, name)
+        assert str(caught.value).startswith(str(path))
         assert "\n" not in str(caught.value)
 
 
