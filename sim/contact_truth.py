@@ -23,6 +23,8 @@ __all__ = [
     "contact_wrench_in_world",
     "foot_contacts",
     "ground_truth",
+    "small_hull",
+    "small_margin",
     "support_polygon_of_contacts",
     "zmp_of_contacts",
 ]

@@ -111,6 +111,9 @@ def build_sole(
         com_height: Height of its centre of mass above the sole in m.
         contact: Contact parameters.
 
+    Returns:
+        The compiled rig with its reader.
+
     Raises:
         InputError: If the candidate's kind or reading is unknown.
     """

@@ -21,7 +21,7 @@ from plantar.polygon import area, convex_hull
 from sim.contact_models.candidates import CANDIDATES, Candidate, Contact, Sole, build_sole
 from sim.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
-__all__ = ["ContactRow", "Rig", "compare_contact_models"]
+__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_time", "tip_over"]
 
 GRAVITY = 9.81
 MASS = 43.0
@@ -176,7 +176,16 @@ def compare_contact_models(
 
 
 def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
-    """Errors in full-sole stance: the CoP over the inner 70 % of the sole, 200-844 N, tangential loads and twist."""
+    """Errors in full-sole stance: the CoP over the inner 70 % of the sole, 200-844 N, tangential loads and twist.
+
+    Args:
+        sole: The sole on flat ground.
+        layout: Its layout.
+        seeds: Random load cases at each centre of pressure.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
     middle, half = _rectangle(layout)
     targets = [middle + half * (x, y) for x in np.linspace(-INNER, INNER, 5) for y in np.linspace(-INNER, INNER, 5)]
     errors, forces, moments = [], [], []
@@ -217,7 +226,15 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
 
 
 def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
-    """Where the sole tips over: the load moves out at 40 mm/s until the foot tilts; the true CoP stops at the pivot."""
+    """Where the sole tips over: the load moves out at 40 mm/s until the foot tilts; the true CoP stops at the pivot.
+
+    Args:
+        sole: The sole on flat ground.
+        layout: Its layout.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
     middle, half = _rectangle(layout)
     out: dict[str, Any] = {}
     for axis, name in enumerate("xy"):
@@ -249,7 +266,16 @@ def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
 
 
 def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:
-    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle."""
+    """What touches on beams of 12 and 6 cm across the sole, at several offsets, loaded over the beam's middle.
+
+    Args:
+        candidate: Contact model of the sole.
+        layout: The sole.
+        contact: Contact parameters.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
     import shapely
 
     middle, half = _rectangle(layout)
@@ -285,7 +311,16 @@ def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) 
 
 
 def run_time(sole: Sole, layout: SoleLayout, count: int = 300) -> dict[str, Any]:
-    """Median times in us of a physics step and of a taxel reading in full-sole stance."""
+    """Median times in us of a physics step and of a taxel reading in full-sole stance.
+
+    Args:
+        sole: The sole on flat ground.
+        layout: Its layout.
+        count: Steps to take.
+
+    Returns:
+        The fields of `ContactRow` that it measures.
+    """
     middle, half = _rectangle(layout)
     rig = Rig(sole, layout)
     rig.push(MASS * GRAVITY, middle + 0.1 * half)
