@@ -190,11 +190,14 @@ class WalkingController:
         """One control tick: sensors in, command out."""
         s = self.settings
         percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
-        state = self.estimator.update(sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts)
-        phase = self.schedule.at(sensors.time)
-        self._align(state)
-        self._move_feet(phase, sensors.time, state)
         reference = self.plan.at(sensors.time)
+        state = self.estimator.update(
+            sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts, reference.com_acceleration
+        )
+        phase = self.schedule.at(sensors.time)
+        if s.feedback:
+            self._align(state)
+        self._move_feet(phase, sensors.time, state)
         xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
         if s.feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))

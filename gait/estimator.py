@@ -1,10 +1,14 @@
 """Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
 
-Orientation: the gyro is integrated; gravity, freed from the pendulum's acceleration, corrects roll and pitch slowly,
-and the heading of the loaded feet corrects yaw. Position: the material point of each loaded sole that lies at its
-centre of pressure does not move, so the base moves by what the leg's kinematics say, weighted by load; a foot that
-rolls about its edge is followed too. Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the
-taxels' ZMP p as input and the kinematic CoM as measurement, so that no encoder is differentiated.
+Orientation: the gyro is integrated; gravity, freed from the acceleration that the plan asks for, corrects roll and
+pitch slowly, and the heading of the loaded feet corrects yaw. (The pendulum's own estimate of the acceleration would
+not do: a wrong tilt moves the estimated CoM over the feet by just what makes it agree with the accelerometer.)
+
+Position: the material point of each loaded sole that lies at its centre of pressure does not move, so the base moves
+by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
+
+Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as input and the kinematic
+CoM as measurement, so that no encoder is differentiated.
 """
 
 from __future__ import annotations
@@ -150,6 +154,7 @@ class FloatingBaseEstimator:
         gyro: NDArray[np.float64],
         accelerometer: NDArray[np.float64],
         percepts: Mapping[Side, Percept],
+        planned_acceleration: NDArray[np.float64] | None = None,
     ) -> BaseState:
         """One control tick.
 
@@ -158,6 +163,7 @@ class FloatingBaseEstimator:
             gyro: Angular velocity (3,) of the base in the base frame in rad/s.
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
             percepts: What each sole feels.
+            planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
 
         Returns:
             The estimated state.
@@ -168,7 +174,7 @@ class FloatingBaseEstimator:
         if self._rotation is None or self._last is None:
             self._start(posture, accelerometer)
         else:
-            self._turn(posture, gyro, accelerometer, loads)
+            self._turn(posture, gyro, accelerometer, loads, planned_acceleration)
             self._move(posture, loads, cops)
         rotation = self._rotation
         assert rotation is not None
@@ -217,13 +223,15 @@ class FloatingBaseEstimator:
         gyro: NDArray[np.float64],
         accelerometer: NDArray[np.float64],
         loads: Mapping[Side, float],
+        planned_acceleration: NDArray[np.float64] | None,
     ) -> None:
         assert self._rotation is not None
         rotation = self._rotation
         rate = gyro.copy()
-        # Gravity: the specific force minus the pendulum's own acceleration points up.
+        # Gravity: the specific force minus the body's acceleration points up.
         specific = rotation @ accelerometer
-        specific[:2] -= self._acceleration
+        if planned_acceleration is not None:
+            specific[:2] -= planned_acceleration
         size = math.sqrt(float(specific @ specific))
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
             tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
@@ -279,6 +287,3 @@ class FloatingBaseEstimator:
         b = self.gains.observer
         self._com = self._com + min(1.0, 2.0 * b * self.period) * error
         self._velocity = self._velocity + min(1.0, b * b * self.period) * error
-        self._acceleration = acceleration[:2]
-
-    _acceleration: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2), init=False)

@@ -1,0 +1,54 @@
+import math
+
+import numpy as np
+import pytest
+
+from gait.balance import BalanceGains, DcmBalance
+from gait.vrp_plan import VrpPlan
+from plantar.errors import InputError
+
+OMEGA, PERIOD = 3.5, 0.005
+BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
+STILL = VrpPlan([0.0, 1.0], [[0.0, 0.0], [0.0, 0.0]], OMEGA).at(0.5)
+
+
+def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> None:
+    balance = DcmBalance(BalanceGains(dcm_gain=3.0), OMEGA, PERIOD)
+    xi = np.array([0.01, -0.02])
+    assert np.allclose(balance.desired_zmp(STILL, xi, BOX), (1 + 3.0 / OMEGA) * xi)
+    assert np.allclose(balance.desired_zmp(STILL, np.array([1.0, 0.0]), BOX), [0.1, 0.0])
+    free = balance.desired_zmp(STILL, np.array([1.0, 0.0]), np.empty((0, 2)))
+    assert np.allclose(free, [1 + 3.0 / OMEGA, 0.0])
+
+
+def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> None:
+    gain = 3.0
+    balance = DcmBalance(BalanceGains(dcm_gain=gain), OMEGA, PERIOD)
+    xi, dt = np.array([0.03, 0.0]), 1e-4
+    for _ in range(5000):
+        xi = xi + dt * OMEGA * (xi - balance.desired_zmp(STILL, xi, np.empty((0, 2))))
+    assert xi[0] == pytest.approx(0.03 * math.exp(-gain * 0.5), rel=1e-3)
+
+
+def test_the_com_yields_to_a_push_and_returns() -> None:
+    balance = DcmBalance(BalanceGains(), OMEGA, PERIOD)
+    pushed = balance.update(STILL, np.zeros(2), np.array([0.05, 0.0]), BOX)
+    for _ in range(40):
+        pushed = balance.update(STILL, np.zeros(2), np.array([0.05, 0.0]), BOX)
+    assert pushed.com[0] > 0.002  # moves with a push that drives the ZMP forward
+    back = pushed
+    for _ in range(2000):
+        back = balance.update(STILL, np.zeros(2), np.zeros(2), BOX)
+    assert abs(back.com[0]) < 1e-4
+
+
+def test_no_zmp_is_no_error() -> None:
+    state = DcmBalance(BalanceGains(), OMEGA, PERIOD).update(STILL, np.zeros(2), None, BOX)
+    assert np.array_equal(state.com, STILL.com)
+
+
+def test_gains_are_checked_and_foreign_keys_left_alone() -> None:
+    assert BalanceGains.from_table({"dcm_gain": 2.0, "law": "com_admittance"}).dcm_gain == 2.0
+    for value in (-1.0, math.nan, "3"):
+        with pytest.raises(InputError, match="dcm_gain"):
+            BalanceGains.from_table({"dcm_gain": value})

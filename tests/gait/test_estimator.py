@@ -1,0 +1,129 @@
+"""The estimator against a robot whose motion is known in closed form: a base that sways over fixed feet."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from gait.estimator import FloatingBaseEstimator, Posture, heading, rotation_from_vector
+from plantar import Percept, Reading, SoleLayout, hex_layout
+from plantar.layout import Side
+
+PERIOD, OMEGA = 0.005, 3.5
+SOLE = hex_layout([[-0.1, -0.06], [0.12, -0.06], [0.12, 0.06], [-0.1, 0.06]])
+FEET: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.09, 0.0]), "right": np.array([0.0, -0.09, 0.0])}
+START = {s: (*p.tolist(), 0.0) for s, p in FEET.items()}
+
+
+class Swaying:
+    """Base pose over time; `posture` takes the time as its one joint."""
+
+    def __init__(self, tilt: float, sway: float) -> None:
+        self.tilt, self.sway = tilt, sway
+
+    def rotation(self, time: float) -> NDArray[np.float64]:
+        angles = [0.5 * self.tilt * math.sin(3.0 * time), self.tilt * math.sin(2.0 * time)]
+        return np.asarray(Rotation.from_euler("xy", angles).as_matrix())
+
+    def base(self, time: float) -> NDArray[np.float64]:
+        return np.array([self.sway * math.sin(2.0 * time), self.sway * math.sin(2.5 * time), 0.8])
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        time = float(joint_positions[0])
+        r, p = self.rotation(time), self.base(time)
+        return Posture(
+            com=np.array([0.0, 0.0, 0.05]),
+            positions={s: r.T @ (FEET[s] - p) for s in FEET},
+            rotations={s: r.T.copy() for s in FEET},
+        )
+
+    def com(self, time: float) -> NDArray[np.float64]:
+        return self.base(time) + self.rotation(time) @ np.array([0.0, 0.0, 0.05])
+
+    def gyro(self, time: float) -> NDArray[np.float64]:
+        a, b = self.rotation(time), self.rotation(time + PERIOD)
+        return np.asarray(Rotation.from_matrix(a.T @ b).as_rotvec() / PERIOD)
+
+    def acceleration(self, time: float) -> NDArray[np.float64]:
+        h = 1e-4
+        return (self.com(time + h) - 2 * self.com(time) + self.com(time - h)) / h**2
+
+    def percepts(self, time: float, layout: SoleLayout = SOLE) -> dict[Side, Percept]:
+        """Soles that feel the ZMP of the pendulum at this time."""
+        zmp = self.com(time)[:2] - self.acceleration(time)[:2] / OMEGA**2
+        left = float(np.clip((zmp[1] + 0.09) / 0.18, 0.0, 1.0))
+        out: dict[Side, Percept] = {}
+        for side, share in (("left", left), ("right", 1.0 - left)):
+            x, y = zmp[0], zmp[1] - (left * 0.09 - (1 - left) * 0.09)
+            p = layout.positions[:, :2]
+            a = np.column_stack([np.ones(len(p)), p])
+            weights = np.linalg.lstsq(a.T, np.array([1.0, x, y]), rcond=None)[0]
+            load = 800.0 * share * weights
+            out[side] = Percept(layout, Reading(time, load), force_threshold=-1e9)  # type: ignore[index]
+        return out
+
+
+def follow(robot: Swaying, duration: float, noise: float = 0.0, bias: float = 0.0) -> tuple[float, float, float]:
+    """Worst errors after the first second: orientation in rad, CoM in m, CoM velocity in m/s."""
+    rng = np.random.default_rng(0)
+    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
+    worst = np.zeros(3)
+    for k in range(round(duration / PERIOD)):
+        time = k * PERIOD
+        specific = robot.acceleration(time) + np.array([0.0, 0.0, 9.81])
+        state = estimator.update(
+            np.array([time]),
+            robot.gyro(time - PERIOD) + noise * rng.standard_normal(3) + bias,
+            robot.rotation(time).T @ specific + 10 * noise * rng.standard_normal(3),
+            robot.percepts(time),
+            robot.acceleration(time)[:2],
+        )
+        if time > 1.0:
+            turn = Rotation.from_matrix(state.rotation_base_to_world.T @ robot.rotation(time)).magnitude()
+            velocity = (robot.com(time + 1e-5) - robot.com(time - 1e-5)) / 2e-5
+            errors = [
+                turn,
+                float(np.abs(state.com - robot.com(time)).max()),
+                float(np.abs(state.com_velocity[:2] - velocity[:2]).max()),
+            ]
+            worst = np.maximum(worst, errors)
+    return tuple(worst.tolist())
+
+
+def test_follows_a_swaying_base() -> None:
+    turn, com, velocity = follow(Swaying(tilt=0.04, sway=0.01), 8.0)
+    assert turn < 2e-3
+    assert com < 3e-3
+    assert velocity < 5e-3
+
+
+def test_noise_and_gyro_bias_stay_bounded() -> None:
+    turn, com, _ = follow(Swaying(tilt=0.0, sway=0.005), 20.0, noise=2e-3, bias=1e-3)
+    assert turn < 0.012  # bias / gravity gain = 5e-3 rad, plus noise
+    assert com < 0.02
+
+
+def test_an_airborne_robot_keeps_finite_answers() -> None:
+    robot = Swaying(0.0, 0.0)
+    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
+    empty: dict[Side, Percept] = {s: Percept(SOLE, Reading(0.0, np.zeros(len(SOLE)))) for s in FEET}
+    up = np.array([0.0, 0.0, 9.81])
+    for _ in range(100):
+        state = estimator.update(np.zeros(1), np.zeros(3), up, empty)
+    assert state.zmp is None
+    assert np.isfinite(state.com).all()
+    assert np.isfinite(state.com_velocity).all()
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-7, 1e-3, 1.0, 3.1])
+def test_rotation_from_vector_is_the_exponential(size: float) -> None:
+    vector = size * np.array([0.6, -0.64, 0.48])
+    assert np.allclose(rotation_from_vector(vector), Rotation.from_rotvec(vector).as_matrix(), atol=1e-14)
+
+
+def test_heading_of_a_yaw() -> None:
+    assert heading(np.asarray(Rotation.from_euler("z", 2.5).as_matrix())) == pytest.approx(2.5)

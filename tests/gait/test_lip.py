@@ -1,0 +1,27 @@
+import math
+
+import pytest
+
+from gait.lip import GRAVITY, dcm, pendulum_frequency
+from plantar.errors import InputError
+
+
+def test_frequency_is_that_of_the_pendulum() -> None:
+    assert pendulum_frequency(0.8) == pytest.approx(math.sqrt(GRAVITY / 0.8), rel=1e-15)
+
+
+@pytest.mark.parametrize("height", [0.0, -1.0, math.nan, math.inf])
+def test_bad_height_is_named(height: float) -> None:
+    with pytest.raises(InputError, match="CoM height"):
+        pendulum_frequency(height)
+
+
+def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there() -> None:
+    omega, x, v = 3.5, 0.02, 0.3
+    xi = float(dcm([x], [v], omega)[0])
+    start, dt = x, 1e-6
+    for _ in range(500_000):  # semi-implicit Euler of x'' = w^2 (x - p) with p = xi
+        v += dt * omega**2 * (x - xi)
+        x += dt * v
+    assert x == pytest.approx(xi + (start - xi) * math.exp(-omega * 0.5), abs=1e-5)
+    assert dcm(x, v, omega) == pytest.approx(xi, abs=1e-5)
