@@ -13,7 +13,15 @@ from pathlib import Path
 from typing import Any
 
 from gait.analysis.figures import figure_force, figure_pressure, figure_steps
-from gait.analysis.parameters import FootGait, Step, analyse_foot, gait_of_feet, summary_of_foot, symmetry
+from gait.analysis.parameters import (
+    FootGait,
+    Step,
+    analyse_foot,
+    gait_of_feet,
+    landing_impact,
+    summary_of_foot,
+    symmetry,
+)
 from gait.analysis.report import report_page
 from plantar.atomic import output_folder
 from plantar.formats import read_recording
@@ -99,22 +107,24 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         "frames": len(recording.time),
         "rate_hz": recording.rate_hz,
         "duration_s": float(recording.time[-1] - recording.time[0]),
-        "feet": {side: _foot(gait) for side, gait in feet.items()},
+        "feet": {side: _foot(recording, gait) for side, gait in feet.items()},
         "gait": {**gait_of_feet(feet), "symmetry_percent": symmetry(feet)},
         "warnings": warnings,
     }
 
 
-def _foot(gait: FootGait) -> dict[str, Any]:
+def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
     levels = gait.levels
+    landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
+    impacts = [landing_impact(recording.time, gait.foot.vertical_force, strike) for strike in landings]
     return {
         "steps": len(gait.steps),
         "events": [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete],
         "incomplete": [
             {"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if not c.complete
         ],
-        "landings_s": [c.heel_strike for c in gait.contacts if c.heel_strike is not None],
-        "landing_impacts_N": [_plain(s.landing_impact_N) for s in gait.steps],
+        "landings_s": landings,
+        "landing_impacts_N": [_plain(impact) for impact in impacts],
         "cells": gait.foot.force.shape[1],
         "event_level_N": None if levels is None else levels.release,
         "contact_level_N": None if levels is None else levels.contact,

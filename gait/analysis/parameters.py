@@ -9,19 +9,19 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.analysis.cop_path import averaged_path, margin_to_outline
 from gait.analysis.events import Contact, Levels, find_contacts, force_levels
-from plantar.layout import Side, SoleLayout
-from plantar.polygon import convex_hull
+from gait.analysis.spread import Spread, spread
+from plantar.layout import Side
 from plantar.pressure_recording import FootRecording, PressureRecording
 
 __all__ = [
     "MEASURES",
     "FootGait",
-    "Spread",
     "Step",
     "analyse_foot",
     "gait_of_feet",
-    "spread",
+    "landing_impact",
     "summary_of_foot",
     "symmetry",
 ]
@@ -93,16 +93,6 @@ MEASURES: tuple[str, ...] = tuple(f.name for f in fields(Step))[4:]
 """Names of the measures of a step that have a mean and a spread."""
 
 
-@dataclass(frozen=True)
-class Spread:
-    """Mean, standard deviation (n - 1) and coefficient of variation in percent over n steps; None where not defined."""
-
-    mean: float | None
-    sd: float | None
-    cv_percent: float | None
-    n: int
-
-
 @dataclass(frozen=True, eq=False)
 class FootGait:
     """One foot's recording with its events and steps.
@@ -145,7 +135,7 @@ def analyse_foot(recording: PressureRecording, side: Side) -> FootGait:
         others = find_contacts(recording.time, recording.feet[other].vertical_force)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
     if cop is not None:
-        cop = _averaged(cop, force, round(COP_WINDOW * recording.rate_hz))
+        cop = averaged_path(cop, force, round(COP_WINDOW * recording.rate_hz))
     threshold = _cell_threshold(foot, contacts)
     steps: list[Step] = []
     for i, contact in enumerate(contacts):
@@ -157,27 +147,6 @@ def analyse_foot(recording: PressureRecording, side: Side) -> FootGait:
             _measure(recording, foot, contact, previous, following, others, cop, threshold, number=len(steps) + 1)
         )
     return FootGait(foot, levels, tuple(contacts), tuple(steps), cop, threshold)
-
-
-def _averaged(points: NDArray[np.float64], weight: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
-    """Running mean of points (n, 2), weighted, over about so many frames; NaN stays NaN.
-
-    The window is centred and shrinks towards the ends of a span of points, so that an even motion keeps its ends.
-    """
-    known = np.isfinite(points[:, 0])
-    n = len(known)
-    index = np.arange(n)
-    before = index - np.maximum.accumulate(np.where(known, -1, index))
-    after = np.minimum.accumulate(np.where(known, n, index)[::-1])[::-1] - index
-    half = np.minimum(frames // 2, np.minimum(before, after) - 1).clip(0)
-    load = np.where(known, weight, 0.0)
-    total = np.concatenate([[0.0], np.cumsum(load)])
-    out = np.full_like(points, np.nan)
-    first, last = (index - half)[known], (index + half + 1)[known]
-    for axis in range(2):
-        moment = np.concatenate([[0.0], np.cumsum(load * np.where(known, points[:, axis], 0.0))])
-        out[known, axis] = (moment[last] - moment[first]) / (total[last] - total[first])
-    return out
 
 
 def _cell_threshold(foot: FootRecording, contacts: Sequence[Contact]) -> NDArray[np.float64]:
@@ -238,7 +207,7 @@ def _measure(
             path = float(np.hypot(*np.diff(points, axis=0).T).sum())
             ap, ml = (float(v) for v in np.ptp(points, axis=0))
             velocity = path / float(moments[-1] - moments[0])
-            margin = _margin(foot.layout, points)
+            margin = margin_to_outline(foot.layout, points)
     return Step(
         side=foot.side,
         number=number,
@@ -253,7 +222,7 @@ def _measure(
         double_support_percent=100.0 * double,
         peak_force_N=float(force.max()),
         impulse_Ns=float(np.trapezoid(force, time)),
-        landing_impact_N=float(force[time <= strike + IMPACT_WINDOW].max(initial=0.0)),
+        landing_impact_N=landing_impact(recording.time, foot.vertical_force, strike),
         peak_pressure_Pa=peak_pressure,
         pressure_time_integral_Pas=integral,
         contact_area_m2=area,
@@ -265,6 +234,19 @@ def _measure(
     )
 
 
+def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
+    """Largest vertical force in N within 50 ms of a heel strike; NaN where none was measured.
+
+    Args:
+        time: Times (n,) in s.
+        force: Vertical force (n,) in N.
+        strike: Time of the heel strike in s.
+    """
+    window = force[np.searchsorted(time, strike) : np.searchsorted(time, strike + IMPACT_WINDOW, side="right")]
+    window = window[np.isfinite(window)]
+    return float(window.max()) if len(window) else float("nan")
+
+
 def _overlap(strike: float, lift: float, others: Sequence[Contact] | None, recording: PressureRecording) -> float:
     """Time in s of one contact in which the other foot is on the ground too."""
     total = 0.0
@@ -273,33 +255,6 @@ def _overlap(strike: float, lift: float, others: Sequence[Contact] | None, recor
         end = other.toe_off if other.toe_off is not None else float(recording.time[other.end - 1])
         total += max(0.0, min(lift, end) - max(strike, begin))
     return total
-
-
-def _margin(layout: SoleLayout, points: NDArray[np.float64]) -> float:
-    """Smallest signed distance in m of points (m, 2) to the edges of the sole's convex outline."""
-    hull = convex_hull(layout.outline)
-    edge = np.roll(hull, -1, axis=0) - hull
-    normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]
-    return float(((points[:, None, :] - hull) * normal).sum(axis=2).min())
-
-
-def spread(values: Sequence[float] | NDArray[np.float64]) -> Spread:
-    """Mean, standard deviation and coefficient of variation of the values that are known.
-
-    Example:
-        >>> spread([1.0, 2.0, 3.0, float("nan")])
-        Spread(mean=2.0, sd=1.0, cv_percent=50.0, n=3)
-    """
-    known = np.asarray(values, dtype=float)
-    known = known[np.isfinite(known)]
-    n = len(known)
-    if n == 0:
-        return Spread(None, None, None, 0)
-    mean = float(known.mean())
-    if n == 1:
-        return Spread(mean, None, None, 1)
-    sd = float(known.std(ddof=1))
-    return Spread(mean, sd, 100.0 * sd / abs(mean) if mean != 0.0 else None, n)
 
 
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:

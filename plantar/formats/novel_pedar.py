@@ -8,7 +8,7 @@ A pedar export holds no geometry; a pliance export may append a table of cell co
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
@@ -19,25 +19,14 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.format import Format
 from plantar.formats.nominal_insole import CELL_AREA, DEFAULT_SIZE, nominal_insole
-from plantar.formats.polygon_layout import polygon_layout, subset
+from plantar.formats.pliance_geometry import corner_table, layout_of_corners
+from plantar.formats.polygon_layout import subset
+from plantar.formats.units import PASCALS
 from plantar.layout import Side, SoleLayout
 from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 
-__all__ = ["FORMAT", "PASCALS"]
+__all__ = ["FORMAT"]
 
-PASCALS: Mapping[str, float] = {
-    "kpa": 1e3,
-    "n/cm2": 1e4,
-    "mpa": 1e6,
-    "hpa": 1e2,
-    "pa": 1.0,
-    "mmhg": 133.322,
-    "psi": 6894.757,
-    "bar": 1e5,
-    "mbar": 1e2,
-    "kg/cm2": 98066.5,
-}
-"""Pressure units by their lower-case name, in Pa."""
 
 _COLUMNS = re.compile(r"\s*time\s*\[\s*s(?:ecs?)?\s*\]", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
@@ -71,7 +60,7 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
     pascals = _unit(path, text, warnings)
     time, rate, notes = sampling(rows.time, _rate(text))
     warnings += notes
-    geometry = _table_geometry(tail, len(columns), warnings) if layout is None else None
+    geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
     sides = _sides(text, columns, warnings)
     for (side, span), values in zip(sides, rows.take([span for _, span in sides]), strict=True):
@@ -281,7 +270,7 @@ def _layout(
         warnings.append(
             "cell geometry from the file's own corner table; its y is taken as forward, its x as to the right"
         )
-        return _layout_from_corners(geometry, cells, side)
+        return layout_of_corners(geometry, cells, side)
     if not all(1 <= c <= 99 for c in cells) or len(set(cells)) != len(cells):
         raise FormatError(
             f"{path}: its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
@@ -301,39 +290,6 @@ def _layout(
 def _order(sole: SoleLayout, cells: list[int]) -> list[int]:
     index = {int(v): i for i, v in enumerate(sole.ids)}
     return [index[c] for c in cells]
-
-
-def _table_geometry(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Corner points (cells, 4, 2) in m from the rows "x[0]" .. "y[3]" after the frames, where they are whole."""
-    rows: dict[str, list[float]] = {}
-    for line in tail:
-        match = re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line)
-        if match:
-            try:
-                rows[match[1]] = [float(v.replace(",", ".")) for v in match[2].split()]
-            except ValueError:
-                rows[match[1]] = []
-    if not rows:
-        return None
-    names = [f"{axis}[{corner}]" for corner in range(4) for axis in "xy"]
-    if any(len(rows.get(name, [])) != cells for name in names):
-        warnings.append("the file's table of cell corners is not whole: not used")
-        return None
-    corners = np.array([rows[name] for name in names]).T.reshape(cells, 4, 2) * 1e-2
-    if not np.isfinite(corners).all():
-        warnings.append("the file's table of cell corners holds values that are not numbers: not used")
-        return None
-    return corners
-
-
-def _layout_from_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """A layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right)."""
-    import shapely  # only where a file brings its own geometry
-
-    turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
-    polygons = [shapely.geometry.polygon.orient(shapely.MultiPoint(c).convex_hull) for c in turned]
-    rings = [np.array(p.exterior.coords)[:-1] for p in polygons]
-    return polygon_layout(rings, ids=cells, side=side, name="pliance mat")
 
 
 FORMAT = Format(

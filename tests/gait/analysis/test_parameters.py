@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.analysis.parameters import analyse_foot, gait_of_feet, spread, summary_of_foot, symmetry
+from gait.analysis.parameters import analyse_foot, gait_of_feet, summary_of_foot, symmetry
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.pressure_recording import FootRecording, PressureRecording
 
@@ -108,12 +108,3 @@ def test_a_foot_without_geometry_gives_forces_only(walk: Callable[..., Any]) -> 
     step = analyse_foot(recording, "left").steps[0]
     assert step.peak_force_N == pytest.approx(made.weight, rel=1e-6)
     assert np.isnan([step.peak_pressure_Pa, step.contact_area_m2, step.cop_path_m, step.cop_margin_m]).all()
-
-
-def test_spread_of_few_values() -> None:
-    assert spread([]).mean is None
-    assert spread([float("nan")]).n == 0
-    one = spread([2.0])
-    assert (one.mean, one.sd, one.cv_percent, one.n) == (2.0, None, None, 1)
-    two = spread([1.0, 3.0])
-    assert (two.sd, two.cv_percent) == pytest.approx((np.sqrt(2.0), 50 * np.sqrt(2.0)))

@@ -1,0 +1,40 @@
+"""Mean and spread of a measure over steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Spread", "spread"]
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Mean, standard deviation (n - 1) and coefficient of variation in percent over n steps; None where not defined."""
+
+    mean: float | None
+    sd: float | None
+    cv_percent: float | None
+    n: int
+
+
+def spread(values: Sequence[float] | NDArray[np.float64]) -> Spread:
+    """Mean, standard deviation and coefficient of variation of the values that are known.
+
+    Example:
+        >>> spread([1.0, 2.0, 3.0, float("nan")])
+        Spread(mean=2.0, sd=1.0, cv_percent=50.0, n=3)
+    """
+    known = np.asarray(values, dtype=float)
+    known = known[np.isfinite(known)]
+    n = len(known)
+    if n == 0:
+        return Spread(None, None, None, 0)
+    mean = float(known.mean())
+    if n == 1:
+        return Spread(mean, None, None, 1)
+    sd = float(known.std(ddof=1))
+    return Spread(mean, sd, 100.0 * sd / abs(mean) if mean != 0.0 else None, n)

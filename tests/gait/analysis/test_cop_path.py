@@ -1,0 +1,36 @@
+"""Averaging of the CoP path, and its distance to the sole's edge."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.analysis.cop_path import averaged_path, margin_to_outline
+from plantar import hex_layout
+from plantar.polygon import signed_margin
+
+
+def test_an_even_motion_is_kept_to_its_ends() -> None:
+    points = np.column_stack([np.linspace(0.0, 0.2, 60), np.linspace(0.05, 0.0, 60)])
+    points[:5] = points[-7:] = points[30] = np.nan
+    out = averaged_path(points, np.ones(60), 12)
+    known = np.isfinite(points[:, 0])
+    assert out[known] == pytest.approx(points[known])
+    assert np.isnan(out[~known]).all()
+
+
+def test_noise_is_averaged_and_force_is_the_weight() -> None:
+    random = np.random.default_rng(0)
+    points = random.normal(0.0, 0.01, (1000, 2))
+    out = averaged_path(points, np.ones(1000), 12)
+    assert out[50:-50].std() == pytest.approx(0.01 / np.sqrt(13), rel=0.1)
+    two = averaged_path(np.array([[0.0, 0.0], [1.0, 1.0], [0.0, 0.0]]), np.array([1.0, 2.0, 1.0]), 2)
+    assert two[1] == pytest.approx([0.5, 0.5])
+
+
+def test_margin_is_that_of_the_nearest_point_to_the_edge() -> None:
+    layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+    points = np.array([[0.1, 0.05], [0.19, 0.04], [0.1, 0.03]])
+    assert margin_to_outline(layout, points) == pytest.approx(0.01)
+    outside = np.array([[0.1, 0.05], [0.1, 0.12]])
+    assert margin_to_outline(layout, outside) == pytest.approx(signed_margin(layout.outline, outside[1])) == -0.02

@@ -1,0 +1,17 @@
+"""Mean and spread over few values."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.analysis.spread import spread
+
+
+def test_spread_of_few_values() -> None:
+    assert spread([]).mean is None
+    assert spread([float("nan")]).n == 0
+    one = spread([2.0])
+    assert (one.mean, one.sd, one.cv_percent, one.n) == (2.0, None, None, 1)
+    two = spread([1.0, 3.0])
+    assert (two.sd, two.cv_percent) == pytest.approx((np.sqrt(2.0), 50 * np.sqrt(2.0)))
