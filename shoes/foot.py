@@ -186,6 +186,8 @@ def _turned(triangles: NDArray[np.float64], forward: Forward) -> NDArray[np.floa
 
 def _checked_sole(triangles: NDArray[np.float64], sole_band: float, forward: Forward | None, path: str) -> Any:
     """Outline of the lowest band, refused where the body cannot be a foot."""
+    import shapely
+
     points = triangles.reshape(-1, 3)
     length, width, height = (float(v) for v in np.ptp(points, axis=0))
     if height < _HEIGHT_MIN:
@@ -195,10 +197,9 @@ def _checked_sole(triangles: NDArray[np.float64], sole_band: float, forward: For
         )
     try:
         sole = outline_below(triangles, sole_band)
-        silhouette = outline_below(triangles, math.inf)
     except FootError as error:
         raise FootError(f"{path}: {error}") from None
-    share = sole.area / silhouette.convex_hull.area
+    share = sole.area / shapely.MultiPoint(points[:, :2]).convex_hull.area
     if share < _SOLE_SHARE:
         raise FootError(
             f"{path}: no flat sole: the lowest {sole_band:g} mm cover {100 * share:.0f} % of the silhouette; "

@@ -18,6 +18,8 @@ GRID = 1e-3
 """Grid in mm that polygon corners lie on."""
 _SIMPLIFY = 0.05  # mm of detail that is dropped
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
+_MANY = 20_000  # triangles, above which they are joined on a coarser grid
+_COARSE_GRID = 0.4  # mm
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
 
 
@@ -86,6 +88,8 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
 
     below = cut_below(triangles, height)
     flat = below[..., :2]
+    if len(flat) > _MANY:  # corners that are shared move together, so no gap opens
+        flat = np.unique((flat / _COARSE_GRID).round().reshape(-1, 6), axis=0).reshape(-1, 3, 2) * _COARSE_GRID
     u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
     flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
     if len(below) == 0:

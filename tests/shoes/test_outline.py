@@ -80,3 +80,13 @@ def test_a_rounded_rectangle_has_its_size_and_area(radius: float) -> None:
     shape = rounded_rectangle(200.0, 100.0, (20.0, -5.0), radius)
     assert shape.bounds == pytest.approx((-80, -55, 120, 45), abs=1e-3)
     assert shape.area == pytest.approx(200 * 100 - (4 - np.pi) * radius**2, rel=5e-3)
+
+
+def test_a_fine_mesh_keeps_its_waist() -> None:
+    x, y = np.meshgrid(np.linspace(-100, 100, 160), np.linspace(-1, 1, 80))
+    grid = np.stack([x, y * 40 * (1 - 0.5 * np.exp(-((x / 30) ** 2))), np.zeros_like(x)], axis=-1)
+    a, b, c, d = (s.reshape(-1, 3) for s in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
+    triangles = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    assert len(triangles) > 20_000
+    shape = shapely.Polygon(np.concatenate([grid[0, :, :2], grid[-1, ::-1, :2]]))
+    assert outline_below(triangles, 5.0).symmetric_difference(shape).area < 0.02 * shape.area
