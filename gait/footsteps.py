@@ -57,6 +57,7 @@ def straight_plan(
     width: float = 0.17,
     first: Side = "left",
     start: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    height: float = 0.0,
 ) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
     """A straight walk: forward, backward, sideways or in place.
 
@@ -70,6 +71,7 @@ def straight_plan(
         width: Distance in m of the sole frames' origins when the feet stand side by side.
         first: The foot that moves first; a sideways walk starts with the foot it moves towards.
         start: Pose (x, y, yaw) in m, m, rad of the midpoint between the feet at the start.
+        height: Height of the ground that the feet stand on in m.
 
     Returns:
         The standing feet at the start, and the steps in order.
@@ -84,14 +86,14 @@ def straight_plan(
     """
     if steps < 0:
         raise InputError(f"steps is {steps}; allowed: 0 or more")
-    if not all(math.isfinite(v) for v in (length, sideways, width, *start)) or width <= 0.0:
+    if not all(math.isfinite(v) for v in (length, sideways, width, height, *start)) or width <= 0.0:
         raise InputError("a footstep plan needs finite numbers and a width above 0")
     x0, y0, yaw = start
     c, s = math.cos(yaw), math.sin(yaw)
 
     def place(side: Side, forward: float, left: float) -> Footstep:
         lateral = left + (0.5 if side == "left" else -0.5) * width
-        return Footstep(side, x0 + c * forward - s * lateral, y0 + s * forward + c * lateral, yaw)
+        return Footstep(side, x0 + c * forward - s * lateral, y0 + s * forward + c * lateral, yaw, height)
 
     feet: dict[Side, Footstep] = {"left": place("left", 0.0, 0.0), "right": place("right", 0.0, 0.0)}
     if sideways != 0.0:

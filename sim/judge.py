@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.layout import Side
 from plantar.polygon import area
-from sim.contact_truth import GroundTruth, foot_contacts, ground_truth, small_hull
+from sim.contact_truth import GroundTruth, foot_contacts, ground_truth, support_polygon_of_contacts
 from sim.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
@@ -108,9 +108,8 @@ class Judge:
             self.zmp_error.append(float(np.hypot(*(zmp - truth.zmp))))
         for side in _SIDES:
             last = self._landing[side]
-            if last is not None and data.time - last.time <= _SETTLED and contacts[side].size >= 3:
-                hull = small_hull([(x, y) for x, y, _ in contacts[side].positions.tolist()])
-                last.area = max(last.area, area(np.array(hull)))
+            if last is not None and data.time - last.time <= _SETTLED:
+                last.area = max(last.area, area(support_polygon_of_contacts([contacts[side]])))
         ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
         if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
             self.fell = True

@@ -82,6 +82,7 @@ class Simulation:
             sideways=walk.sideways,
             width=walk.width,
             first="left" if walk.first == "left" else "right",
+            height=scene.terrain.height,
         )
         self.settings = ControllerSettings(
             com_height=robot.com_height,

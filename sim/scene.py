@@ -37,7 +37,7 @@ class Walk:
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
         settle: Standing time that is simulated after the walk.
-        begin: Standing time before the walk.
+        begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
     """
 
     steps: int = field(default=20, metadata=limits(0, 100000))
@@ -51,7 +51,7 @@ class Walk:
     start: float = field(default=1.2, metadata=limits(0.2, 60.0))
     end: float = field(default=1.0, metadata=limits(0.2, 60.0))
     settle: float = field(default=2.0, metadata=limits(0.0, 600.0))
-    begin: float = field(default=1.0, metadata=limits(0.0, 60.0))
+    begin: float = field(default=1.0, metadata=limits(1.0, 60.0))
 
 
 @dataclass(frozen=True)

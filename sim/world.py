@@ -139,6 +139,7 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
             geom.friction[0] = terrain.friction
             geom.solref = [0.005, 1.0]
             geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
+            geom.gap = 0.001  # corners that hover by micrometres stay in the contact list
     model = spec.compile()
     data = mujoco.MjData(model)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]

@@ -15,6 +15,14 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
     """Running mean of points (n, 2), weighted, over about so many frames; NaN stays NaN.
 
     The window is centred and shrinks towards the ends of a span of points, so that an even motion keeps its ends.
+
+    Args:
+        points: Positions (n, 2); NaN where there is none.
+        weight: Weights (n,), above 0 where there is a position.
+        frames: Width of the window.
+
+    Returns:
+        The averaged positions (n, 2).
     """
     known = np.isfinite(points[:, 0])
     n = len(known)
@@ -33,7 +41,15 @@ def averaged_path(points: NDArray[np.float64], weight: NDArray[np.float64], fram
 
 
 def margin_to_outline(layout: SoleLayout, points: NDArray[np.float64]) -> float:
-    """Smallest signed distance in m of points (m, 2) to the edges of the sole's convex outline."""
+    """Smallest signed distance of points to the edges of a sole's convex outline.
+
+    Args:
+        layout: The sole.
+        points: Positions (m, 2) in the sole frame in m, 1 or more.
+
+    Returns:
+        The distance in m, positive where all points are inside.
+    """
     hull = convex_hull(layout.outline)
     edge = np.roll(hull, -1, axis=0) - hull
     normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]

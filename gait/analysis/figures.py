@@ -32,7 +32,7 @@ def maximum_pressure(gait: FootGait) -> NDArray[np.float64] | None:
 
 
 def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
-    """Maximum pressure picture of each foot with the CoP path of every complete step; None without geometry."""
+    """Maximum pressure picture of each foot with the CoP paths of its complete steps; None without geometry."""
     maps = {side: maximum_pressure(gait) for side, gait in feet.items()}
     shown = {side: values for side, values in maps.items() if values is not None}
     if not shown:
@@ -68,7 +68,15 @@ def figure_pressure(feet: Mapping[Side, FootGait]) -> Any | None:
 
 
 def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any:
-    """Vertical force of each foot over time, with heel strikes and toe offs."""
+    """Vertical force of each foot over time, with heel strikes and toe offs.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure.
+    """
     figure, axes = new_figure(10.0, 2.6 * len(feet) + 0.6, rows=len(feet), sharex=True, sharey=True, squeeze=False)
     for panel, (side, gait) in zip(axes[:, 0], feet.items(), strict=True):
         force = gait.foot.vertical_force
@@ -96,7 +104,15 @@ def figure_force(recording: PressureRecording, feet: Mapping[Side, FootGait]) ->
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Force curves of all complete steps over the stance, with their mean and standard deviation; None without."""
+    """Force curves of the complete steps over the stance, with their mean and standard deviation.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None where no foot has a complete step.
+    """
     shown = {side: gait for side, gait in feet.items() if gait.steps}
     if not shown:
         return None

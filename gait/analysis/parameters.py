@@ -241,6 +241,9 @@ def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike
         time: Times (n,) in s.
         force: Vertical force (n,) in N.
         strike: Time of the heel strike in s.
+
+    Returns:
+        The force in N.
     """
     window = force[np.searchsorted(time, strike) : np.searchsorted(time, strike + IMPACT_WINDOW, side="right")]
     window = window[np.isfinite(window)]

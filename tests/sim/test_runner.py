@@ -1,0 +1,139 @@
+"""Short walks, judged by MuJoCo's truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from plantar.recording import read_mcap
+from sim.runner import Simulation, run_scene
+from sim.scene import Scene, load_scene
+
+MOTION = ("landings_s", "impacts_N", "tilt_max_deg", "zmp_margin_min_m", "final", "estimate", "contact_area_ratio")
+
+
+def test_four_steps_are_walked_upright_and_on_plan(short_run: tuple[dict[str, Any], Path]) -> None:
+    summary, _ = short_run
+    assert summary["completed"]
+    assert not summary["fell"]
+    assert summary["steps_taken"] == summary["steps_planned"] == 4
+    assert summary["landing_sides"] == ["left", "right", "left", "right"]
+    assert summary["tilt_max_deg"] < 1.5
+    assert summary["zmp_margin_min_m"] > 0.03
+    assert summary["final"]["position_error_m"] < 0.02
+    assert summary["final"]["heading_error_deg"] < 1.0
+    assert max(summary["estimate"]["com_error_max_m"]) < 0.02
+    assert min(summary["contact_area_ratio"]) > 0.99
+    assert max(summary["impacts_N"]) < 86 * 9.81
+
+
+def test_the_summary_holds_what_the_contract_names(short_run: tuple[dict[str, Any], Path]) -> None:
+    names = {
+        "scene",
+        "robot",
+        "seed",
+        "completed",
+        "fell",
+        "steps_planned",
+        "steps_taken",
+        "sim_time_s",
+        "wall_time_s",
+        "real_time_factor",
+        "tilt_max_deg",
+        "zmp_margin_min_m",
+        "impacts_N",
+        "contact_area_ratio",
+        "replans",
+        "control_us",
+        "skipped",
+    }
+    assert names <= set(short_run[0])
+    assert set(short_run[0]["control_us"]) == {"p50", "p99"}
+
+
+def test_recording_and_computing_everything_leave_the_motion_the_same_to_the_last_bit(
+    short_run: tuple[dict[str, Any], Path], short_scene: Scene
+) -> None:
+    plain = Simulation(short_scene, 0)
+    without = plain.run()
+    everything = Simulation(load_scene("flat", ["steps=4", "settle=1.0", "skip=none"]), 0)
+    with_all = everything.run()
+    assert np.array_equal(plain.world.data.qpos, everything.world.data.qpos)
+    for name in MOTION:
+        assert short_run[0][name] == without[name] == with_all[name]
+    assert with_all["skipped"]["percept_members"] == 0 < without["skipped"]["percept_members"]
+
+
+def test_another_seed_is_another_walk(short_run: tuple[dict[str, Any], Path], short_scene: Scene) -> None:
+    assert run_scene(short_scene, 1)["impacts_N"] != short_run[0]["impacts_N"]
+
+
+def test_the_recording_tells_the_walk(short_run: tuple[dict[str, Any], Path]) -> None:
+    summary, path = short_run
+    run = read_mcap(path)
+    assert not run.warnings
+    assert set(run.layouts) == {"left", "right"}
+    skin = run.topics["/skin/left"]
+    assert np.diff(skin.time) == pytest.approx(np.full(len(skin) - 1, 0.004))
+    assert skin.fields["force"].shape[1] == len(run.layouts["left"])
+    body = run.topics["/truth/body"]
+    assert np.diff(body.time) == pytest.approx(np.full(len(body) - 1, 0.005))
+    assert np.nanmin(body.fields["zmp_margin"]) == pytest.approx(summary["zmp_margin_min_m"], abs=1e-5)
+    estimate = run.topics["/estimate"].fields["com"]
+    assert np.abs(estimate - body.fields["com"]).max(axis=0) == pytest.approx(
+        summary["estimate"]["com_error_max_m"], abs=1e-4
+    )
+    # The taxels' sum against the true ground force, where the noise of 42 taxels is all that may differ.
+    force = skin.fields["force"].sum(axis=1)
+    truth = np.interp(skin.time, run.topics["/truth/left"].time, run.topics["/truth/left"].fields["normal_force"][:, 0])
+    assert np.median(np.abs(force - truth)) < 3 * 1.4715 * np.sqrt(42)
+
+
+def test_a_fall_is_seen_and_ends_the_run() -> None:
+    summary = run_scene(
+        load_scene("push", ["steps=4", "impulse=90", "push.step=1", "direction=right", "feedback=false"]), 0
+    )
+    assert summary["fell"]
+    assert not summary["completed"]
+    assert summary["sim_time_s"] < 9.0
+
+
+def test_standing_is_a_walk_of_no_steps() -> None:
+    summary = run_scene(load_scene("flat", ["steps=0", "settle=0.5"]), 0)
+    assert summary["completed"]
+    assert summary["steps_planned"] == 0
+    assert summary["final"]["position_error_m"] < 0.005
+
+
+@pytest.mark.parametrize(
+    ("settings", "position"),
+    [
+        (["length=-0.15"], 0.05),
+        (["length=0.0", "sideways=0.08"], 0.05),
+        (["first=right", "length=0.1"], 0.05),
+        (["terrain.height=-0.7"], 0.05),
+    ],
+)
+def test_other_gaits_walk_too(settings: list[str], position: float) -> None:
+    scene = load_scene("flat", ["steps=4", "settle=1.0", *settings])
+    summary = run_scene(scene, 0)
+    assert summary["completed"], summary
+    assert summary["final"]["position_error_m"] < position
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(10))
+def test_twenty_steps(seed: int) -> None:
+    summary = run_scene(load_scene("flat"), seed)
+    assert summary["completed"]
+    assert summary["steps_taken"] == 20
+    assert summary["tilt_max_deg"] < 3.0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(20))
+def test_pushes_are_survived(seed: int) -> None:
+    assert run_scene(load_scene("push"), seed)["completed"]

@@ -1,0 +1,62 @@
+from pathlib import Path
+
+import pytest
+
+from plantar.errors import SceneError
+from sim.scene import builtin_scenes, load_scene
+
+
+@pytest.mark.parametrize("name", builtin_scenes())
+def test_every_built_in_scene_loads_and_says_what_it_is(name: str) -> None:
+    scene = load_scene(name)
+    assert scene.name == name
+    assert scene.description
+
+
+def test_settings_override_by_section_bare_name_and_alias() -> None:
+    scene = load_scene("flat", ["walk.steps=4", "feedback=false", "t_ss=1.1", "noise=0", "robot=h1"])
+    assert scene.walk.steps == 4
+    assert not scene.control.feedback
+    assert scene.walk.single_support == 1.1
+    assert scene.sensing.force_noise == 0.0
+
+
+@pytest.mark.parametrize(
+    ("setting", "word"),
+    [
+        ("steps", "key=value"),
+        ("=4", "key=value"),
+        ("walk.nothing=1", "no such key"),
+        ("nothing=1", "no such key"),
+        ("steps=many", "steps"),
+        ("steps=-1", "0 to"),
+        ("friction=0", "friction"),
+        ("direction=up", "forward"),
+    ],
+)
+def test_bad_settings_give_one_line(setting: str, word: str) -> None:
+    with pytest.raises(SceneError, match=word) as caught:
+        load_scene("flat", [setting])
+    assert "\n" not in str(caught.value)
+
+
+def test_a_scene_file_of_ones_own(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('robot = "h1"\n[walk]\nsteps = 2\n')
+    scene = load_scene(path)
+    assert (scene.name, scene.walk.steps) == ("mine", 2)
+    path.write_text("[wolk]\nsteps = 2\n")
+    with pytest.raises(SceneError, match=r"wolk.*allowed.*walk"):
+        load_scene(path)
+    path.write_text("steps = = 2\n")
+    with pytest.raises(SceneError, match="not valid TOML"):
+        load_scene(path)
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(SceneError, match="not valid TOML"):
+        load_scene(path)
+
+
+@pytest.mark.parametrize("name", ["nowhere", "../flat", "missing.toml", ""])
+def test_unknown_scenes_list_the_known_ones_or_name_the_file(name: str) -> None:
+    with pytest.raises(SceneError, match=r"flat|missing\.toml"):
+        load_scene(name)
