@@ -103,7 +103,15 @@ class PressureRecording:
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
-    """The layout of one side, out of a given one: itself, or its mirror image for the other foot."""
+    """The layout of one side, out of a given one.
+
+    Args:
+        side: The foot.
+        given: A layout of either side, or None.
+
+    Returns:
+        The given layout, or its mirror image for the other foot; None for None.
+    """
     if given is None or given.side == side:
         return given
     return mirrored(given)

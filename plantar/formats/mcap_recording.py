@@ -68,3 +68,4 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
 
 
 FORMAT = Format(name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read)
+"""The entry of the registry."""

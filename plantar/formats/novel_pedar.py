@@ -295,3 +295,4 @@ def _order(sole: SoleLayout, cells: list[int]) -> list[int]:
 FORMAT = Format(
     name="pedar", title="Novel pedar or pliance export", suffixes=(".asc",), recognises=_recognises, read=_read
 )
+"""The entry of the registry."""

@@ -14,7 +14,16 @@ __all__ = ["corner_table", "layout_of_corners"]
 
 
 def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np.float64] | None:
-    """Corner points (cells, 4, 2) in m from the rows "x[0]" .. "y[3]" after the frames, where they are whole."""
+    """Corner points of the cells, from the rows "x[0]" .. "y[3]" (in cm) after the frames.
+
+    Args:
+        tail: The lines after the frames.
+        cells: Number of cells.
+        warnings: Where a table that is not whole is reported.
+
+    Returns:
+        Corners (cells, 4, 2) in m in the file's axes, or None where the file has no whole table.
+    """
     rows: dict[str, list[float]] = {}
     for line in tail:
         match = re.match(r"\s*([xy]\[[0-3]\])\s+(.*)", line)
@@ -37,7 +46,16 @@ def corner_table(tail: list[str], cells: int, warnings: list[str]) -> NDArray[np
 
 
 def layout_of_corners(corners: NDArray[np.float64], cells: list[int], side: Side) -> SoleLayout:
-    """A layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right)."""
+    """A layout of quadrilateral cells; the file's y becomes x (forward), its x becomes -y (to the right).
+
+    Args:
+        corners: Corners (n, 4, 2) in m in the file's axes, in any order.
+        cells: Ids of the cells.
+        side: "left" or "right".
+
+    Returns:
+        The layout.
+    """
     import shapely  # only where a file brings its own geometry
 
     turned = np.stack([corners[:, :, 1], -corners[:, :, 0]], axis=-1)
