@@ -172,6 +172,7 @@ class WalkingController:
         }
         self._swing: SwingTrajectory | None = None
         self._swing_step = -1
+        self._ticks = 0
         self._landed = True
         self._lowered = self._lowering = 0.0
         self._anchor = feet["left"].position
@@ -195,11 +196,13 @@ class WalkingController:
             sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts, reference.com_acceleration
         )
         phase = self.schedule.at(sensors.time)
-        if s.feedback:
+        self._ticks += 1
+        feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
+        if feedback:
             self._align(state)
         self._move_feet(phase, sensors.time, state)
         xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
-        if s.feedback:
+        if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
         else:

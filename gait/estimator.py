@@ -26,7 +26,15 @@ from plantar.force import zmp_of_feet
 from plantar.layout import Side
 from plantar.percept import Percept
 
-__all__ = ["BaseState", "EstimatorGains", "FloatingBaseEstimator", "LegKinematics", "Posture", "heading"]
+__all__ = [
+    "BaseState",
+    "EstimatorGains",
+    "FloatingBaseEstimator",
+    "LegKinematics",
+    "Posture",
+    "heading",
+    "rotation_from_vector",
+]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _THREE_HALVES = 1.5 * np.eye(3)
@@ -61,6 +69,7 @@ class EstimatorGains:
 
     Attributes:
         gravity: Roll and pitch correction by the accelerometer in 1/s.
+        averaging: Time in s for which the robot holds still at the start and gravity is averaged.
         yaw: Heading correction by the loaded feet in 1/s.
         observer: Bandwidth of the CoM velocity observer in rad/s.
         minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
@@ -68,6 +77,7 @@ class EstimatorGains:
     """
 
     gravity: float = 0.2
+    averaging: float = 0.5
     yaw: float = 2.0
     observer: float = 20.0
     minimum_load: float = 70.0
@@ -145,6 +155,7 @@ class FloatingBaseEstimator:
         self._com = np.zeros(3)
         self._velocity = np.zeros(3)
         self._last: Posture | None = None
+        self._samples = 0
         self._last_rotation = np.eye(3)
         self._heading: dict[Side, float | None] = {"left": None, "right": None}
 
@@ -235,7 +246,12 @@ class FloatingBaseEstimator:
         size = math.sqrt(float(specific @ specific))
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
             tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
-            rate += self.gains.gravity * (rotation.T @ tilt)
+            # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
+            # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
+            self._samples += 1
+            since = self.period * (self._samples + 1)
+            gain = 1.0 / since if since < self.gains.averaging else self.gains.gravity
+            rate += gain * (rotation.T @ tilt)
         total = 0.0
         error = 0.0
         for side in _SIDES:

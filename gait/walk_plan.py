@@ -16,7 +16,15 @@ __all__ = ["plan_vrps", "vrp_of_step"]
 
 
 def vrp_of_step(step: Footstep, vrp_in_sole: ArrayLike) -> NDArray[np.float64]:
-    """VRP (2,) in the world frame in m over a footstep (T 4.13), from its place (2,) in the sole frame."""
+    """VRP over a footstep (T 4.13).
+
+    Args:
+        step: The footstep.
+        vrp_in_sole: Its place (2,) in the sole frame in m.
+
+    Returns:
+        VRP (2,) in the world frame in m.
+    """
     return np.asarray(step.position[:2] + step.rotation_sole_to_world[:2, :2] @ np.asarray(vrp_in_sole, dtype=float))
 
 

@@ -63,7 +63,13 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set the configuration that the next `solve` starts from."""
+        """Set the configuration that the next `solve` starts from.
+
+        Args:
+            position: Base position (3,) in the world frame in m.
+            quaternion: Base orientation (4,), w first.
+            joints: Joint angles (k,) in rad.
+        """
         self._data.qpos[:3] = position
         self._data.qpos[3:7] = quaternion
         self._data.qpos[self._qpos] = joints

@@ -18,7 +18,7 @@ __all__ = ["Judge", "Landing"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _TOUCH = 5.0  # N: less than this is no contact
-_AIRBORNE = 0.1  # s without contact before a touch counts as a landing
+_AIRBORNE = 0.15  # s without contact before a touch counts as a landing
 _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
 _SETTLED = 0.6  # s after touchdown in which the contact area is looked for
 _FALLEN_TILT = 40.0  # degrees
@@ -31,7 +31,7 @@ class Landing:
 
     Attributes:
         side: Which foot.
-        time: Touchdown in s: the first physics step with ground force after at least 0.1 s in the air.
+        time: Touchdown in s: the first physics step with ground force after at least 0.15 s in the air.
         impact: Largest vertical ground force in N within 50 ms.
         area: Largest contact area in m^2 (hull of the contact points) in the 0.6 s after touchdown.
     """

@@ -46,6 +46,8 @@ class RunLog:
             s: channel(f"/truth/{s}", [("normal_force", 1), ("position", 3), ("rotation", 9)]) for s in _SIDES
         }
         self._body = channel("/truth/body", [("com", 3), ("zmp", 2), ("zmp_margin", 1), ("rotation", 9), ("wrench", 6)])
+        self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
+        self._foot_row, self._body_row = np.empty(13), np.empty(21)
 
     def __enter__(self) -> RunLog:
         self._recorder.__enter__()
@@ -60,41 +62,35 @@ class RunLog:
             channel.write(readings[side].time, readings[side].force)
 
     def tick(self, sensors: Sensors, command: Command, joints: NDArray[np.float64], truth: GroundTruth) -> None:
-        """Record one control tick."""
+        """Record one control tick.
+
+        Args:
+            sensors: What the controller read.
+            command: What it asked for.
+            joints: Joint references (k,) in rad.
+            truth: What the judge saw.
+        """
         w, time = self._world, sensors.time
         data, state, reference = w.data, command.state, command.reference
-        self._joints.write(time, np.concatenate([sensors.joint_positions, joints, data.actuator_force[w.servos]]))
-        zmp = _NAN2 if state.zmp is None else state.zmp
-        self._estimate.write(time, np.concatenate([state.com, state.com_velocity, command.dcm, zmp]))
-        self._reference.write(
-            time,
-            np.concatenate(
-                [
-                    command.com,
-                    reference.dcm,
-                    reference.vrp,
-                    command.zmp_desired,
-                    (float(command.phase.kind), float(command.phase.step)),
-                ]
-            ),
-        )
+        k = len(w.servos)
+        row = self._joint_row
+        row[:k], row[k : 2 * k], row[2 * k :] = sensors.joint_positions, joints, data.actuator_force[w.servos]
+        self._joints.write(time, row)
+        row = self._estimate_row
+        row[:3], row[3:6], row[6:8] = state.com, state.com_velocity, command.dcm
+        row[8:] = _NAN2 if state.zmp is None else state.zmp
+        self._estimate.write(time, row)
+        row = self._reference_row
+        row[:3], row[3:5], row[5:7], row[7:9] = command.com, reference.dcm, reference.vrp, command.zmp_desired
+        row[9], row[10] = command.phase.kind, command.phase.step
+        self._reference.write(time, row)
+        row = self._foot_row
         for side, channel in self._truth.items():
             site = w.sole_sites[side]
-            channel.write(
-                time,
-                np.concatenate(
-                    [data.sensordata[w.touch[side] : w.touch[side] + 1], data.site_xpos[site], data.site_xmat[site]]
-                ),
-            )
-        self._body.write(
-            time,
-            np.concatenate(
-                [
-                    data.subtree_com[w.torso],
-                    _NAN2 if truth.zmp is None else truth.zmp,
-                    (np.nan if truth.margin is None else truth.margin,),
-                    data.xmat[w.torso],
-                    truth.wrench,
-                ]
-            ),
-        )
+            row[0], row[1:4], row[4:] = data.sensordata[w.touch[side]], data.site_xpos[site], data.site_xmat[site]
+            channel.write(time, row)
+        row = self._body_row
+        row[:3], row[6:15], row[15:] = data.subtree_com[w.torso], data.xmat[w.torso], truth.wrench
+        row[3:5] = _NAN2 if truth.zmp is None else truth.zmp
+        row[5] = np.nan if truth.margin is None else truth.margin
+        self._body.write(time, row)

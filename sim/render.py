@@ -83,7 +83,15 @@ def _opencv() -> Any:
 
 
 def save_picture(picture: NDArray[np.uint8], path: str | os.PathLike[str]) -> Path:
-    """Save an RGB picture (height, width, 3) as PNG or JPEG; it appears whole or not at all."""
+    """Save a picture as PNG or JPEG; it appears whole or not at all.
+
+    Args:
+        picture: RGB picture (height, width, 3).
+        path: File to write; its suffix chooses the format.
+
+    Returns:
+        The path.
+    """
     cv2 = _opencv()
     with replacing(path) as temporary:
         cv2.imwrite(str(temporary), picture[:, :, ::-1])

@@ -8,6 +8,7 @@ import time as clock
 from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import mujoco
@@ -18,7 +19,6 @@ from gait.controller import Command, ControllerSettings, WalkingController
 from gait.footsteps import straight_plan
 from gait.phases import Timing
 from gait.walk_plan import vrp_of_step
-from plantar.atomic import replacing
 from plantar.layout import Side, SoleLayout
 from plantar.polygon import centroid
 from sim.judge import Judge
@@ -117,7 +117,7 @@ class Simulation:
         """Run the scene to its end or to the fall.
 
         Args:
-            record: MCAP file to write; it takes its name when the run is over.
+            record: MCAP file to write; a run that is killed leaves what it had flushed.
             video: MP4 file to write, in real time.
             progress: Called about ten times a second with the fraction done and a text.
 
@@ -127,8 +127,7 @@ class Simulation:
         with ExitStack() as stack:
             log = film = None
             if record is not None:
-                temporary = stack.enter_context(replacing(record))
-                log = stack.enter_context(RunLog(temporary, self.world, self._identity()))
+                log = stack.enter_context(RunLog(Path(record), self.world, self._identity()))
             if video is not None:
                 film = stack.enter_context(Film(video, self.world))
             result = self._loop(log, film, progress)
@@ -269,5 +268,17 @@ def run_scene(
     video: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
-    """Run one scene; see `Simulation` and `Simulation.run` for arguments and result."""
+    """Run one scene.
+
+    Args:
+        scene: The scene.
+        seed: Seed of sensor noise and of what the scene leaves to chance.
+        layouts: Sole layouts to wear instead of the robot's own.
+        record: MCAP file to write.
+        video: MP4 file to write.
+        progress: Called about ten times a second with the fraction done and a text.
+
+    Returns:
+        The summary (see `Simulation.run`).
+    """
     return Simulation(scene, seed, layouts).run(record=record, video=video, progress=progress)

@@ -40,7 +40,12 @@ class LegServos:
         self.largest_error = 0.0
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
-        """Hold a posture (k,) in rad with feed-forward torques (k,) in N m."""
+        """Hold a posture.
+
+        Args:
+            joints: Joint angles (k,) in rad.
+            torques: Feed-forward torques (k,) in N m.
+        """
         self._last = joints.copy()
         self._setpoint = joints + torques / self._world.stiffness
         self._rate = np.zeros_like(joints)

@@ -15,7 +15,15 @@ T = TypeVar("T")
 
 
 def limits(low: float, high: float) -> dict[str, Any]:
-    """Metadata of a numeric field: the allowed range, both ends included."""
+    """Metadata of a numeric field: the allowed range, both ends included.
+
+    Args:
+        low: Smallest allowed value.
+        high: Largest allowed value.
+
+    Returns:
+        The metadata for `dataclasses.field`.
+    """
     return {"low": low, "high": high}
 
 

@@ -70,6 +70,9 @@ class BipedParameters:
             table: The table's values.
             where: Name of the file, for error messages.
 
+        Returns:
+            The checked dimensions.
+
         Raises:
             RobotError: If a value is missing, unknown or of the wrong length.
         """
