@@ -58,6 +58,51 @@ def build_leg_model(robot: Robot) -> LegModel:
     return LegModel(model, joints, {s: robot.legs[s].sole_site for s in _SIDES}, robot.torso_body)
 
 
+def _add_looks(spec: Any, torso: str) -> None:
+    """Sky, light and floor of pictures and videos; no effect on the physics."""
+    spec.add_texture(
+        name="sky",
+        type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+        rgb1=[0.98, 0.985, 0.99],
+        rgb2=[0.72, 0.80, 0.88],
+        width=256,
+        height=1536,
+    )
+    spec.add_texture(
+        name="ground",
+        type=mujoco.mjtTexture.mjTEXTURE_2D,
+        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
+        rgb1=[0.88, 0.89, 0.91],
+        rgb2=[0.80, 0.82, 0.85],
+        width=256,
+        height=256,
+    )
+    material = spec.add_material(name="ground", texrepeat=[5, 5], texuniform=True)
+    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "ground"
+    spec.worldbody.add_light(
+        pos=[0, 0, 4],
+        dir=[0.3, 0.4, -1],
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
+        diffuse=[0.3, 0.3, 0.3],
+        castshadow=False,
+    )
+    spec.worldbody.add_light(
+        pos=[0.6, -0.8, 3.2],
+        mode=mujoco.mjtCamLight.mjCAMLIGHT_TARGETBODYCOM,
+        targetbody=torso,
+        type=mujoco.mjtLightType.mjLIGHT_SPOT,
+        cutoff=60.0,
+        exponent=2.0,
+        diffuse=[0.35, 0.35, 0.35],
+    )
+    spec.visual.headlight.ambient = [0.4, 0.4, 0.4]
+    spec.visual.headlight.diffuse = [0.25, 0.25, 0.25]
+    spec.visual.quality.shadowsize = 4096
+    spec.visual.rgba.haze = [0.95, 0.96, 0.97, 1.0]
+    spec.visual.map.haze = 0.4
+
+
 def _add_touch(spec: Any, sole: Any, name: str) -> None:
     """Add a sensor of the normal force on a sole box: a touch site that encloses it with 10 mm to spare."""
     site = sole.parent.add_site(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, pos=sole.pos, quat=sole.quat, group=5)
@@ -118,18 +163,7 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = 10.0
     spec.option.iterations = 20
-    spec.add_texture(
-        name="ground",
-        type=mujoco.mjtTexture.mjTEXTURE_2D,
-        builtin=mujoco.mjtBuiltin.mjBUILTIN_CHECKER,
-        rgb1=[0.88, 0.89, 0.91],
-        rgb2=[0.80, 0.82, 0.85],
-        width=256,
-        height=256,
-    )
-    material = spec.add_material(name="ground", texrepeat=[5, 5], texuniform=True)
-    material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = "ground"
-    spec.worldbody.add_light(pos=[0, 0, 4], dir=[0.2, 0.3, -1], type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
+    _add_looks(spec, robot.torso_body)
     terrain.add_to(spec)
     for side in _SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")

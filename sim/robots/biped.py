@@ -164,8 +164,10 @@ def _leg(
                 {joint(5)}
                 <site name="{side}_sole" pos="0 0 {bottom:.6g}" size="0.005"/>
                 <site name="{side}_ankle_force_torque" pos="0 0 0" size="0.005"/>
-                <geom class="look" type="box" size="{lx * 0.85:.6g} {ly * 0.85:.6g} {(p.ankle_height * 0.5):.6g}"
-                  pos="{cx:.6g} {mirror * cy:.6g} {-p.ankle_height * 0.5:.6g}"/>
+                <geom class="look" type="box" size="{lx * 0.86:.6g} {ly * 0.86:.6g} .02"
+                  pos="{cx:.6g} {mirror * cy:.6g} {bottom + thickness + 0.02:.6g}"/>
+                <geom class="look" type="capsule" size=".042" rgba=".25 .27 .3 1"
+                  fromto="0 0 0 0 0 {bottom + thickness + 0.05:.6g}"/>
                 <geom name="{side}_sole_box" class="sole" type="box" size="{lx:.6g} {ly:.6g} {0.5 * thickness:.6g}"
                   pos="{cx:.6g} {mirror * cy:.6g} {bottom + 0.5 * thickness:.6g}"/>
               </body>

@@ -1,0 +1,90 @@
+"""Draw the README's picture: the robot in mid step, what its soles feel, and the walk in the plane.
+
+MUJOCO_GL=egl python examples/walk_picture.py docs/images/walk.png
+"""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+os.environ.setdefault("MUJOCO_GL", "egl")
+
+import numpy as np
+
+from plantar import Percept, Reading
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.recording import read_mcap
+from sim.render import Camera
+from sim.runner import Simulation
+from sim.scene import load_scene
+
+MOMENT = 6.88  # s: in double support, both feet loaded
+
+
+def main(path: str) -> None:
+    """Walk, stop the clock at one moment, and draw."""
+    simulation = Simulation(load_scene("flat", ["steps=8"]), seed=0)
+    camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, distance=2.9, azimuth=140.0)
+    pictures = []
+    look = simulation.judge.look
+
+    def look_and_picture(*arguments):  # the judge is called at every control tick
+        if not pictures and simulation.world.data.time >= MOMENT:
+            pictures.append(camera.picture(simulation.world.data).copy())
+        return look(*arguments)
+
+    simulation.judge.look = look_and_picture
+    with tempfile.TemporaryDirectory() as folder:
+        recording = Path(folder) / "run.mcap"
+        simulation.run(record=recording)
+        run = read_mcap(recording)
+
+    figure, axes = new_figure(13.0, 3.6, 1, 3, width_ratios=[0.85, 1.05, 2.9])
+    axes[0].imshow(pictures[0])
+    axes[0].axis("off")
+    for side in ("left", "right"):
+        layout, skin = run.layouts[side], run.topics[f"/skin/{side}"]
+        force = skin.fields["force"][np.searchsorted(skin.time, MOMENT)]
+        percept = Percept(layout, Reading(MOMENT, force))
+        shift = np.array([0.0, 0.1 if side == "left" else -0.1])
+        for i in range(len(layout)):
+            ring = layout.cell_polygon(i) + shift
+            shade = min(1.0, max(0.0, float(force[i]) / 40.0))
+            axes[1].fill(
+                -ring[:, 1], ring[:, 0], color=(1.0, 1.0 - 0.55 * shade, 1.0 - 0.85 * shade), ec="#adb5bd", lw=0.5
+            )
+        for ring, style in ((layout.outline, "-"), (percept.support_polygon_in_sole, "--")):
+            if len(ring):
+                closed = np.vstack([ring, ring[:1]]) + shift
+                axes[1].plot(-closed[:, 1], closed[:, 0], style, color=COLOURS[side], lw=1.3)
+        cop = percept.position_cop_in_sole
+        if cop is not None:
+            axes[1].plot(-(cop + shift)[1], (cop + shift)[0], "o", color=COLOURS["truth"], ms=5)
+    axes[1].set_aspect("equal")
+    axes[1].set_title("what the soles feel: taxel forces,\nsupport polygon (dashed), CoP (dot)", fontsize=9)
+    axes[1].set_xticks([])
+    axes[1].set_ylabel("x in sole [m]")
+
+    plane = axes[2]
+    for side in ("left", "right"):
+        truth = run.topics[f"/truth/{side}"]
+        loaded = (truth.fields["normal_force"][:, 0] > 300.0).astype(int)
+        for n, i in enumerate(np.flatnonzero(np.diff(np.concatenate([[0], loaded])) == 1)):
+            rotation = truth.fields["rotation"][i].reshape(3, 3)
+            ring = run.layouts[side].outline @ rotation[:2, :2].T + truth.fields["position"][i, :2]
+            ring = np.vstack([ring, ring[:1]])
+            plane.plot(*ring.T, color=COLOURS[side], lw=0.9, label=f"{side} foothold" if n == 0 else None)
+    plane.plot(*run.topics["/truth/body"].fields["zmp"].T, color=COLOURS["truth"], lw=0.7, label="ZMP (true)")
+    plane.plot(*run.topics["/estimate"].fields["dcm"].T, color=COLOURS["active"], lw=1.2, label="DCM (estimated)")
+    plane.plot(*run.topics["/truth/body"].fields["com"][:, :2].T, color=COLOURS["polygon"], lw=1.6, label="CoM (true)")
+    plane.set_aspect("equal")
+    plane.set_xlabel("x [m]")
+    plane.set_ylabel("y [m]")
+    plane.set_title("the walk in the plane", fontsize=9)
+    plane.legend(fontsize=7, ncol=5, loc="upper center", bbox_to_anchor=(0.5, -0.32), frameon=False)
+    save_figure(figure, path)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "walk.png")
