@@ -1,28 +1,124 @@
-"""Which taxels are in contact."""
+"""Which taxels are in contact: a threshold, with or without hysteresis."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["active_taxels"]
+from plantar.errors import InputError, ReadingError
+
+__all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 
 
-def active_taxels(force: NDArray[np.float64], threshold: float) -> NDArray[np.bool_]:
+def active_taxels(force: NDArray[np.float64], threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
     """Taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
     A taxel that reads NaN or inf is dead: it is never active. Force pulls do not exist at a sole, so a negative
-    reading is noise or drift and is not active either.
+    reading is noise or drift and is not active either. A taxel at the end of its range is saturated: what it reads is
+    not the force, and it is not active where `saturation` is given.
 
     Args:
         force: Normal forces (..., n) in N.
         threshold: Activation threshold epsilon_f in N.
+        saturation: Force in N from which a taxel is saturated.
 
     Returns:
         Mask (..., n).
 
     Example:
-        >>> active_taxels(np.array([0.0, 2.0, np.nan]), 1.47).tolist()
-        [False, True, False]
+        >>> active_taxels(np.array([0.0, 2.0, np.nan, 785.0]), 1.47, 785.0).tolist()
+        [False, True, False, False]
     """
-    return np.asarray((force > threshold) & (force < np.inf))
+    return np.asarray((force > threshold) & (force < saturation))
+
+
+def hysteresis(
+    values: ArrayLike, high: float, low: float, initial: ArrayLike | bool = False, saturation: float = math.inf
+) -> NDArray[np.bool_]:
+    """Two-threshold switch over time: on above `high`, off at `low` or below, else as before.
+
+    With low = high it is `active_taxels` frame by frame. A value that is NaN, inf or saturated switches off.
+
+    Args:
+        values: Values (frames, ...) over time, for example forces (frames, n) in N.
+        high: A value above it switches on.
+        low: A value at or below it switches off; not above `high`.
+        initial: State (...) before the first frame.
+        saturation: A value from here on switches off.
+
+    Returns:
+        State (frames, ...) after each frame.
+
+    Raises:
+        InputError: If a threshold is NaN or `low` is above `high`.
+
+    Example:
+        >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()
+        [False, True, True, False, False]
+    """
+    _check_thresholds(high, low)
+    series = np.asarray(values, dtype=np.float64)
+    if series.ndim == 0:
+        raise InputError("values of a hysteresis have no time axis; expected (frames, ...)")
+    on = (series > high) & (series < saturation)
+    decided = on | ~((series > low) & (series < saturation))
+    # The state after a frame is that of the last frame that decided.
+    frame = np.arange(1, len(series) + 1).reshape(-1, *(1,) * (series.ndim - 1))
+    last = np.maximum.accumulate(np.where(decided, frame, 0), axis=0)
+    start = np.broadcast_to(np.asarray(initial, dtype=bool), series.shape[1:])[None]
+    return np.asarray(np.take_along_axis(np.concatenate([start, on]), last, axis=0))
+
+
+class TaxelActivation:
+    """Activation with hysteresis of a sole's taxels, reading by reading.
+
+    A taxel becomes active above the activation threshold (T 4.22) and stays so until it falls to the release
+    threshold, so that noise about one threshold does not make it chatter.
+
+    Args:
+        threshold: Force in N above which a taxel becomes active.
+        release: Force in N at or below which it no longer is; not above `threshold`. Half of it where None.
+        saturation: Force in N from which a taxel is saturated and not active.
+
+    Raises:
+        InputError: If a threshold is NaN or `release` is above `threshold`.
+
+    Example:
+        >>> activation = TaxelActivation(1.5, 1.0)
+        >>> [activation.update([f]).tolist()[0] for f in (1.2, 1.6, 1.2, 0.8, 1.2)]
+        [False, True, True, False, False]
+    """
+
+    def __init__(self, threshold: float, release: float | None = None, saturation: float = math.inf) -> None:
+        self.threshold = threshold
+        self.release = 0.5 * threshold if release is None else release
+        self.saturation = saturation
+        _check_thresholds(self.threshold, self.release)
+        self._active: NDArray[np.bool_] | None = None
+
+    def reset(self) -> None:
+        """Forget the past: no taxel is active."""
+        self._active = None
+
+    def update(self, force: ArrayLike) -> NDArray[np.bool_]:
+        """Active taxels (n,) after the next reading, of forces (n,) in N.
+
+        Raises:
+            ReadingError: If the number of taxels differs from that of the reading before.
+        """
+        now = np.asarray(force, dtype=np.float64)
+        if self._active is not None and now.shape != self._active.shape:
+            raise ReadingError(f"reading has {now.shape} taxels; the ones before had {self._active.shape}")
+        active = now > self.threshold
+        if self._active is not None:
+            active |= self._active & (now > self.release)
+        active &= now < self.saturation
+        self._active = active
+        return active.copy()
+
+
+def _check_thresholds(high: float, low: float) -> None:
+    if not low <= high:
+        raise InputError(f"hysteresis switches off at {low} and on above {high}; allowed: off not above on")
