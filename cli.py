@@ -300,6 +300,45 @@ def _print_run(summary: dict[str, Any]) -> None:
 
 
 @app.command()
+def sweep(
+    scene: Annotated[str, typer.Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],
+    grid: Annotated[
+        list[str] | None, typer.Option(metavar="KEY=A,B,C", help="Values to try of one setting; repeatable.")
+    ] = None,
+    seeds: Annotated[int, typer.Option(help="Seeds of each grid point, from 0.")] = 1,
+    robot: Annotated[str | None, typer.Option(help="Robot to use instead of the scene's.")] = None,
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="A setting of all runs; repeatable.")
+    ] = None,
+    workers: Annotated[int, typer.Option(help="Processes on this machine. Default: one a core.")] = 0,
+    scheduler: Annotated[str | None, typer.Option(help="Address of a Dask scheduler, tcp://host:8786.")] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/sweep"),
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
+) -> None:
+    """Run a scene over a grid of settings and seeds, and count what was completed.
+
+    Writes results.csv (a row a run, as it ends) and a figure. A sweep that was stopped goes on where it was when the
+    same command is given again.
+
+    Example: plantar sweep push --grid impulse=20,30 --grid feedback=true,false --seeds 20 -o out/push
+    """
+    _need("mujoco", "sim")
+    from sim.sweep import Sweep, run_sweep
+
+    wanted = Sweep.from_texts(scene, grid or [], seeds, robot, settings or [])
+    with _progress() as tell:
+        result = run_sweep(wanted, output, workers=workers or os.cpu_count() or 1, scheduler=scheduler, progress=tell)
+    if as_json:
+        print(json.dumps(result))
+        return
+    for point in result["points"]:
+        name = " ".join(f"{k}={v}" for k, v in point["settings"].items()) or scene
+        print(f"{name}: {point['completed']} of {point['runs']} completed")
+    for name in result["files"]:
+        print(f"  {name}")
+
+
+@app.command()
 def demo(
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything that is made.")] = Path("out"),
     seed: Annotated[int, typer.Option(help="Seed of the sensor noise.")] = 0,

@@ -1,0 +1,83 @@
+"""The commands sim, sweep and demo as a user calls them: exit codes, one line for bad input, nothing left behind."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SHORT = ["--set", "steps=2", "--set", "settle=0.2"]
+
+
+def plantar(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
+    command = [str(Path(sys.executable).parent / "plantar"), *map(str, arguments)]
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=600)
+
+
+def test_sim_prints_one_json_object_and_writes_what_was_asked(tmp_path: Path) -> None:
+    run = plantar("sim", "flat", *SHORT, "--json", "--record", "run.mcap", "--plot", "plots", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    summary = json.loads(run.stdout)
+    assert summary["completed"]
+    assert summary["steps_taken"] == 2
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["plots", "run.mcap"]
+    assert sorted(p.name for p in (tmp_path / "plots").iterdir()) == ["balance.png", "feet.png", "plane.png"]
+    back = plantar("analyze", "run.mcap", "-o", "analysis", "--json", cwd=tmp_path)
+    assert back.returncode == 0, back.stderr
+    feet = json.loads(back.stdout)["feet"]
+    landings = sorted([*feet["left"]["landings_s"], *feet["right"]["landings_s"]])
+    assert landings == pytest.approx(summary["landings_s"], abs=0.010)
+
+
+def test_a_fall_is_exit_code_1(tmp_path: Path) -> None:
+    settings = ["impulse=90", "push.step=0", "direction=right", "feedback=false", "steps=2"]
+    run = plantar("sim", "push", *[x for s in settings for x in ("--set", s)], "--json", cwd=tmp_path)
+    assert run.returncode == 1
+    assert json.loads(run.stdout)["fell"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["sim", "nowhere"], ("nowhere", "flat")),
+        (["sim", "missing.toml"], ("missing.toml", "does not exist")),
+        (["sim", "flat", "--robot", "r2d2"], ("r2d2", "h1")),
+        (["sim", "flat", "--set", "steps=many"], ("steps", "many")),
+        (["sim", "flat", "--set", "width=9"], ("width", "0.16")),
+        (["sim", "flat", "--set", "length=0.9"], ("length", "0.9")),
+        (["sim", "flat", "--seed", "-1"], ("seed", "0 or more")),
+        (["sim", "flat", "--record", "run.bag"], (".mcap",)),
+        (["sim", "flat", "--video", "run.gif"], (".mp4",)),
+        (["sim", "flat", *SHORT, "--record", "/proc/none/run.mcap"], ("/proc/none",)),
+        (["sim", "flat", *SHORT, "--plot", "/proc/none/plots"], ("/proc/none", "-o")),
+        (["sweep", "flat", "--grid", "steps"], ("steps", "key=a,b,c")),
+        (["sweep", "flat", "--grid", "steps=1,x"], ("steps", "x")),
+        (["demo", "-o", "/proc/none/demo"], ("/proc/none",)),
+    ],
+)
+def test_bad_input_is_one_line_exit_2_and_nothing_left(
+    tmp_path: Path, arguments: list[str], words: tuple[str, ...]
+) -> None:
+    run = plantar(*arguments, cwd=tmp_path)
+    assert run.returncode == 2, run.stdout + run.stderr
+    assert run.stdout == ""
+    assert run.stderr.startswith("plantar: ")
+    assert run.stderr.count("\n") == 1
+    assert "Traceback" not in run.stderr
+    assert all(word in run.stderr for word in words), run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.long
+def test_demo_makes_all_three_and_names_them(tmp_path: Path) -> None:
+    run = plantar("demo", "-o", "out", "--json", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    made = json.loads(run.stdout)
+    assert made["completed"]
+    files = {str(Path(f).relative_to("out")) for f in made["files"]}
+    assert {"shoe/shoe_left.stl", "walk/run.mcap", "analysis/report.html"} <= files
+    assert all((tmp_path / "out" / f).stat().st_size > 0 for f in files)
+    assert made["analysis"]["feet"]["left"]["steps"] == 9
