@@ -1,0 +1,137 @@
+"""Run time against error of one inverse-kinematics tick: the Newton step of `sim.inverse_kinematics` beside mink.
+
+Both follow the commands of the same four-step walk at 200 Hz, one step a tick, warm-started from the last tick.
+
+    python benchmarks/inverse_kinematics.py        (writes benchmarks/inverse_kinematics.md)
+"""
+
+import math
+import time
+from pathlib import Path
+
+import mink
+import mujoco
+import numpy as np
+
+from plantar.atomic import write_text
+from sim.robots import load_robot
+from sim.runner import Simulation
+from sim.scene import load_scene
+from sim.world import build_leg_model, robot_spec
+
+SIDES = ("left", "right")
+
+
+def walk_commands():
+    """Commands of a short walk, and the configuration it starts from."""
+    simulation = Simulation(load_scene("flat", ["steps=4"]))
+    start = simulation.legs.configuration
+    commands = []
+    step = simulation.controller.step
+
+    def keep(sensors):
+        commands.append(step(sensors))
+        return commands[-1]
+
+    simulation.controller.step = keep
+    simulation.run()
+    return commands, start
+
+
+def upright(heading):
+    """Rotation of the upright torso."""
+    c, s = math.cos(heading), math.sin(heading)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def task_error(model, data, qpos, command):
+    """Largest error of CoM, torso and soles in m or rad."""
+    data.qpos[:] = qpos
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    worst = np.abs(data.subtree_com[0] - command.com).max()
+    pairs = [(data.body("base").xmat, upright(command.heading))]
+    for side in SIDES:
+        site, foot = data.site(f"{side}_sole"), command.feet[side]
+        worst = max(worst, np.abs(site.xpos - foot.position).max())
+        pairs.append((site.xmat, foot.rotation))
+    for actual, wanted in pairs:
+        cosine = 0.5 * (np.trace(wanted.T @ actual.reshape(3, 3)) - 1.0)
+        worst = max(worst, math.acos(min(1.0, max(-1.0, cosine))))
+    return worst
+
+
+def ours(robot, commands, start, iterations):
+    """Times in us and errors of the Newton steps."""
+    legs = build_leg_model(robot)
+    probe = mujoco.MjData(legs.model)
+    legs.set_configuration(start[:3], start[3:7], start[7:])
+    times, errors = [], []
+    for c in commands:
+        torso = upright(c.heading)
+        positions = {s: c.feet[s].position for s in SIDES}
+        rotations = {s: c.feet[s].rotation for s in SIDES}
+        begin = time.perf_counter()
+        legs.solve(c.com, torso, positions, rotations, iterations)
+        times.append(1e6 * (time.perf_counter() - begin))
+        errors.append(task_error(legs.model, probe, legs.configuration, c))
+    return times, errors
+
+
+def with_mink(robot, commands, start, solver):
+    """Times in us and errors of mink's QP."""
+    model = robot_spec(robot).compile()
+    probe = mujoco.MjData(model)
+    configuration = mink.Configuration(model)
+    configuration.update(start)
+    center = mink.ComTask(cost=1.0)
+    torso = mink.FrameTask("base", "body", position_cost=0.0, orientation_cost=1.0)
+    soles = {s: mink.FrameTask(f"{s}_sole", "site", position_cost=1.0, orientation_cost=1.0) for s in SIDES}
+    limits = [mink.ConfigurationLimit(model)]
+    times, errors = [], []
+    for c in commands:
+        begin = time.perf_counter()
+        center.set_target(c.com)
+        torso.set_target(mink.SE3.from_rotation(mink.SO3.from_matrix(upright(c.heading))))
+        for s in SIDES:
+            rotation = mink.SO3.from_matrix(c.feet[s].rotation)
+            soles[s].set_target(mink.SE3.from_rotation_and_translation(rotation, c.feet[s].position))
+        velocity = mink.solve_ik(
+            configuration, [center, torso, *soles.values()], 1.0, solver, damping=1e-9, limits=limits
+        )
+        configuration.integrate_inplace(velocity, 1.0)
+        times.append(1e6 * (time.perf_counter() - begin))
+        errors.append(task_error(model, probe, configuration.data.qpos, c))
+    return times, errors
+
+
+def main() -> None:
+    """Measure and write the table."""
+    robot = load_robot("h1")
+    commands, start = walk_commands()
+    rows = [
+        ("Newton step on MuJoCo's Jacobians, 1 a tick (chosen)", *ours(robot, commands, start, 1)),
+        ("the same, 2 a tick", *ours(robot, commands, start, 2)),
+        ("mink, solver daqp", *with_mink(robot, commands, start, "daqp")),
+    ]
+    base = float(np.median(rows[0][1]))
+    lines = [
+        "# Inverse kinematics: run time against error",
+        "",
+        f"H1, 18 unknowns, {len(commands)} control ticks of the scene `flat` with 4 steps, each from the last tick's",
+        "solution. Error: largest deviation of CoM, torso and soles from the command after the tick (m or rad).",
+        "Written by `python benchmarks/inverse_kinematics.py`.",
+        "",
+        "| method | median time of a tick [us] | ratio | median error | 99 % error |",
+        "|---|---|---|---|---|",
+    ]
+    for name, times, errors in rows:
+        t = float(np.median(times))
+        lines.append(
+            f"| {name} | {t:.0f} | {t / base:.1f} | {np.median(errors):.1e} | {np.percentile(errors, 99):.1e} |"
+        )
+    print(write_text(Path(__file__).with_suffix(".md"), "\n".join(lines) + "\n").read_text())
+
+
+if __name__ == "__main__":
+    main()
