@@ -48,8 +48,8 @@ CELL_SHAPES: tuple[str, ...] = ("hexagon", "rectangle", "polygon", "mixed")
 LARGEST_COORDINATE = 50.0
 """Largest coordinate of a layout in m: a sole in millimetres is found out, a long walkway is not."""
 
-DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * 9.81, "proximity": 0.05}
-"""Activation thresholds: 0.15 kg of force (T Table 2) in N, and the proximity range in m."""
+DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * 9.81, "proximity": 0.05, "temperature": 31.0}
+"""Activation thresholds: 0.15 kg of force (T Table 2) in N, the proximity range in m, and 31 degC (T 3.3.2.1)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +176,26 @@ class SoleLayout:
     def force_threshold(self) -> float:
         """Force in N at which a taxel counts as active (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
+
+    @property
+    def force_limit(self) -> float:
+        """Force in N from which a taxel is saturated: the upper end of its range; inf where the range is not stated."""
+        return float(self.ranges["force"][1]) if "force" in self.ranges else math.inf
+
+    @property
+    def proximity_threshold(self) -> float:
+        """Distance in m below which a taxel counts as near (epsilon_p of T 4.2.7)."""
+        return float(self.thresholds.get("proximity", DEFAULT_THRESHOLDS["proximity"]))
+
+    @property
+    def proximity_range(self) -> float:
+        """Distance in m up to which proximity senses (d_range of T 3.30)."""
+        return float(self.ranges.get("proximity", DEFAULT_RANGES["proximity"])[1])
+
+    @property
+    def temperature_threshold(self) -> float:
+        """Temperature in degC from which a taxel is warm (kappa_0 of T 3.34)."""
+        return float(self.thresholds.get("temperature", DEFAULT_THRESHOLDS["temperature"]))
 
     @cached_property
     def sole_area(self) -> float:

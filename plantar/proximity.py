@@ -1,0 +1,167 @@
+"""What proximity sensors see before the sole touches: the inverse measure, near taxels, contours of height.
+
+A distance is measured from a taxel along its -z axis, out of the body, in m; inf where nothing is in range. A taxel
+that reads NaN is dead and sees nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import InputError, ReadingError
+from plantar.layout import SoleLayout
+from plantar.polygon import convex_hull
+
+__all__ = [
+    "HeightContour",
+    "cells_polygon",
+    "height_contours",
+    "near_taxels",
+    "preemptive_polygon",
+    "proximity_measure",
+]
+
+
+class HeightContour(NamedTuple):
+    """What of the ground is nearer to the sole than one height."""
+
+    height: float
+    """Height in m."""
+    taxels: NDArray[np.bool_]
+    """Taxels (n,) nearer than the height."""
+    polygon_in_sole: NDArray[np.float64]
+    """Convex polygon (k, 2) of their cells in the sole frame in m, counter-clockwise; empty where there is none."""
+
+
+def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.float64]:
+    """Inverse measure rho = d_range - d of a proximity sensor, which saturates at both ends (T 3.30, T 4.2.6).
+
+    Args:
+        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
+        sensing_range: Range d_range of the sensors in m, above 0.
+
+    Returns:
+        Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
+
+    Raises:
+        InputError: If the range is not a finite value above 0.
+
+    Example:
+        >>> proximity_measure([0.05, 0.03, 0.0, -0.001, np.inf, np.nan], 0.05).round(9).tolist()
+        [0.0, 0.02, 0.05, 0.05, 0.0, 0.0]
+    """
+    if not 0.0 < sensing_range < math.inf:
+        raise InputError(f"sensing range is {sensing_range} m; allowed: a finite value above 0")
+    measured = sensing_range - np.asarray(distance, dtype=np.float64)
+    # fmax drops NaN, so that a dead taxel reads as one that sees nothing.
+    return np.asarray(np.minimum(np.fmax(measured, 0.0), sensing_range))
+
+
+def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
+    """Taxels nearer to a surface than a threshold: d < epsilon_p (T 4.2.7 corrected).
+
+    Printed is d > epsilon_p, which would take the taxels over the deepest ground; Fig. 37 and 39 show the near ones.
+
+    Args:
+        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
+        threshold: Threshold epsilon_p in m.
+
+    Returns:
+        Mask (..., n).
+
+    Example:
+        >>> near_taxels([0.01, 0.03, np.inf, np.nan], 0.02).tolist()
+        [True, False, False, False]
+    """
+    return np.asarray(np.asarray(distance, dtype=np.float64) < threshold)
+
+
+def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
+    """Convex polygon of some cells of a sole, from the corners of all of them (T 4.24).
+
+    Args:
+        layout: The sole, n taxels.
+        taxels: Mask (n,) of the cells.
+
+    Returns:
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where no cell is taken.
+
+    Raises:
+        ReadingError: If the mask has not n values.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
+        >>> cells_polygon(layout, np.arange(len(layout)) == 3).shape
+        (6, 2)
+    """
+    chosen = np.asarray(taxels, dtype=bool)
+    if chosen.shape != (len(layout),):
+        raise ReadingError(f"mask has shape {chosen.shape}; layout '{layout.name}' has {len(layout)} taxels")
+    if not chosen.any():
+        return np.empty((0, 2))
+    used = np.zeros(len(layout.vertices), dtype=bool)
+    used[layout.corner_vertex[np.repeat(chosen, np.diff(layout.corner_start))]] = True
+    return convex_hull(layout.vertices[used, :2])
+
+
+def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
+    """Preemptive support polygon: convex hull of the cells nearer than a threshold (T 4.2.7 corrected).
+
+    Args:
+        layout: The sole, n taxels.
+        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel.
+        threshold: Threshold epsilon_p in m.
+
+    Returns:
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where nothing is near.
+
+    Raises:
+        ReadingError: If the number of distances is not that of the taxels.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
+        >>> preemptive_polygon(layout, np.full(len(layout), np.inf), 0.02).shape
+        (0, 2)
+    """
+    return cells_polygon(layout, near_taxels(distance, threshold))
+
+
+def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[float]) -> tuple[HeightContour, ...]:
+    """A stack of contours that approximates the ground under a swinging sole (T 4.2.7 corrected, Fig. 39-b).
+
+    Args:
+        layout: The sole, n taxels.
+        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel.
+        heights: Thresholds epsilon_p in m, in any order.
+
+    Returns:
+        A contour a height, lowest first; each holds the ones before it.
+
+    Raises:
+        InputError: If a height is NaN.
+        ReadingError: If the number of distances is not that of the taxels.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
+        >>> stack = height_contours(layout, 0.1 * layout.positions[:, 0], [0.005, 0.01, 0.02])
+        >>> [int(contour.taxels.sum()) for contour in stack]
+        [5, 11, 20]
+    """
+    if any(math.isnan(h) for h in heights):
+        raise InputError("heights of contours hold NaN")
+    stack: list[HeightContour] = []
+    for height in sorted(float(h) for h in heights):
+        taxels = near_taxels(distance, height)
+        same = bool(stack) and bool((stack[-1].taxels == taxels).all())
+        stack.append(
+            HeightContour(height, taxels, stack[-1].polygon_in_sole if same else cells_polygon(layout, taxels))
+        )
+    return tuple(stack)

@@ -1,0 +1,131 @@
+"""Where a sole is in the world, and what two soles feel together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import InputError
+from plantar.support import polygon_in_world
+from plantar.zmp import zmp_in_plane
+
+__all__ = ["SolePose", "wrench_of_feet", "zmp_of_soles"]
+
+
+@dataclass(frozen=True, eq=False)
+class SolePose:
+    """Pose of a sole frame in the world frame (wT_L, wT_R of T 4.25). Arrays are read-only copies.
+
+    Attributes:
+        rotation_sole_to_world: Rotation (3, 3).
+        position_in_world: Position (3,) of the sole frame's origin in m.
+
+    Raises:
+        InputError: If a shape is wrong, a value is not finite, or the matrix is not a rotation.
+
+    Example:
+        >>> pose = SolePose.flat(0.1, 0.2, yaw=np.pi / 2)
+        >>> pose.to_world([0.05, 0.0, 0.0]).round(6).tolist()
+        [0.1, 0.25, 0.0]
+    """
+
+    rotation_sole_to_world: NDArray[np.float64]
+    position_in_world: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        rotation = np.array(self.rotation_sole_to_world, dtype=np.float64)
+        position = np.array(self.position_in_world, dtype=np.float64)
+        if rotation.shape != (3, 3) or position.shape != (3,):
+            raise InputError(f"sole pose has shapes {rotation.shape} and {position.shape}; expected (3, 3) and (3,)")
+        if not (np.isfinite(rotation).all() and np.isfinite(position).all()):
+            raise InputError("sole pose holds a value that is not finite")
+        if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-6 or np.linalg.det(rotation) < 0.0:
+            raise InputError("sole pose holds a matrix that is not a rotation")
+        for name, array in (("rotation_sole_to_world", rotation), ("position_in_world", position)):
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+
+    @classmethod
+    def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> SolePose:
+        """Pose of a sole that lies level.
+
+        Args:
+            x: Position forward in m.
+            y: Position to the left in m.
+            z: Height in m.
+            yaw: Turn to the left in rad.
+
+        Returns:
+            The pose.
+        """
+        c, s = np.cos(yaw), np.sin(yaw)
+        return cls(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.array([x, y, z]))
+
+    def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Points (..., 3) of the sole frame in the world frame, in m (T 4.25)."""
+        return np.asarray(np.asarray(points, dtype=float) @ self.rotation_sole_to_world.T + self.position_in_world)
+
+    def polygon_to_world(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A polygon (k, 2) of the sole plane seen from above in the world frame, in m."""
+        return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
+
+    def wrench_to_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
+        """Wrenches (..., 6) about the sole's origin as wrenches about the world's origin, in N and N m.
+
+        The rotation is E of T 3.21; the moment of the force about the world's origin is added.
+        """
+        given = np.asarray(wrench, dtype=float)
+        force = given[..., :3] @ self.rotation_sole_to_world.T
+        moment = given[..., 3:] @ self.rotation_sole_to_world.T + np.cross(self.position_in_world, force)
+        return np.concatenate([force, moment], axis=-1)
+
+
+def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> NDArray[np.float64]:
+    """Sum of the soles' wrenches about the world's origin.
+
+    Args:
+        wrenches_in_sole: Wrench (6,) or (frames, 6) of each sole about its own origin in N and N m, zero in the air.
+        poses: Pose of each sole.
+
+    Returns:
+        Wrench (6,) or (frames, 6) in the world frame in N and N m, exerted by the world on the robot.
+
+    Raises:
+        InputError: If there are not as many poses as wrenches, or none.
+
+    Example:
+        >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
+        >>> wrench_of_feet([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
+        [0.0, 0.0, 200.0, 0.0, -20.0, 0.0]
+    """
+    if len(wrenches_in_sole) != len(poses) or not poses:
+        raise InputError(f"{len(wrenches_in_sole)} wrenches and {len(poses)} poses; expected one pose a wrench")
+    return np.asarray(sum(p.wrench_to_world(w) for w, p in zip(wrenches_in_sole, poses, strict=True)))
+
+
+def zmp_of_soles(
+    wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose], height: float = 0.0, minimum_force: float = 1.0
+) -> NDArray[np.float64] | None:
+    """Composite ZMP of the soles in a horizontal plane of the world (T 4.7-4.8).
+
+    On level soles it is the mean of the soles' ZMPs weighted with their vertical forces, as T 4.7-4.8 print; taken from
+    the summed wrench it also holds for soles that are tilted or at different heights.
+
+    Args:
+        wrenches_in_sole: Wrench (6,) of each sole about its own origin in N and N m, zero in the air.
+        poses: Pose of each sole.
+        height: Height of the plane in the world in m.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        Position (2,) in the world frame in m, or None without load.
+
+    Example:
+        >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
+        >>> zmp_of_soles([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
+        [0.1, 0.0]
+    """
+    return zmp_in_plane(wrench_of_feet(wrenches_in_sole, poses), height, minimum_force)

@@ -1,0 +1,105 @@
+"""What thermometers feel: a wrench that recoils from heat, and the warm footprint."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.layout import SoleLayout
+from plantar.proximity import cells_polygon
+
+__all__ = ["temperature_footprint", "temperature_measure", "temperature_wrench", "warm_taxels"]
+
+
+def temperature_measure(temperature: ArrayLike, threshold: float, highest: float = math.inf) -> NDArray[np.float64]:
+    """Excess kappa of each taxel over a threshold (T 3.34).
+
+    Args:
+        temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
+        threshold: Temperature kappa_0 in degC from which a taxel reacts.
+        highest: Upper end of the sensors' range in degC; what lies above counts as that.
+
+    Returns:
+        Excess (..., n) in K: 0 below the threshold and for a dead taxel, never NaN.
+
+    Example:
+        >>> temperature_measure([30.0, 31.0, 33.5, 99.0, np.nan], 31.0, 60.0).tolist()
+        [0.0, 0.0, 2.5, 29.0, 0.0]
+    """
+    readings = np.asarray(temperature, dtype=np.float64)
+    usable = np.isfinite(readings) & (readings >= threshold)
+    return np.where(usable, np.minimum(np.where(usable, readings, threshold), highest) - threshold, 0.0).clip(min=0.0)
+
+
+def temperature_wrench(
+    layout: SoleLayout, temperature: ArrayLike, threshold: float | None = None, gain: float = 1.0
+) -> NDArray[np.float64]:
+    """Virtual wrench that pushes the sole off a hot surface (T 3.35-3.37).
+
+    w = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, gain * kappa_i]. Printed, the force is the excess itself; the
+    gain gives it its unit.
+
+    Args:
+        layout: The sole, n taxels.
+        temperature: Temperatures (n,) or (frames, n) in degC; NaN for a dead taxel.
+        threshold: Temperature kappa_0 in degC from which a taxel reacts; that of the layout where None.
+        gain: Force of a kelvin of excess in N/K.
+
+    Returns:
+        Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero where nothing is hot.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> temperature_wrench(layout, np.full(len(layout), 25.0)).tolist()
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    """
+    level = layout.temperature_threshold if threshold is None else threshold
+    highest = layout.ranges["temperature"][1] if "temperature" in layout.ranges else math.inf
+    return np.asarray(gain * (temperature_measure(temperature, level, highest) @ layout.wrench_map.T))
+
+
+def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
+    """Taxels at or above a temperature (T 3.34); dead ones are not.
+
+    Args:
+        temperature: Temperatures (..., n) in degC; NaN or inf for a dead taxel.
+        threshold: Temperature kappa_0 in degC.
+
+    Returns:
+        Mask (..., n).
+
+    Example:
+        >>> warm_taxels([30.9, 31.0, np.nan, np.inf], 31.0).tolist()
+        [False, True, False, False]
+    """
+    readings = np.asarray(temperature, dtype=np.float64)
+    return np.asarray((readings >= threshold) & np.isfinite(readings))
+
+
+def temperature_footprint(
+    layout: SoleLayout, temperature: ArrayLike, threshold: float | None = None
+) -> NDArray[np.float64]:
+    """Temperature footprint: convex polygon of the warm cells (T 4.2.5).
+
+    Args:
+        layout: The sole, n taxels.
+        temperature: Temperatures (n,) in degC; NaN for a dead taxel.
+        threshold: Temperature in degC from which a cell belongs to it; that of the layout where None.
+
+    Returns:
+        Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where no cell is warm.
+
+    Raises:
+        ReadingError: If the number of temperatures is not that of the taxels.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], clip=False)
+        >>> temperature_footprint(layout, np.where(np.arange(len(layout)) == 3, 40.0, 25.0)).shape
+        (6, 2)
+    """
+    level = layout.temperature_threshold if threshold is None else threshold
+    return cells_polygon(layout, warm_taxels(temperature, level))

@@ -1,0 +1,155 @@
+"""Wrenches that nothing exerts: what proximity would push with, and when it stops a swing.
+
+Both follow the wrench convention of real contact: exerted BY the world ON the sole, along the taxel's z axis, which
+points into the body. So the virtual ground repels.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.activation import hysteresis
+from plantar.errors import InputError
+from plantar.layout import SoleLayout
+from plantar.proximity import proximity_measure
+
+__all__ = ["SoleWrenchSwitch", "early_stop", "sole_wrenches", "virtual_ground_reaction_wrench"]
+
+
+def virtual_ground_reaction_wrench(
+    layout: SoleLayout, distance: ArrayLike, gain: float, sensing_range: float | None = None
+) -> NDArray[np.float64]:
+    """Virtual ground reaction wrench of proximity at the sole frame's origin (T 4.26; T 3.30 corrected, 3.31-3.32).
+
+    w_p = sum_i [R_i f_i, r_i x R_i f_i] with f_i = [0, 0, k_p rho_i]. Printed T 3.30 sets the force along the sensing
+    direction, which is out of the body and would attract.
+
+    Args:
+        layout: The sole, n taxels.
+        distance: Distances (n,) or (frames, n) in m; inf where nothing is in range, NaN for a dead taxel.
+        gain: Repulsion k_p of each taxel in N/m.
+        sensing_range: Range of the sensors in m; that of the layout where None.
+
+    Returns:
+        Wrench (6,) or (frames, 6) in the sole frame in N and N m; zero where nothing is in range.
+
+    Raises:
+        InputError: If the range is not a finite value above 0.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], clip=False)
+        >>> wrench = virtual_ground_reaction_wrench(layout, np.full(len(layout), 0.03), gain=50.0, sensing_range=0.05)
+        >>> bool(abs(wrench[2] - len(layout)) < 1e-9), wrench[:2].tolist()
+        (True, [0.0, 0.0])
+    """
+    reach = layout.proximity_range if sensing_range is None else sensing_range
+    return np.asarray(gain * (proximity_measure(distance, reach) @ layout.wrench_map.T))
+
+
+def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_] | bool:
+    """Whether the virtual force stops the swing: |f_p| > epsilon_stop (T 4.31, Fig. 49-c).
+
+    Args:
+        virtual_wrench: Virtual wrench (..., 6) in N and N m.
+        threshold: Threshold epsilon_stop in N.
+
+    Returns:
+        A bool for one wrench, a mask (...) for several.
+
+    Example:
+        >>> early_stop([0.0, 0.0, 35.0, 0.0, 0.0, 0.0], 30.0)
+        True
+    """
+    force = np.asarray(virtual_wrench, dtype=np.float64)
+    stop = np.asarray(np.hypot(np.hypot(force[..., 0], force[..., 1]), force[..., 2]) > threshold)
+    return bool(stop) if stop.ndim == 0 else stop
+
+
+def sole_wrenches(
+    contact: ArrayLike, virtual: ArrayLike, threshold: float, release: float | None = None
+) -> NDArray[np.float64]:
+    """Wrench for preemptive foot compliance over time: contact plus virtual in the air, contact alone on the ground
+    (T 4.30 corrected).
+
+    Printed, the virtual part drops out where |w_f| > 0, which noise does at any time; here where the force reaches the
+    activation threshold, until it falls to the release threshold.
+
+    Args:
+        contact: Wrenches (frames, 6) w_f of the taxels' forces in N and N m.
+        virtual: Wrenches (frames, 6) w_p of the proximity.
+        threshold: Force |f_f| in N above which the foot has landed.
+        release: Force in N at or below which it has lifted; half of `threshold` where None.
+
+    Returns:
+        Wrenches (frames, 6) in N and N m. A part that holds NaN or inf counts as zero.
+
+    Raises:
+        InputError: If `release` is above `threshold`.
+
+    Example:
+        >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])
+        >>> sole_wrenches(contact, contact * 0 + 2.0, threshold=5.0)[:, 2].tolist()
+        [2.0, 2.5, 9.0, 4.0]
+    """
+    felt, foreseen = _finite(contact), _finite(virtual)
+    force = np.hypot(np.hypot(felt[..., 0], felt[..., 1]), felt[..., 2])
+    landed = hysteresis(force, threshold, 0.5 * threshold if release is None else release)
+    return np.where(landed[..., None], felt, felt + foreseen)
+
+
+class SoleWrenchSwitch:
+    """Wrench for preemptive foot compliance, reading by reading; the same rule as `sole_wrenches` (T 4.30 corrected).
+
+    Args:
+        threshold: Force |f_f| in N above which the foot has landed.
+        release: Force in N at or below which it has lifted; half of `threshold` where None.
+
+    Raises:
+        InputError: If `release` is above `threshold`.
+
+    Example:
+        >>> switch = SoleWrenchSwitch(5.0)
+        >>> up = np.array([0.0, 0, 1, 0, 0, 0])
+        >>> [switch.update(f * up, 2 * up)[2].item() for f in (0.5, 9.0, 4.0, 2.0)], switch.landed
+        ([2.5, 9.0, 4.0, 4.0], False)
+    """
+
+    def __init__(self, threshold: float, release: float | None = None) -> None:
+        self.threshold = threshold
+        self.release = 0.5 * threshold if release is None else release
+        if not self.release <= self.threshold:
+            raise InputError(f"release is {self.release} N with a threshold of {threshold} N; allowed: not above it")
+        self.landed = False
+
+    def reset(self, landed: bool = False) -> None:
+        """Start again, with the foot on the ground or in the air.
+
+        Args:
+            landed: Whether the foot is on the ground.
+        """
+        self.landed = landed
+
+    def update(self, contact: ArrayLike, virtual: ArrayLike) -> NDArray[np.float64]:
+        """Wrench of the next reading.
+
+        Args:
+            contact: Wrench (6,) w_f of the taxels' forces in N and N m.
+            virtual: Wrench (6,) w_p of the proximity.
+
+        Returns:
+            Wrench (6,) in N and N m. A part that holds NaN or inf counts as zero.
+        """
+        felt, foreseen = _finite(contact), _finite(virtual)
+        force = math.hypot(*felt[:3].tolist())
+        self.landed = force > (self.release if self.landed else self.threshold)
+        return felt if self.landed else felt + foreseen
+
+
+def _finite(wrench: ArrayLike) -> NDArray[np.float64]:
+    given = np.array(wrench, dtype=np.float64)
+    given[~np.isfinite(given).all(axis=-1)] = 0.0
+    return given
