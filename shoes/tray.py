@@ -72,7 +72,12 @@ def surface_of(solid: Any) -> NDArray[np.float64]:
 
 
 def write_step(solid: Any, path: str) -> None:
-    """Write a solid as STEP (mm); its header is fixed, so that the same solid gives the same file."""
+    """Write a solid as STEP (mm); its header is fixed, so that the same solid gives the same file.
+
+    Args:
+        solid: Solid in mm.
+        path: File to write.
+    """
     import re
     from pathlib import Path
 
