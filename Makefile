@@ -8,6 +8,9 @@ OUT ?= out
 PYTEST_OPTIONS ?=
 
 .DEFAULT_GOAL := help
+KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*.pxd)
+BUILT := $(VENV)/.kernels
+
 .PHONY: help setup demo test test-all bench lint format clean
 
 help:
@@ -20,21 +23,21 @@ help:
 	@echo "make setup     only create .venv (about 2.5 GB: cadquery brings VTK)"
 	@echo "make clean     delete .venv, caches and $(OUT)/"
 
-setup: $(INSTALLED)
+setup: $(BUILT)
 
-demo: $(INSTALLED)
+demo: $(BUILT)
 	$(PLANTAR) demo -o $(OUT)
 
-test: $(INSTALLED)
+test: $(BUILT)
 	$(PYTHON_IN_VENV) -m pytest -m "not long" $(PYTEST_OPTIONS)
 
-test-all: $(INSTALLED)
+test-all: $(BUILT)
 	$(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
 
-bench: $(INSTALLED)
+bench: $(BUILT)
 	$(PLANTAR) bench all -o $(OUT)/bench
 
-lint: $(INSTALLED)
+lint: $(BUILT)
 	$(PYTHON_IN_VENV) -m ruff check .
 	$(PYTHON_IN_VENV) -m ruff format --check .
 	$(PYTHON_IN_VENV) -m mypy
@@ -45,10 +48,15 @@ format: $(INSTALLED)
 	$(PYTHON_IN_VENV) -m ruff format .
 
 clean:
-	rm -rf $(VENV) $(OUT) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(OUT) build dist plantar/kernels/*.so plantar/kernels/*.pyd *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # Made anew when the dependencies change; the stamp is written last, so a stopped installation is taken up again.
-$(INSTALLED): pyproject.toml constraints.txt
+$(INSTALLED): pyproject.toml setup.py constraints.txt
 	@sh tools/make-venv $(VENV)
+	@touch $@
+
+# The editable install compiles the kernels; a change to one of them compiles it again. No compiler is no error.
+$(BUILT): $(INSTALLED) $(KERNELS)
+	@$(PYTHON_IN_VENV) setup.py --quiet build_ext --inplace
 	@touch $@

@@ -1,0 +1,75 @@
+"""Hot functions, one plain-Python source each, compiled ahead of time where the installation found a compiler.
+
+`convex.py` is a module of plain Python; `convex.pxd` beside it gives the C types with which Cython compiles the very
+same file to an extension module, which Python prefers when both are there. Nothing is compiled at run time. Without a
+compiler the source runs as it is, slower, with the same results to the last bit: it is the compiled form's oracle.
+
+The environment variable PLANTAR_KERNELS=python runs the sources even where extensions are there.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.machinery import EXTENSION_SUFFIXES, FileFinder, ModuleSpec, SourceFileLoader
+from pathlib import Path
+from types import ModuleType
+
+__all__ = ["KERNELS", "compiled", "is_compiled", "python_form"]
+
+_FOLDER = Path(__file__).resolve().parent
+
+KERNELS: tuple[str, ...] = tuple(sorted(p.stem for p in _FOLDER.glob("*.py") if p.stem != "__init__"))
+"""Names of the kernel modules."""
+
+
+class _SourceFinder:
+    """Finds the kernels' sources, never their extensions, under the names of one package."""
+
+    def __init__(self, package: str) -> None:
+        self.prefix = f"{package}."
+        self.finder = FileFinder(str(_FOLDER), (SourceFileLoader, [".py"]))
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        return self.finder.find_spec(name) if name.startswith(self.prefix) else None
+
+
+def python_form(name: str) -> ModuleType:
+    """The interpreted form of a kernel, whichever form runs: to compare the two.
+
+    Args:
+        name: One of KERNELS.
+
+    Returns:
+        The module, loaded from its source under another name; what it imports of the kernels is interpreted too.
+    """
+    package = f"{__name__}_in_python"
+    if package not in sys.modules:
+        sys.modules[package] = parent = ModuleType(package)
+        parent.__path__ = []
+        sys.meta_path.insert(0, _SourceFinder(package))
+    return import_module(f"{package}.{name}")
+
+
+def is_compiled(name: str) -> bool:
+    """Whether a kernel runs compiled.
+
+    Args:
+        name: One of KERNELS.
+
+    Returns:
+        False where no extension is there, or PLANTAR_KERNELS=python.
+    """
+    return not _PYTHON and any((_FOLDER / f"{name}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
+
+
+_PYTHON = os.environ.get("PLANTAR_KERNELS", "") == "python"
+if _PYTHON:
+    sys.meta_path.insert(0, _SourceFinder(__name__))
+
+compiled: bool = all(is_compiled(name) for name in KERNELS)
+"""Whether every kernel runs compiled."""
