@@ -13,7 +13,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plantar.activation import active_taxels
+    from plantar.activation import TaxelActivation, active_taxels, hysteresis
+    from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -26,21 +27,33 @@ if TYPE_CHECKING:
         RobotError,
         SceneError,
     )
+    from plantar.feet import FeetPercept
     from plantar.force import center_of_pressure, ground_reaction_wrench, wrench_at, zmp_of_feet, zmp_of_wrench
+    from plantar.ground_plane import GroundPlane, fit_ground_plane, ground_points
+    from plantar.health import StuckMonitor, TaxelHealth, fill_from_neighbours, stuck_taxels
     from plantar.hex_lattice import HexLattice
     from plantar.layout import SoleLayout, mirrored
     from plantar.layout_file import read_layout, write_layout
     from plantar.percept import Percept
+    from plantar.pressure_wrench import joint_torque, pressure_driven_wrench
+    from plantar.proximity import HeightContour, height_contours, near_taxels, preemptive_polygon, proximity_measure
     from plantar.reading import Reading
+    from plantar.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
     from plantar.support import feet_support_polygon
+    from plantar.temperature import temperature_footprint, temperature_wrench
     from plantar.tiling import hex_layout
+    from plantar.virtual_wrench import SoleWrenchSwitch, early_stop, sole_wrenches, virtual_ground_reaction_wrench
+    from plantar.zmp import centroidal_moment_pivot, divergent_component, zero_moment_wrench, zmp_in_plane
 
 __version__ = "0.1.0"
 
 __all__ = [
     "DependencyError",
+    "FeetPercept",
     "FootError",
     "FormatError",
+    "GroundPlane",
+    "HeightContour",
     "HexLattice",
     "InputError",
     "LayoutError",
@@ -52,36 +65,101 @@ __all__ = [
     "RobotError",
     "SceneError",
     "SoleLayout",
+    "SolePose",
+    "SoleWrenchSwitch",
+    "StuckMonitor",
+    "TaxelActivation",
+    "TaxelHealth",
     "__version__",
+    "active_cells",
     "active_taxels",
     "center_of_pressure",
+    "centroidal_moment_pivot",
+    "divergent_component",
+    "early_stop",
     "feet_support_polygon",
+    "fill_from_neighbours",
+    "fit_ground_plane",
+    "ground_points",
     "ground_reaction_wrench",
+    "height_contours",
     "hex_layout",
+    "hysteresis",
+    "joint_torque",
     "mirrored",
+    "near_taxels",
+    "patch_signal",
+    "preemptive_polygon",
+    "pressure_driven_wrench",
+    "proximity_measure",
+    "pseudo_force",
     "read_layout",
+    "skin_wrench",
+    "sole_wrenches",
+    "stuck_taxels",
+    "temperature_footprint",
+    "temperature_wrench",
+    "virtual_ground_reaction_wrench",
     "wrench_at",
+    "wrench_of_feet",
     "write_layout",
+    "zero_moment_wrench",
+    "zmp_in_plane",
     "zmp_of_feet",
+    "zmp_of_soles",
     "zmp_of_wrench",
 ]
 
 # Module of each name above that is not an error.
 _MODULE_OF_NAME = {
+    "FeetPercept": "feet",
+    "GroundPlane": "ground_plane",
+    "HeightContour": "proximity",
     "HexLattice": "hex_lattice",
     "Percept": "percept",
     "Reading": "reading",
     "SoleLayout": "layout",
+    "SolePose": "sole_pose",
+    "SoleWrenchSwitch": "virtual_wrench",
+    "StuckMonitor": "health",
+    "TaxelActivation": "activation",
+    "TaxelHealth": "health",
+    "active_cells": "body_skin",
     "active_taxels": "activation",
     "center_of_pressure": "force",
+    "centroidal_moment_pivot": "zmp",
+    "divergent_component": "zmp",
+    "early_stop": "virtual_wrench",
     "feet_support_polygon": "support",
+    "fill_from_neighbours": "health",
+    "fit_ground_plane": "ground_plane",
+    "ground_points": "ground_plane",
     "ground_reaction_wrench": "force",
+    "height_contours": "proximity",
     "hex_layout": "tiling",
+    "hysteresis": "activation",
+    "joint_torque": "pressure_wrench",
     "mirrored": "layout",
+    "near_taxels": "proximity",
+    "patch_signal": "body_skin",
+    "preemptive_polygon": "proximity",
+    "pressure_driven_wrench": "pressure_wrench",
+    "proximity_measure": "proximity",
+    "pseudo_force": "body_skin",
     "read_layout": "layout_file",
+    "skin_wrench": "body_skin",
+    "sole_wrenches": "virtual_wrench",
+    "stuck_taxels": "health",
+    "temperature_footprint": "temperature",
+    "temperature_wrench": "temperature",
+    "virtual_ground_reaction_wrench": "virtual_wrench",
     "wrench_at": "force",
+    "wrench_of_feet": "sole_pose",
     "write_layout": "layout_file",
+    "zero_moment_wrench": "zmp",
+    "zmp_in_plane": "zmp",
     "zmp_of_feet": "force",
+    "zmp_of_soles": "sole_pose",
     "zmp_of_wrench": "force",
 }
 

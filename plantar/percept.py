@@ -5,31 +5,43 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar import force as _force
 from plantar import polygon as _polygon
 from plantar.activation import active_taxels
 from plantar.errors import ReadingError
+from plantar.health import TaxelHealth, dead_taxels, fill_from_neighbours, saturated_taxels
 from plantar.layout import SoleLayout
+from plantar.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
+from plantar.pressure_wrench import scaled_by_area
 from plantar.reading import Reading
+from plantar.zmp import zero_moment_wrench
 
 __all__ = ["Percept"]
 
 
-class Percept:
+class Percept(VirtualMembers):
     """A reading seen through its layout.
 
     Nothing is computed before it is asked for, and nothing twice. An unloaded sole has defined answers: no CoP
-    (None), area 0, an empty polygon, a zero wrench.
+    (None), area 0, an empty polygon, a zero wrench. A modality that the reading lacks gives None. Taxels that are dead,
+    saturated or stuck are left out of every sum, and reported by `health`.
 
     Args:
         layout: The sole, n taxels.
         reading: What its taxels measured.
         force_threshold: Activation threshold epsilon_f in N; the layout's own where None.
+        active: Mask (n,) of taxels to take as active, of a `TaxelActivation` with hysteresis; those above the threshold
+            where None.
+        stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none where None.
+        fill: Let faulty taxels take the pressure of their sound neighbours, instead of leaving them out.
+        proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
+        contour_heights: Heights of the contours of the ground in m (T 4.2.7).
+        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell where None.
 
     Raises:
-        ReadingError: If the reading has another number of taxels than the layout.
+        ReadingError: If the reading or a mask has another number of taxels than the layout.
 
     Example:
         >>> from plantar import Percept, Reading, hex_layout
@@ -39,27 +51,71 @@ class Percept:
         (True, 0.0, (0, 2))
     """
 
-    def __init__(self, layout: SoleLayout, reading: Reading, force_threshold: float | None = None) -> None:
+    def __init__(
+        self,
+        layout: SoleLayout,
+        reading: Reading,
+        force_threshold: float | None = None,
+        *,
+        active: ArrayLike | None = None,
+        stuck: ArrayLike | None = None,
+        fill: bool = False,
+        proximity_gain: float = PROXIMITY_GAIN,
+        contour_heights: tuple[float, ...] = CONTOUR_HEIGHTS,
+        reference_area: float | None = None,
+    ) -> None:
         if reading.force.shape[0] != len(layout):
             raise ReadingError(f"reading has {reading.force.shape[0]} taxels; layout '{layout.name}' has {len(layout)}")
         self.layout = layout
         self.reading = reading
         self.force_threshold = layout.force_threshold if force_threshold is None else force_threshold
+        self.fill = fill
+        self.proximity_gain = proximity_gain
+        self.contour_heights = contour_heights
+        self.reference_area = layout.cell_area if reference_area is None else reference_area
+        self._given_active = None if active is None else self._mask("active", active)
+        self._stuck = None if stuck is None else self._mask("stuck", stuck)
+
+    def _mask(self, name: str, mask: ArrayLike) -> NDArray[np.bool_]:
+        given = np.array(mask, dtype=bool)
+        if given.shape != self.reading.force.shape:
+            raise ReadingError(f"mask '{name}' has shape {given.shape}; the reading has {len(self.layout)} taxels")
+        return given
 
     @classmethod
     def members(cls) -> tuple[str, ...]:
         """Names of all lazy members; those in a percept's `__dict__` have been computed."""
-        return tuple(name for name, value in vars(cls).items() if isinstance(value, cached_property))
+        own = (vars(base).items() for base in cls.__mro__)
+        return tuple(name for items in own for name, value in items if isinstance(value, cached_property))
+
+    @cached_property
+    def health(self) -> TaxelHealth:
+        """Dead, saturated and stuck taxels; they are left out of every sum."""
+        force = self.reading.force
+        stuck = np.zeros(len(force), dtype=bool) if self._stuck is None else self._stuck
+        return TaxelHealth(dead_taxels(force), saturated_taxels(force, self.layout.force_limit), stuck)
+
+    @cached_property
+    def sound_force(self) -> NDArray[np.float64]:
+        """Normal forces (n,) in N; a faulty taxel holds NaN or, with `fill`, what its neighbours' pressure makes it."""
+        faulty = self.health.faulty
+        if self.fill:
+            return fill_from_neighbours(self.layout, self.reading.force, faulty, per_area=True)
+        return np.where(faulty, np.nan, self.reading.force)
 
     @cached_property
     def active(self) -> NDArray[np.bool_]:
-        """Active taxels (n,) (T 4.22)."""
-        return active_taxels(self.reading.force, self.force_threshold)
+        """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
+        plain = self._stuck is None and not self.fill  # what the comparison leaves out without a look at each fault
+        force = self.reading.force if plain else self.sound_force
+        if self._given_active is None:
+            return active_taxels(force, self.force_threshold, self.layout.force_limit)
+        return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
 
     @cached_property
     def active_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
-        return np.where(self.active, self.reading.force, 0.0)
+        return np.where(self.active, self.sound_force if self.fill else self.reading.force, 0.0)
 
     @cached_property
     def vertical_force(self) -> float:
@@ -80,6 +136,16 @@ class Percept:
     def wrench_in_sole(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
         return _force.ground_reaction_wrench(self.layout, self.active_force)
+
+    @cached_property
+    def zero_moment_wrench_in_sole(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """ZMP (3,) in the sole plane in m and the wrench (6,) about it, or None without load (T 4.2.4)."""
+        return zero_moment_wrench(self.wrench_in_sole, minimum_force=0.0)
+
+    @cached_property
+    def pressure_driven_wrench_in_sole(self) -> NDArray[np.float64]:
+        """The wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
+        return scaled_by_area(self.wrench_in_sole, self.contact_area, self.reference_area)
 
     @cached_property
     def support_polygon_in_sole(self) -> NDArray[np.float64]:

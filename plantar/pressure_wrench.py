@@ -9,7 +9,7 @@ from plantar.activation import active_taxels
 from plantar.errors import InputError
 from plantar.layout import SoleLayout
 
-__all__ = ["joint_torque", "pressure_driven_wrench"]
+__all__ = ["joint_torque", "pressure_driven_wrench", "scaled_by_area"]
 
 
 def pressure_driven_wrench(
@@ -39,15 +39,34 @@ def pressure_driven_wrench(
         >>> [round(float(pressure_driven_wrench(layout, f, 691e-6)[2]), 2) for f in (spread, point)]
         [3.16, 60.0]
     """
-    if not reference_area > 0.0:
-        raise InputError(f"reference area is {reference_area} m^2; allowed: above 0")
     readings = np.asarray(force, dtype=np.float64)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
-    wrench = np.where(active, readings, 0.0) @ layout.wrench_map.T
-    contact_area = np.asarray(active @ layout.areas)[..., None]
-    return np.asarray(
-        wrench * np.divide(reference_area, contact_area, out=np.zeros_like(contact_area), where=contact_area > 0.0)
-    )
+    return scaled_by_area(np.where(active, readings, 0.0) @ layout.wrench_map.T, active @ layout.areas, reference_area)
+
+
+def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: float) -> NDArray[np.float64]:
+    """A wrench scaled by the area it comes through: xi / area * w (T 3.27).
+
+    Args:
+        wrench: Wrench (6,) or (frames, 6) in N and N m.
+        contact_area: Contact area () or (frames,) in m^2.
+        reference_area: Gain xi in m^2.
+
+    Returns:
+        Wrench in the shape of `wrench` in N and N m; zero where the contact area is 0.
+
+    Raises:
+        InputError: If the reference area is not above 0.
+
+    Example:
+        >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
+        [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]
+    """
+    if not reference_area > 0.0:
+        raise InputError(f"reference area is {reference_area} m^2; allowed: above 0")
+    area = np.asarray(contact_area, dtype=np.float64)[..., None]
+    gain = np.divide(reference_area, area, out=np.zeros_like(area), where=area > 0.0)
+    return np.asarray(np.asarray(wrench, dtype=np.float64) * gain)
 
 
 def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:

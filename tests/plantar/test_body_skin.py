@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError, ReadingError, ground_reaction_wrench
-from plantar.skin_wrench import active_cells, patch_signal, pseudo_force, skin_wrench
+from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 signals = st.lists(

@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 
 from plantar import Percept, Reading, ReadingError, center_of_pressure, ground_reaction_wrench
 from plantar import polygon as polygon_module
+from plantar.ground_plane import fit_ground_plane
 from plantar.polygon import signed_margin
+from plantar.proximity import preemptive_polygon
+from plantar.temperature import temperature_footprint, temperature_wrench
+from plantar.virtual_wrench import virtual_ground_reaction_wrench
 
 MEMBERS = (
     "active",
@@ -22,6 +26,18 @@ MEMBERS = (
     "support_area",
     "area_ratio",
     "centroid_in_sole",
+    "health",
+    "sound_force",
+    "zero_moment_wrench_in_sole",
+    "pressure_driven_wrench_in_sole",
+    "near",
+    "preemptive_polygon_in_sole",
+    "height_contours_in_sole",
+    "virtual_wrench_in_sole",
+    "ground_plane_in_sole",
+    "temperature_wrench_in_sole",
+    "temperature_footprint_in_sole",
+    "acceleration_in_sole",
 )
 seeds = st.integers(0, 2**32 - 1)
 
@@ -37,7 +53,9 @@ def random_force(seed, n):
 
 
 def test_members_are_all_there_are():
-    assert {k for k, v in vars(Percept).items() if isinstance(v, cached_property)} == set(MEMBERS)
+    assert set(Percept.members()) == set(MEMBERS)
+    assert all(isinstance(getattr(Percept, name), cached_property) for name in MEMBERS)
+    assert len(Percept.members()) == len(MEMBERS)
 
 
 def test_nothing_is_computed_before_it_is_asked_for_and_nothing_twice(sole):
@@ -74,6 +92,8 @@ def test_an_unloaded_sole_has_defined_answers(sole, value):
     assert percept.support_area == 0.0
     assert percept.area_ratio == 0.0
     assert percept.centroid_in_sole is None
+    assert percept.zero_moment_wrench_in_sole is None
+    assert percept.pressure_driven_wrench_in_sole.tolist() == [0.0] * 6
 
 
 @given(seeds)
@@ -127,6 +147,88 @@ def test_the_layouts_threshold_holds_unless_another_is_given(sole):
     assert not Percept(sole, reading).active.any()
     assert Percept(sole, reading, force_threshold=0.5).active.all()
     assert Percept(sole, reading, force_threshold=0.0).active.all()
+
+
+def test_faulty_taxels_are_left_out_of_every_sum_and_reported(sole):
+    force = np.full(len(sole), 5.0)
+    force[[2, 9]] = np.nan, 785.0
+    stuck = np.arange(len(sole)) == 20
+    percept = Percept(sole, Reading(0.0, force), stuck=stuck)
+    sound = np.setdiff1d(np.arange(len(sole)), [2, 9, 20])
+    assert np.flatnonzero(percept.health.faulty).tolist() == [2, 9, 20]
+    assert str(percept.health) == f"1 dead, 1 saturated, 1 stuck of {len(sole)} taxels"
+    assert np.flatnonzero(percept.active).tolist() == sound.tolist()
+    assert percept.vertical_force == pytest.approx(5.0 * len(sound))
+    assert percept.contact_area == pytest.approx(sole.areas[sound].sum())
+    assert percept.wrench_in_sole == pytest.approx(
+        ground_reaction_wrench(sole, np.isin(np.arange(len(sole)), sound) * 5.0)
+    )
+    assert percept.position_cop_in_sole == pytest.approx(sole.positions[sound, :2].mean(axis=0))
+    assert np.isnan(percept.sound_force[[2, 9, 20]]).all()
+    stuck[:] = True  # the percept has its own copy
+    assert percept.health.stuck.sum() == 1
+
+
+def test_faulty_taxels_can_take_their_neighbours_pressure(sole):
+    force = 2e4 * sole.areas
+    broken = force.copy()
+    broken[[2, 30]] = np.nan, 785.0
+    percept = Percept(sole, Reading(0.0, broken), fill=True)
+    assert percept.active_force == pytest.approx(force)
+    assert percept.wrench_in_sole == pytest.approx(ground_reaction_wrench(sole, force))
+    assert percept.health.faulty.sum() == 2
+    assert not Percept(sole, Reading(0.0, np.full(len(sole), np.nan)), fill=True).active.any()
+
+
+def test_activation_can_come_from_a_switch_with_hysteresis(sole):
+    given = np.arange(len(sole)) < 5
+    force = np.full(len(sole), 1.0)  # below the threshold of 1.47 N
+    force[0] = np.nan
+    percept = Percept(sole, Reading(0.0, force), active=given)
+    assert np.flatnonzero(percept.active).tolist() == [1, 2, 3, 4]
+    assert percept.vertical_force == pytest.approx(4.0)
+    for name in ("active", "stuck"):
+        with pytest.raises(ReadingError, match=f"mask '{name}'"):
+            Percept(sole, Reading(0.0, force), **{name: given[:3]})
+
+
+def test_a_modality_that_the_reading_lacks_is_none(sole):
+    percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
+    for name in MEMBERS[-8:]:
+        assert getattr(percept, name) is None, name
+
+
+def test_members_of_the_other_modalities_are_those_of_their_functions(sole):
+    rng = np.random.default_rng(4)
+    n = len(sole)
+    reading = Reading(
+        0.0, np.full(n, 5.0), rng.uniform(0, 0.06, n), rng.uniform(20, 50, n), acceleration=rng.normal(0, 9, (n, 3))
+    )
+    percept = Percept(sole, reading, proximity_gain=80.0, contour_heights=(0.01, 0.03), reference_area=2e-3)
+    near = reading.proximity < 0.05
+    assert percept.near.tolist() == near.tolist()
+    assert percept.preemptive_polygon_in_sole.tolist() == preemptive_polygon(sole, reading.proximity, 0.05).tolist()
+    assert [c.height for c in percept.height_contours_in_sole] == [0.01, 0.03]
+    expected = virtual_ground_reaction_wrench(sole, reading.proximity, 80.0)
+    assert percept.virtual_wrench_in_sole.tolist() == expected.tolist()
+    assert percept.ground_plane_in_sole.height == fit_ground_plane(sole, reading.proximity).height
+    assert percept.temperature_wrench_in_sole.tolist() == temperature_wrench(sole, reading.temperature).tolist()
+    footprint = temperature_footprint(sole, reading.temperature)
+    assert percept.temperature_footprint_in_sole.tolist() == footprint.tolist()
+    assert percept.acceleration_in_sole == pytest.approx(reading.acceleration)  # level taxels
+    point, wrench = percept.zero_moment_wrench_in_sole
+    assert point[:2] == pytest.approx(percept.position_cop_in_sole)
+    assert wrench == pytest.approx([0, 0, 5.0 * n, 0, 0, 0])
+    gain = 2e-3 / percept.contact_area
+    assert percept.pressure_driven_wrench_in_sole == pytest.approx(gain * percept.wrench_in_sole)
+
+
+def test_acceleration_is_turned_into_the_sole_frame(tilted_sole):
+    layout = tilted_sole(3)
+    acceleration = np.random.default_rng(0).normal(0, 9, (len(layout), 3))
+    percept = Percept(layout, Reading(0.0, np.zeros(len(layout)), acceleration=acceleration))
+    expected = [rotation @ a for rotation, a in zip(layout.rotations, acceleration, strict=True)]
+    assert percept.acceleration_in_sole == pytest.approx(np.array(expected))
 
 
 def test_a_reading_of_another_sole_is_refused(sole):

@@ -1,0 +1,87 @@
+"""What two feet feel together, in the world frame; each member computed at first use and kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from plantar.percept import Percept
+from plantar.polygon import area
+from plantar.sole_pose import SolePose, wrench_of_feet
+from plantar.support import feet_support_polygon
+from plantar.zmp import zmp_in_plane
+
+__all__ = ["FeetPercept"]
+
+
+class FeetPercept:
+    """Percepts of the soles together with their poses.
+
+    Args:
+        percepts: Percept of each sole.
+        poses: Pose of each sole in the world.
+        ground_height: Height in m of the horizontal plane that the ZMP lies in.
+
+    Raises:
+        InputError: If there are not as many poses as percepts, or none.
+
+    Example:
+        >>> from plantar import Reading, hex_layout, mirrored
+        >>> left = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> soles = [Percept(s, Reading(0.0, np.full(len(s), 5.0))) for s in (left, mirrored(left))]
+        >>> feet = FeetPercept(soles, [SolePose.flat(0.0, 0.1), SolePose.flat(0.0, -0.1)])
+        >>> bool(abs(feet.position_zmp_in_world).max() < 1e-9), round(feet.support_area, 3)
+        (True, 0.06)
+    """
+
+    def __init__(self, percepts: Sequence[Percept], poses: Sequence[SolePose], ground_height: float = 0.0) -> None:
+        if len(percepts) != len(poses) or not poses:
+            raise InputError(f"{len(percepts)} percepts and {len(poses)} poses; expected one pose a percept")
+        self.percepts = tuple(percepts)
+        self.poses = tuple(poses)
+        self.ground_height = ground_height
+
+    @cached_property
+    def wrench_in_world(self) -> NDArray[np.float64]:
+        """Ground reaction wrench (6,) of all soles about the world's origin in N and N m."""
+        return wrench_of_feet([p.wrench_in_sole for p in self.percepts], self.poses)
+
+    @cached_property
+    def position_zmp_in_world(self) -> NDArray[np.float64] | None:
+        """Composite ZMP (2,) in the plane of the ground in m, or None without load (T 4.7-4.8)."""
+        return zmp_in_plane(self.wrench_in_world, self.ground_height, minimum_force=0.0)
+
+    @cached_property
+    def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
+        """CoP (3,) of each sole in the world in m, None for a sole without load (T 4.21)."""
+        return tuple(
+            None if p.position_cop_in_sole is None else pose.to_world([*p.position_cop_in_sole, 0.0])
+            for p, pose in zip(self.percepts, self.poses, strict=True)
+        )
+
+    @cached_property
+    def support_polygon_in_world(self) -> NDArray[np.float64]:
+        """Convex support polygon (k, 2) of all soles seen from above in m; empty without contact (T 4.25)."""
+        polygons = [p.support_polygon_in_sole for p in self.percepts]
+        return feet_support_polygon([pose.polygon_to_world(q) for q, pose in zip(polygons, self.poses, strict=True)])
+
+    @cached_property
+    def preemptive_polygon_in_world(self) -> NDArray[np.float64] | None:
+        """Convex polygon (k, 2) of all near cells in m (T 4.2.7, Fig. 37-g); None where no sole has proximity."""
+        polygons = [(p.preemptive_polygon_in_sole, pose) for p, pose in zip(self.percepts, self.poses, strict=True)]
+        known = [pose.polygon_to_world(q) for q, pose in polygons if q is not None]
+        return feet_support_polygon(known) if known else None
+
+    @cached_property
+    def support_area(self) -> float:
+        """Area in m^2 of the support polygon of all soles, seen from above."""
+        return area(self.support_polygon_in_world)
+
+    @cached_property
+    def contact_area(self) -> float:
+        """Area in m^2 of the active cells of all soles (T 4.22)."""
+        return sum(p.contact_area for p in self.percepts)
