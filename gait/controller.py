@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceGains, DcmBalance
-from gait.estimator import BaseState, EstimatorGains, FloatingBaseEstimator, LegKinematics, heading
+from gait.estimator import (
+    BaseState,
+    EstimatorGains,
+    FloatingBaseEstimator,
+    LegKinematics,
+    heading,
+    rotation_from_vector,
+)
 from gait.footsteps import Footstep, other_side
 from gait.lip import dcm, pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
+from gait.posture_compensation import PostureCompensation
+from gait.step_adjustment import AdjustmentLimits, adjusted_step, remaining_error
 from gait.swing import SwingTrajectory
 from gait.vrp_plan import LipReference
 from gait.walk_plan import plan_vrps
@@ -45,6 +54,7 @@ class ControllerSettings:
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
+        adjustment: How far footsteps may be moved to catch the DCM, or None to keep them where they are planned.
         feedback: False walks the plan in open loop, for comparison.
     """
 
@@ -60,6 +70,7 @@ class ControllerSettings:
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
+    adjustment: AdjustmentLimits | None = field(default_factory=AdjustmentLimits)
     feedback: bool = True
 
 
@@ -173,6 +184,10 @@ class WalkingController:
         self._swing: SwingTrajectory | None = None
         self._swing_step = -1
         self._ticks = 0
+        self.replans = 0
+        self._compensation = PostureCompensation(settings.period)
+        self._planned = self.schedule.steps
+        self._moved = False
         self._landed = True
         self._lowered = self._lowering = 0.0
         self._anchor = feet["left"].position
@@ -205,15 +220,20 @@ class WalkingController:
         if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
+            self._adjust_step(phase, sensors.time, reference, xi, zmp)
         else:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
         height = self._com_height(phase, sensors.time)
         yaws = [self._foothold[side][1] for side in _SIDES]
-        target = self._to_command(com)
+        target = np.array([*self._to_command(com), height])
+        torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
+        feet = self._foot_targets(phase, self._to_command(zmp), acceleration)
+        if feedback and self._swing is not None:
+            self._compensate(feet, phase, target, torso, state)
         return Command(
-            com=np.array([target[0], target[1], height]),
-            heading=yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi),
-            feet=self._foot_targets(phase, self._to_command(zmp), acceleration),
+            com=target,
+            heading=torso,
+            feet=feet,
             phase=phase,
             reference=reference,
             zmp_desired=zmp,
@@ -221,6 +241,76 @@ class WalkingController:
             dcm=xi,
             percepts=percepts,
         )
+
+    def _adjust_step(
+        self,
+        phase: Phase,
+        time: float,
+        reference: LipReference,
+        xi: NDArray[np.float64],
+        zmp: NDArray[np.float64],
+    ) -> None:
+        """Move the foothold of the present step when the stance foot alone cannot bring the DCM back; plan anew from
+        the moved footholds when the double support begins."""
+        limits = self.settings.adjustment
+        if phase.swing is None:
+            if self._moved:
+                self._moved = False
+                self.replans += 1
+                feet = {s: self._footstep(s) for s in _SIDES}
+                self.plan = plan_vrps(
+                    feet, self.schedule, self._vrp_in_sole, self.omega, reference.com, time, reference.vrp
+                )
+            return
+        if limits is None or self._swing is None or self._landed:
+            return
+        left = phase.end - time
+        if left < (1.0 - limits.latest) * (phase.end - phase.start):
+            return
+        stance = self._footstep(other_side(phase.swing))
+        error = remaining_error(xi - reference.dcm, zmp - reference.vrp, self.omega, left)
+        wanted = adjusted_step(self._planned[phase.step], stance, error, limits)
+        step = self.schedule.steps[phase.step]
+        dx, dy = wanted.x - step.x, wanted.y - step.y
+        gap = math.hypot(dx, dy)
+        if gap < 1e-4:
+            return
+        share = min(1.0, limits.speed * self.settings.period / gap)
+        step = replace(step, x=step.x + share * dx, y=step.y + share * dy)
+        self.schedule.move_step(phase.step, step)
+        self._swing = replace(self._swing, end=np.array([*self._to_command(step.position[:2]), self._swing.end[2]]))
+        self._moved = True
+
+    def _footstep(self, side: Side) -> Footstep:
+        """Where a foot stands in the world frame, as commanded and aligned."""
+        position, yaw = self._foothold[side]
+        place = position + self._offset
+        return Footstep(side, float(place[0]), float(place[1]), yaw + self._turn, float(position[2]))
+
+    def _compensate(
+        self, feet: dict[Side, FootTarget], phase: Phase, com: NDArray[np.float64], torso: float, state: BaseState
+    ) -> None:
+        """Correct the target of the foot that swings, or has just landed, for the body's lean."""
+        side = self.schedule.steps[self._swing_step].side
+        foot = feet[side]
+        dx, dy, dz = (foot.position - self._anchor).tolist()
+        c, s = math.cos(self._turn), math.sin(self._turn)
+        place = self._anchor + self._offset + np.array([c * dx - s * dy, s * dx + c * dy, dz])
+        command = Footstep(side, 0.0, 0.0, torso).rotation_sole_to_world
+        back = Footstep(side, 0.0, 0.0, torso - heading(state.rotation_base_to_world)).rotation_sole_to_world
+        # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
+        aligned = Footstep(side, 0.0, 0.0, -self._turn).rotation_sole_to_world
+        shift, turn = self._compensation.update(
+            phase.swing == side and not self._landed,
+            foot.position,
+            state.com + aligned @ (place - state.com),
+            com,
+            state.com,
+            command,
+            back @ state.rotation_base_to_world,
+        )
+        rotation = rotation_from_vector(turn) @ foot.rotation
+        feet[side] = replace(foot, position=foot.position + shift, rotation=rotation)
 
     def _align(self, state: BaseState) -> None:
         """Follow where the loaded foot really stands: servos give a little, so a commanded foothold and the real one
@@ -231,7 +321,8 @@ class WalkingController:
         if state.loads[side] <= s.estimator.minimum_load:
             return
         share = min(1.0, s.period / s.alignment_time)
-        self._anchor = position
+        # The anchor moves as slowly: a jump from foot to foot would turn the CoM reference about another point.
+        self._anchor = self._anchor + share * (position - self._anchor)
         self._offset += share * (state.positions_sole[side] - position - self._offset)
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._turn += share * (turn - self._turn)
@@ -254,6 +345,7 @@ class WalkingController:
                 position.copy(), target, yaw, step.yaw - self._turn, s.swing_height, phase.end - phase.start
             )
             self._swing_step = phase.step
+            self._compensation.start()
             self._landed = False
             self._lowered = self._lowering = 0.0
         if self._swing is None:

@@ -18,6 +18,7 @@ from gait.balance import BalanceGains
 from gait.controller import Command, ControllerSettings, WalkingController
 from gait.footsteps import straight_plan
 from gait.phases import Timing
+from gait.step_adjustment import AdjustmentLimits
 from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
 from plantar.polygon import centroid
@@ -91,6 +92,7 @@ class Simulation:
             timing=Timing(walk.single_support, walk.double_support, walk.start, walk.end, walk.settle),
             swing_height=walk.swing_height,
             gains=BalanceGains.from_table(robot.balance),
+            adjustment=AdjustmentLimits() if scene.control.adjust_steps else None,
             feedback=scene.control.feedback,
         )
         self.controller = WalkingController(
@@ -209,7 +211,7 @@ class Simulation:
             "landings_s": [round(x.time, 3) for x in judge.landings],
             "landing_sides": [x.side for x in judge.landings],
             "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in judge.landings],
-            "replans": 0,
+            "replans": self.controller.replans,
             "control_us": {
                 "p50": round(float(np.percentile(ticks, 50)), 1),
                 "p99": round(float(np.percentile(ticks, 99)), 1),

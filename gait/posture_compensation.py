@@ -1,0 +1,86 @@
+"""Keep the swing foot where it is wanted in the world while the body leans and sags on its stance leg.
+
+Servos give under load and a push tilts the pelvis; joints that are solved for an ideal body would carry the swing foot
+along with the lean, and it would land early, on an edge, beside its foothold. The foot's wanted pose is therefore
+expressed relative to the body as it is estimated, and attached to the body as it is commanded:
+
+    X_command = c_command + R_command R_estimated^T (X_world - c_estimated)
+
+with c the CoM. The correction fades in after lift-off, and fades out in double support, while the foot takes over the
+weight and becomes the one that the body leans on.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["PostureCompensation"]
+
+
+@dataclass
+class PostureCompensation:
+    """Filtered correction of one foot's commanded pose.
+
+    Attributes:
+        period: Control period in s.
+        time_constant: Of the low-pass on the correction in s.
+        fade: Time in s in which the correction comes in and goes out.
+        largest_shift: Largest correction of the position in m.
+        largest_turn: Largest correction of the orientation in rad.
+    """
+
+    period: float
+    time_constant: float = 0.03
+    fade: float = 0.2
+    largest_shift: float = 0.06
+    largest_turn: float = 0.12
+    shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    _weight: float = 0.0
+
+    def start(self) -> None:
+        """Begin with no correction: the foot lifts off."""
+        self.shift, self.turn, self._weight = np.zeros(3), np.zeros(3), 0.0
+
+    def update(
+        self,
+        airborne: bool,
+        position: NDArray[np.float64],
+        position_in_world: NDArray[np.float64],
+        com_command: NDArray[np.float64],
+        com_estimated: NDArray[np.float64],
+        rotation_command: NDArray[np.float64],
+        rotation_estimated: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """One control tick.
+
+        Args:
+            airborne: Whether the foot is still in its swing.
+            position: Wanted sole position (3,) in the command frame in m.
+            position_in_world: The same point in the world frame in m.
+            com_command: CoM reference (3,) in the command frame in m.
+            com_estimated: Estimated CoM (3,) in the world frame in m.
+            rotation_command: Commanded torso orientation (3, 3).
+            rotation_estimated: Estimated torso orientation (3, 3), heading as commanded.
+
+        Returns:
+            Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
+        """
+        step = self.period / self.fade
+        self._weight = min(1.0, self._weight + step) if airborne else max(0.0, self._weight - step)
+        lean = rotation_command @ rotation_estimated.T
+        shift = com_command + lean @ (position_in_world - com_estimated) - position
+        turn = 0.5 * np.array([lean[2, 1] - lean[1, 2], lean[0, 2] - lean[2, 0], lean[1, 0] - lean[0, 1]])
+        share = min(1.0, self.period / self.time_constant)
+        self.shift = self.shift + share * (self._weight * _limited(shift, self.largest_shift) - self.shift)
+        self.turn = self.turn + share * (self._weight * _limited(turn, self.largest_turn) - self.turn)
+        return self.shift, self.turn
+
+
+def _limited(vector: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
+    size = math.sqrt(float(vector @ vector))
+    return vector if size <= largest else vector * (largest / size)

@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from gait.posture_compensation import PostureCompensation
+
+COM = np.array([0.0, 0.0, 0.8])
+FOOT = np.array([0.1, 0.2, 0.05])
+LEVEL = np.eye(3)
+
+
+def settle(compensation: PostureCompensation, airborne: bool, lean: np.ndarray, ticks: int = 400) -> tuple:
+    for _ in range(ticks):
+        result = compensation.update(airborne, FOOT, FOOT, COM, COM, LEVEL, lean)
+    return result
+
+
+def test_a_body_as_commanded_needs_no_correction() -> None:
+    shift, turn = settle(PostureCompensation(0.005), True, LEVEL)
+    assert np.abs(shift).max() < 1e-15
+    assert np.abs(turn).max() < 1e-15
+
+
+def test_a_leaning_body_puts_its_foot_where_it_is_wanted_in_the_world() -> None:
+    lean = np.asarray(Rotation.from_rotvec([0.05, -0.03, 0.0]).as_matrix())
+    shift, turn = settle(PostureCompensation(0.005), True, lean)
+    # The real body carries what it is commanded to: world = c + R_estimated R_command^T (command - c).
+    assert COM + lean @ (FOOT + shift - COM) == pytest.approx(FOOT, abs=1e-9)
+    assert lean @ np.asarray(Rotation.from_rotvec(turn).as_matrix()) == pytest.approx(LEVEL, abs=1e-4)
+
+
+def test_a_sagging_body_lifts_its_foot() -> None:
+    compensation = PostureCompensation(0.005)
+    for _ in range(400):
+        shift, _ = compensation.update(True, FOOT, FOOT, COM, COM - [0.0, 0.0, 0.01], LEVEL, LEVEL)
+    assert shift == pytest.approx([0.0, 0.0, 0.01])
+
+
+def test_corrections_are_limited_fade_out_on_the_ground_and_start_anew() -> None:
+    compensation = PostureCompensation(0.005)
+    lean = np.asarray(Rotation.from_rotvec([0.8, 0.0, 0.0]).as_matrix())
+    shift, turn = settle(compensation, True, lean)
+    assert np.linalg.norm(shift) == pytest.approx(compensation.largest_shift)
+    assert np.linalg.norm(turn) == pytest.approx(compensation.largest_turn)
+    shift, turn = settle(compensation, False, lean)
+    assert np.abs(shift).max() < 1e-9
+    assert np.abs(turn).max() < 1e-9
+    settle(compensation, True, lean)
+    compensation.start()
+    assert not compensation.shift.any()
+
+
+def test_no_step_between_two_ticks_is_large() -> None:
+    compensation = PostureCompensation(0.005)
+    lean = np.asarray(Rotation.from_rotvec([0.05, 0.0, 0.0]).as_matrix())
+    last = np.zeros(3)
+    for k in range(400):
+        shift, _ = compensation.update(k < 200, FOOT, FOOT, COM, COM, LEVEL, lean)
+        assert np.abs(shift - last).max() < 2.5e-3
+        last = shift
