@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from plantar.activation import TaxelActivation, active_taxels, hysteresis
     from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
+    from plantar.cell_layout import joined_layout, layout_of_cells
+    from plantar.curved_sole import laid_over
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -41,7 +43,7 @@ if TYPE_CHECKING:
     from plantar.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
     from plantar.support import feet_support_polygon
     from plantar.temperature import temperature_footprint, temperature_wrench
-    from plantar.tiling import hex_layout
+    from plantar.tiling import grid_layout, hex_layout
     from plantar.virtual_wrench import SoleWrenchSwitch, early_stop, sole_wrenches, virtual_ground_reaction_wrench
     from plantar.zmp import centroidal_moment_pivot, divergent_component, zero_moment_wrench, zmp_in_plane
 
@@ -80,12 +82,16 @@ __all__ = [
     "feet_support_polygon",
     "fill_from_neighbours",
     "fit_ground_plane",
+    "grid_layout",
     "ground_points",
     "ground_reaction_wrench",
     "height_contours",
     "hex_layout",
     "hysteresis",
+    "joined_layout",
     "joint_torque",
+    "laid_over",
+    "layout_of_cells",
     "mirrored",
     "near_taxels",
     "patch_signal",
@@ -133,12 +139,16 @@ _MODULE_OF_NAME = {
     "feet_support_polygon": "support",
     "fill_from_neighbours": "health",
     "fit_ground_plane": "ground_plane",
+    "grid_layout": "tiling",
     "ground_points": "ground_plane",
     "ground_reaction_wrench": "force",
     "height_contours": "proximity",
     "hex_layout": "tiling",
     "hysteresis": "activation",
+    "joined_layout": "cell_layout",
     "joint_torque": "pressure_wrench",
+    "laid_over": "curved_sole",
+    "layout_of_cells": "cell_layout",
     "mirrored": "layout",
     "near_taxels": "proximity",
     "patch_signal": "body_skin",

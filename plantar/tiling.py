@@ -1,21 +1,23 @@
-"""Laying a hexagonal lattice over a sole: which cells fit, clipped to the outline or whole."""
+"""Laying a lattice of hexagons or rectangles over a sole: which cells fit, clipped to the outline or whole."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.cell_layout import edge_neighbours, shared_vertices
 from plantar.errors import InputError, LayoutError
 from plantar.hex_lattice import HexLattice
 from plantar.layout import Side, SoleLayout
 
-__all__ = ["MOST_TAXELS", "hex_layout"]
+__all__ = ["MOST_TAXELS", "grid_layout", "hex_layout"]
 
 MOST_TAXELS = 100_000
-"""Most taxels that `hex_layout` lays out; the papers' soles have 42 and 51."""
+"""Most taxels that a lattice lays out; the papers' soles have 42 and 51."""
 
 
 def hex_layout(
@@ -56,6 +58,85 @@ def hex_layout(
         >>> len(layout), bool(abs(layout.areas - 691e-6).max() < 1e-12)
         (33, True)
     """
+    lattice = HexLattice(cell_area, origin, angle)
+    polygon = _sole_polygon(outline, cell_area, minimum_fraction, limited=cells is None)
+    if cells is not None:
+        axial = np.asarray(cells, dtype=np.int64).reshape(-1, 2)
+        if len(np.unique(axial, axis=0)) != len(axial):
+            raise LayoutError("cells holds a cell twice")
+        rings, centres = list(lattice.corners(axial)), lattice.centres(axial)
+    else:
+        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
+        axial = lattice.cells_near(low, high)
+        rings, centres = _cells_within(
+            polygon,
+            lattice.corners(axial),
+            lattice.centres(axial),
+            cell_area,
+            minimum_fraction if clip else None,
+            lattice.side,
+        )
+    return _layout(polygon, rings, centres, name, side, "hexagon", cell_area, lattice.side)
+
+
+def grid_layout(
+    outline: ArrayLike,
+    *,
+    name: str = "sole",
+    side: Side = "left",
+    pitch: tuple[float, float] = (0.02, 0.02),
+    origin: tuple[float, float] = (0.0, 0.0),
+    angle: float = 0.0,
+    clip: bool = True,
+    minimum_fraction: float = 0.5,
+) -> SoleLayout:
+    """Lay a grid of squares or rectangles over a sole and keep the cells that fit.
+
+    Args:
+        outline: Outline (k, 2) of the sole in m in the sole frame, either orientation, not self-crossing.
+        name: Name of the sole.
+        side: "left" or "right".
+        pitch: Size of a cell along the grid's rows and across them in m.
+        origin: A corner of the grid in m.
+        angle: Rotation of the grid's rows against x in rad.
+        clip: Cut cells that cross the outline; False keeps whole cells inside only.
+        minimum_fraction: With clip, a cut cell is kept when at least this fraction of it is inside, 0..1.
+
+    Returns:
+        The layout; a clipped cell's position is the centroid of what is left of it.
+
+    Raises:
+        LayoutError: If the outline is not a simple polygon, or no cell fits, or more than MOST_TAXELS would.
+        InputError: If a pitch is not a finite value above 0, the origin or angle not finite, or the minimum fraction
+            not within 0 to 1.
+
+    Example:
+        >>> layout = grid_layout([[0, 0], [0.1, 0], [0.1, 0.06], [0, 0.06]], pitch=(0.02, 0.01))
+        >>> len(layout), layout.neighbours[0], layout.cell_shape
+        (30, (1, 5), 'rectangle')
+    """
+    if not all(math.isfinite(v) and v > 0.0 for v in pitch):
+        raise InputError(f"grid pitch is {pitch} m; allowed: finite values above 0")
+    if not all(math.isfinite(v) for v in (*origin, angle)):
+        raise InputError(f"grid origin {origin} m or angle {angle} rad is not finite")
+    cell_area = pitch[0] * pitch[1]
+    polygon = _sole_polygon(outline, cell_area, minimum_fraction)
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    along = (np.array(polygon.exterior.coords) - origin) @ turn / pitch  # the outline in cells of the grid
+    low, high = np.floor(along.min(axis=0)).astype(np.int64) - 1, np.ceil(along.max(axis=0)).astype(np.int64) + 1
+    if float(np.prod(high - low, dtype=float)) > 4 * MOST_TAXELS:
+        raise LayoutError(f"a grid of {pitch[0]:.3g} x {pitch[1]:.3g} m over this outline makes too many cells")
+    column, row = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
+    corner = np.stack([column.ravel(), row.ravel()], axis=-1)[:, None, :] + [[0, 0], [1, 0], [1, 1], [0, 1]]
+    candidates = (corner * pitch) @ turn.T + origin  # of integers: cells that meet share bit-identical corners
+    rings, centres = _cells_within(
+        polygon, candidates, candidates.mean(axis=1), cell_area, minimum_fraction if clip else None, min(pitch)
+    )
+    return _layout(polygon, rings, centres, name, side, "rectangle", cell_area, min(pitch))
+
+
+def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float, limited: bool = True) -> Any:
+    """The outline as a polygon, counter-clockwise, after a check of all that does not depend on the lattice."""
     import shapely  # 0.2 s: only where a layout is made
 
     if not 0.0 <= minimum_fraction <= 1.0:
@@ -69,45 +150,64 @@ def hex_layout(
     polygon = shapely.Polygon(ring)
     if not polygon.is_valid or polygon.area <= 0.0:
         raise LayoutError("outline is not a simple polygon: it crosses itself or has no area")
-    polygon = shapely.geometry.polygon.orient(polygon)
-    lattice = HexLattice(cell_area, origin, angle)
-    if cells is None and polygon.area > MOST_TAXELS * cell_area:
+    if limited and polygon.area > MOST_TAXELS * cell_area:
         raise LayoutError(
             f"cells of {cell_area * 1e6:.3g} mm^2 on a sole of {polygon.area * 1e6:.0f} mm^2 make more than "
             f"{MOST_TAXELS} taxels; use a larger cell area"
         )
-    if cells is not None:
-        axial = np.asarray(cells, dtype=np.int64).reshape(-1, 2)
-        if len(np.unique(axial, axis=0)) != len(axial):
-            raise LayoutError("cells holds a cell twice")
-        rings = list(lattice.corners(axial))
-        centres = lattice.centres(axial)
-    else:
-        low, high = np.array(polygon.bounds[:2]), np.array(polygon.bounds[2:])
-        axial = lattice.cells_near(low, high)
-        rings, kept_centres = [], []
-        for centre, corner in zip(lattice.centres(axial), lattice.corners(axial), strict=True):
-            hexagon = shapely.Polygon(corner)
-            if polygon.covers(hexagon):
-                rings.append(corner)
-                kept_centres.append(centre)
-            elif clip:
-                # On a grid: without one GEOS may lose an intersection whose edges almost coincide.
-                parts = shapely.get_parts(shapely.intersection(polygon, hexagon, grid_size=1e-6 * lattice.side))
-                parts = [p for p in parts if p.geom_type == "Polygon"]
-                part = max(parts, key=lambda p: float(p.area), default=shapely.Polygon())
-                if part.area < max(minimum_fraction, 1e-3) * cell_area:
-                    continue
-                part = shapely.geometry.polygon.orient(part)
-                rings.append(np.array(part.exterior.coords)[:-1])
-                kept_centres.append(np.array(part.centroid.coords[0]))
-        centres = np.array(kept_centres).reshape(-1, 2)
-    if not len(rings):
+    return shapely.geometry.polygon.orient(polygon)
+
+
+def _cells_within(
+    polygon: Any,
+    candidates: NDArray[np.float64],
+    centres: NDArray[np.float64],
+    cell_area: float,
+    minimum_fraction: float | None,
+    grain: float,
+) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
+    """Rings and centres of the cells inside an outline; cut ones too where a minimum fraction is given."""
+    import shapely
+
+    cells = shapely.polygons(candidates)
+    shapely.prepare(polygon)
+    whole = shapely.covers(polygon, cells)
+    kept = np.flatnonzero(whole | (shapely.intersects(polygon, cells) & (minimum_fraction is not None)))
+    rings, kept_centres = [], []
+    for i in kept.tolist():
+        if whole[i]:
+            rings.append(candidates[i])
+            kept_centres.append(centres[i])
+            continue
+        # On a grid: without one GEOS may lose an intersection whose edges almost coincide.
+        parts = shapely.get_parts(shapely.intersection(polygon, cells[i], grid_size=1e-6 * grain))
+        parts = [p for p in parts if p.geom_type == "Polygon"]
+        part = max(parts, key=lambda p: float(p.area), default=shapely.Polygon())
+        if part.area >= max(minimum_fraction or 0.0, 1e-3) * cell_area:
+            part = shapely.geometry.polygon.orient(part)
+            rings.append(np.array(part.exterior.coords)[:-1])
+            kept_centres.append(np.array(part.centroid.coords[0]))
+    if not rings:
         raise LayoutError(
             f"no cell of {cell_area * 1e6:.0f} mm^2 fits the outline ({polygon.area * 1e6:.0f} mm^2); "
             "use a smaller cell area"
         )
-    vertices, corners = _shared_vertices(rings, tolerance=1e-4 * lattice.side)
+    return rings, np.array(kept_centres)
+
+
+def _layout(
+    polygon: Any,
+    rings: Sequence[ArrayLike],
+    centres: NDArray[np.float64],
+    name: str,
+    side: Side,
+    cell_shape: str,
+    cell_area: float,
+    grain: float,
+) -> SoleLayout:
+    import shapely
+
+    vertices, corners = shared_vertices(rings, tolerance=1e-4 * grain)
     areas = np.array([shapely.Polygon(vertices[list(c)]).area for c in corners])
     n = len(corners)
     return SoleLayout(
@@ -117,46 +217,10 @@ def hex_layout(
         rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
         vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
         corners=tuple(corners),
-        neighbours=_edge_neighbours(corners),
+        neighbours=edge_neighbours(corners),
         areas=areas,
         outline=np.array(polygon.exterior.coords)[:-1],
         ids=np.arange(n),
-        cell_shape="hexagon",
+        cell_shape=cell_shape,
         cell_area=cell_area,
     )
-
-
-def _shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
-    """Give points of cell rings that agree within a tolerance one shared index."""
-    points: list[NDArray[np.float64]] = []
-    index: dict[tuple[int, int], int] = {}
-    corners: list[tuple[int, ...]] = []
-    for ring in rings:
-        ids: list[int] = []
-        for p in np.asarray(ring, dtype=float):
-            kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
-            hit = next(
-                (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
-                None,
-            )
-            if hit is None:
-                hit = len(points)
-                points.append(p)
-                index[(kx, ky)] = hit
-            if not ids or (hit != ids[-1] and hit != ids[0]):
-                ids.append(hit)
-        corners.append(tuple(ids))
-    return np.array(points).reshape(-1, 2), corners
-
-
-def _edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
-    """Taxels that share an edge (two consecutive vertices)."""
-    owners: dict[tuple[int, int], list[int]] = {}
-    for i, ring in enumerate(corners):
-        for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
-            owners.setdefault((min(a, b), max(a, b)), []).append(i)
-    near: list[set[int]] = [set() for _ in corners]
-    for cells in owners.values():
-        for a in cells:
-            near[a].update(b for b in cells if b != a)
-    return tuple(tuple(sorted(s)) for s in near)

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import HexLattice, InputError, LayoutError, hex_layout
+from plantar import HexLattice, InputError, LayoutError, grid_layout, hex_layout
 from plantar.tiling import MOST_TAXELS
 
 RECTANGLE = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]
@@ -35,9 +35,9 @@ placements = st.fixed_dictionaries(
 )
 
 
-def laid_out(outline, placement):
+def laid_out(outline, placement, lattice=hex_layout):
     try:
-        return hex_layout(outline, **placement)
+        return lattice(outline, **placement)
     except LayoutError as error:
         if "no cell of" not in str(error):
             raise
@@ -170,3 +170,77 @@ def test_a_bad_fraction_is_named(fraction):
 def test_a_cell_given_twice_is_named():
     with pytest.raises(LayoutError, match="a cell twice"):
         hex_layout(RECTANGLE, cells=[[0, 0], [1, 0], [0, 0]])
+
+
+grids = st.fixed_dictionaries(
+    {
+        "pitch": st.tuples(st.floats(8e-3, 0.03), st.floats(8e-3, 0.03)),
+        "origin": st.tuples(st.floats(-0.1, 0.1), st.floats(-0.1, 0.1)),
+        "angle": st.floats(-math.pi, math.pi),
+        "minimum_fraction": st.floats(0.0, 1.0),
+        "clip": st.booleans(),
+    }
+)
+
+
+@given(outlines, grids)
+@settings(max_examples=40)
+def test_a_grid_holds_the_cells_that_a_walk_over_all_its_squares_finds(outline, grid):
+    dx, dy = grid["pitch"]
+    area = dx * dy
+    turn = np.array(
+        [[math.cos(grid["angle"]), -math.sin(grid["angle"])], [math.sin(grid["angle"]), math.cos(grid["angle"])]]
+    )
+    sole, sure, doubtful = shapely.Polygon(outline), 0, 0
+    middle = np.rint((outline.mean(axis=0) - grid["origin"]) @ turn / grid["pitch"])
+    side = np.arange(-int(0.3 / min(dx, dy)), int(0.3 / min(dx, dy)))
+    squares = middle + np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 1, 2)
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    rings = ((squares + square) * grid["pitch"]) @ turn.T + grid["origin"]
+    cells = shapely.polygons(rings)
+    for cell in cells[shapely.intersects(sole, cells)]:
+        parts = shapely.get_parts(shapely.intersection(sole, cell, grid_size=1e-9))
+        share = max((p.area for p in parts), default=0.0) / area
+        wanted = max(grid["minimum_fraction"], 1e-3) if grid["clip"] else 1.0
+        sure += share > wanted + 1e-3 or share > 1.0 - 1e-9
+        doubtful += abs(share - wanted) <= 1e-3
+    layout = laid_out(outline, grid, grid_layout)
+    if layout is None:
+        assert sure == 0
+        return
+    assert sure - doubtful <= len(layout) <= sure + doubtful
+    assert layout.cell_shape == "rectangle"
+    for i in range(len(layout)):
+        cell = shapely.Polygon(layout.cell_polygon(i))
+        assert cell.exterior.is_ccw
+        assert shapely.difference(cell, sole, grid_size=1e-9).area < 1e-3 * area
+        assert cell.area == pytest.approx(layout.areas[i], rel=1e-9)
+
+
+def test_whole_squares_of_a_grid_share_their_corners_to_the_bit():
+    layout = grid_layout(RECTANGLE, pitch=(0.01, 0.02), angle=0.3, clip=False)
+    assert layout.areas == pytest.approx(2e-4)
+    shared = sum(len(c) for c in layout.corners) - len(layout.vertices)
+    assert shared > len(layout)
+    inner = [n for n in layout.neighbours if len(n) == 4]
+    assert inner
+    assert max(len(n) for n in layout.neighbours) == 4
+
+
+@pytest.mark.parametrize("pitch", [(0.0, 0.01), (0.01, -1.0), (math.nan, 0.01), (math.inf, 0.01)])
+def test_a_grid_needs_a_pitch(pitch):
+    with pytest.raises(InputError, match="grid pitch"):
+        grid_layout(RECTANGLE, pitch=pitch)
+
+
+def test_a_grid_refuses_what_it_cannot_lay_out():
+    with pytest.raises(InputError, match="not finite"):
+        grid_layout(RECTANGLE, angle=math.nan)
+    with pytest.raises(InputError, match="minimum fraction"):
+        grid_layout(RECTANGLE, minimum_fraction=2.0)
+    with pytest.raises(LayoutError, match=f"more than {MOST_TAXELS}"):
+        grid_layout(RECTANGLE, pitch=(1e-4, 1e-4))
+    with pytest.raises(LayoutError, match="too many cells"):
+        grid_layout([[0, 0], [1e-3, 0], [40, 40], [0, 1e-3]], pitch=(1e-3, 1e-3))
+    with pytest.raises(LayoutError, match="no cell of"):
+        grid_layout(RECTANGLE, pitch=(1.0, 1.0))

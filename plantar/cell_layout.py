@@ -1,0 +1,272 @@
+"""Layouts of cells of any shape and size: insoles drawn cell by cell, and layouts put together from parts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import LayoutError
+from plantar.layout import Side, SoleLayout
+
+__all__ = ["edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
+
+_OVERLAP = 1e-3
+"""Share of the smaller cell that two cells may overlap by: rounding, not a fault."""
+
+
+def layout_of_cells(
+    cells: Sequence[ArrayLike],
+    *,
+    name: str = "sole",
+    side: Side = "left",
+    outline: ArrayLike | None = None,
+    ids: Sequence[int] | None = None,
+    cell_shape: str = "polygon",
+    positions: ArrayLike | None = None,
+    rotations: ArrayLike | None = None,
+) -> SoleLayout:
+    """A layout of polygonal cells, mixed shapes and sizes allowed (T 4.5).
+
+    Corners that agree within a thousandth of a small cell's size become one vertex. Where a corner of one cell lies on
+    the edge of another, that edge gets it as a vertex too: cells that touch along a part of an edge then share an edge,
+    are neighbours, and outlines of contacts stay exact.
+
+    Args:
+        cells: Corners (k, 2) of each cell in the sole frame in m, either orientation, not self-crossing.
+        name: Name of the sole.
+        side: "left" or "right".
+        outline: Outline (k, 2) of the sole in m; where None that of all cells together, or their convex hull where they
+            are not in one piece.
+        ids: Id of each cell; 0, 1, ... where None.
+        cell_shape: One of `plantar.layout.CELL_SHAPES`.
+        positions: Taxel centres (n, 2) in m; the cells' centroids where None.
+        rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame; those of level taxels where None.
+
+    Returns:
+        The layout; its `cell_area` is the median of the cells' areas.
+
+    Raises:
+        LayoutError: If there is no cell, a cell is no simple polygon, two cells overlap, or a field is not valid.
+
+    Example:
+        >>> square = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])
+        >>> small = [0.5 * square + [0.02, 0.0], 0.5 * square + [0.02, 0.01]]
+        >>> layout = layout_of_cells([square, *small])
+        >>> layout.neighbours, len(layout.vertices), layout.areas.round(9).tolist()
+        (((1, 2), (0, 2), (0, 1)), 8, [0.0004, 0.0001, 0.0001])
+    """
+    import shapely  # 0.2 s: only where a layout is made
+
+    rings = [_ring(cell, i) for i, cell in enumerate(cells)]
+    if not rings:
+        raise LayoutError("a layout needs one cell or more")
+    polygons = np.array([shapely.geometry.polygon.orient(shapely.Polygon(r)) for r in rings])
+    for i in np.flatnonzero(~shapely.is_valid(polygons) | ~(shapely.area(polygons) > 0.0)):
+        raise LayoutError(f"cell {i} is not a simple polygon: it crosses itself or has no area")
+    _check_overlap(polygons)
+    grain = 1e-3 * math.sqrt(float(shapely.area(polygons).min()))
+    vertices, corners = shared_vertices([shapely.get_coordinates(p)[:-1] for p in polygons], tolerance=grain)
+    if any(len(c) < 3 for c in corners):
+        raise LayoutError(f"cell {min(i for i, c in enumerate(corners) if len(c) < 3)} has corners that coincide")
+    corners = _with_touching_vertices(vertices, corners, grain)
+    merged = [shapely.Polygon(vertices[list(c)]) for c in corners]
+    centres = np.array([p.centroid.coords[0] for p in merged]) if positions is None else np.asarray(positions, float)
+    if centres.shape != (len(corners), 2):
+        raise LayoutError(f"layout field 'positions' has shape {centres.shape}; expected ({len(corners)}, 2)")
+    areas = np.array([p.area for p in merged])
+    n = len(corners)
+    return SoleLayout(
+        name=name,
+        side=side,
+        positions=np.column_stack([centres, np.zeros(n)]),
+        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)) if rotations is None else np.asarray(rotations, dtype=float),
+        vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
+        corners=tuple(corners),
+        neighbours=edge_neighbours(corners),
+        areas=areas,
+        outline=_outline_of(merged, grain) if outline is None else _ccw(outline),
+        ids=np.arange(n) if ids is None else np.asarray(ids),
+        cell_shape=cell_shape,
+        cell_area=float(np.median(areas)),
+    )
+
+
+def joined_layout(
+    parts: Sequence[SoleLayout], *, name: str | None = None, outline: ArrayLike | None = None
+) -> SoleLayout:
+    """One layout of several flat ones, for example hexagons under the heel and small squares under the toes.
+
+    Args:
+        parts: The layouts; their cells must not overlap.
+        name: Name of the sole; that of the first part where None.
+        outline: Outline (k, 2) of the sole in m, as in `layout_of_cells`.
+
+    Returns:
+        The layout: cells in the order of the parts with ids 0, 1, ..., their positions and rotations kept; what it
+        senses, its ranges and its thresholds are those of the first part.
+
+    Raises:
+        LayoutError: If there is no part, the parts are of both sides or not flat, or cells overlap.
+
+    Example:
+        >>> from plantar import grid_layout, hex_layout
+        >>> heel = hex_layout([[-0.1, -0.05], [0, -0.05], [0, 0.05], [-0.1, 0.05]])
+        >>> toes = grid_layout([[0, -0.05], [0.1, -0.05], [0.1, 0.05], [0, 0.05]], pitch=(0.01, 0.01))
+        >>> sole = joined_layout([heel, toes])
+        >>> touching = [i for i, near in enumerate(sole.neighbours[: len(heel)]) if max(near) >= len(heel)]
+        >>> sole.cell_shape, len(sole) == len(heel) + len(toes), len(touching) > 0
+        ('mixed', True, True)
+    """
+    from dataclasses import replace
+
+    if not parts:
+        raise LayoutError("a layout is joined of one part or more")
+    if len({p.side for p in parts}) > 1:
+        raise LayoutError("parts of a layout are of both sides; expected one")
+    if any(len(p.vertices) and np.abs(p.vertices[:, 2]).max() > 0.0 for p in parts):
+        raise LayoutError("a part of a layout is curved; join flat parts, then lay them over the surface")
+    shapes = {p.cell_shape for p in parts}
+    joined = layout_of_cells(
+        [p.cell_polygon(i) for p in parts for i in range(len(p))],
+        name=parts[0].name if name is None else name,
+        side=parts[0].side,
+        outline=outline,
+        cell_shape=shapes.pop() if len(shapes) == 1 else "mixed",
+        positions=np.concatenate([p.positions[:, :2] for p in parts]),
+        rotations=np.concatenate([p.rotations for p in parts]),
+    )
+    first = parts[0]
+    return replace(joined, modalities=first.modalities, ranges=first.ranges, thresholds=first.thresholds)
+
+
+def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArray[np.float64], list[tuple[int, ...]]]:
+    """Give points of cell rings that agree within a tolerance one shared index.
+
+    Args:
+        rings: Corners (k, 2) of each cell in m.
+        tolerance: Distance in m.
+
+    Returns:
+        The points (v, 2) in m, and for each cell the indices of its corners, none twice in a row.
+
+    Example:
+        >>> shared_vertices([[[0, 0], [1, 0], [0, 1]], [[1, 0], [1, 1], [0, 1 + 1e-9]]], 1e-6)[1]
+        [(0, 1, 2), (1, 3, 2)]
+    """
+    points: list[NDArray[np.float64]] = []
+    index: dict[tuple[int, int], int] = {}
+    corners: list[tuple[int, ...]] = []
+    for ring in rings:
+        ids: list[int] = []
+        for p in np.asarray(ring, dtype=float):
+            kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
+            hit = next(
+                (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
+                None,
+            )
+            if hit is None:
+                hit = len(points)
+                points.append(p)
+                index[(kx, ky)] = hit
+            if not ids or (hit != ids[-1] and hit != ids[0]):
+                ids.append(hit)
+        corners.append(tuple(ids))
+    return np.array(points).reshape(-1, 2), corners
+
+
+def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], ...]:
+    """Taxels that share an edge (two consecutive vertices), for each taxel.
+
+    Args:
+        corners: Vertex indices of each cell.
+
+    Returns:
+        Indices of the neighbours of each cell, in increasing order.
+
+    Example:
+        >>> edge_neighbours([(0, 1, 2), (1, 3, 2), (3, 4, 5)])
+        ((1,), (0,), ())
+    """
+    owners: dict[tuple[int, int], list[int]] = {}
+    for i, ring in enumerate(corners):
+        for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
+            owners.setdefault((min(a, b), max(a, b)), []).append(i)
+    near: list[set[int]] = [set() for _ in corners]
+    for cells in owners.values():
+        for a in cells:
+            near[a].update(b for b in cells if b != a)
+    return tuple(tuple(sorted(s)) for s in near)
+
+
+def _ring(cell: ArrayLike, index: int) -> NDArray[np.float64]:
+    try:
+        ring = np.asarray(cell, dtype=float)
+    except (TypeError, ValueError):
+        raise LayoutError(f"cell {index} is not a list of (x, y) points") from None
+    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
+        raise LayoutError(f"cell {index} is not a list of 3 or more finite (x, y) points")
+    return ring
+
+
+def _ccw(outline: ArrayLike) -> NDArray[np.float64]:
+    import shapely
+
+    ring = _ring(outline, 0) if np.ndim(outline) == 2 else None
+    if ring is None:
+        raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
+    polygon = shapely.Polygon(ring)
+    if not polygon.is_valid:
+        raise LayoutError("outline is not a simple polygon: it crosses itself")
+    return np.asarray(shapely.get_coordinates(shapely.geometry.polygon.orient(polygon))[:-1])
+
+
+def _check_overlap(polygons: NDArray[np.object_]) -> None:
+    import shapely
+
+    one, other = shapely.STRtree(polygons).query(polygons, predicate="intersects")
+    pairs = one < other
+    one, other = one[pairs], other[pairs]
+    common = shapely.area(shapely.intersection(polygons[one], polygons[other]))
+    smaller = np.minimum(shapely.area(polygons[one]), shapely.area(polygons[other]))
+    for k in np.flatnonzero(common > _OVERLAP * smaller):
+        raise LayoutError(f"cells {one[k]} and {other[k]} overlap by {common[k] * 1e6:.3g} mm^2")
+
+
+def _with_touching_vertices(
+    vertices: NDArray[np.float64], corners: list[tuple[int, ...]], tolerance: float
+) -> list[tuple[int, ...]]:
+    """Put vertices that lie on an edge between its ends, so that cells that touch share whole edges."""
+    import shapely
+
+    edges = [(a, b) for ring in corners for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)]
+    ends = np.array(edges)
+    lines = shapely.linestrings(vertices[ends])
+    on_edge, vertex = shapely.STRtree(shapely.points(vertices)).query(lines, predicate="dwithin", distance=tolerance)
+    between: dict[int, list[tuple[float, int]]] = {}
+    for e, v in zip(on_edge.tolist(), vertex.tolist(), strict=True):
+        a, b = edges[e]
+        along = vertices[b] - vertices[a]
+        t = float((vertices[v] - vertices[a]) @ along / (along @ along))
+        if v not in (a, b) and 0.0 < t < 1.0:
+            between.setdefault(e, []).append((t, v))
+    out, e = [], 0
+    for ring in corners:
+        new: list[int] = []
+        for a in ring:
+            new += [a, *(v for _, v in sorted(between.get(e, [])) if v not in ring)]
+            e += 1
+        out.append(tuple(dict.fromkeys(new)))
+    return out
+
+
+def _outline_of(polygons: Sequence[object], grain: float) -> NDArray[np.float64]:
+    import shapely
+
+    union = shapely.union_all(polygons, grid_size=1e-3 * grain)
+    if union.geom_type != "Polygon":
+        union = shapely.union_all(polygons).convex_hull
+    ring = shapely.geometry.polygon.orient(shapely.Polygon(union.exterior))
+    return np.asarray(shapely.get_coordinates(ring)[:-1])

@@ -1,0 +1,108 @@
+"""Laying a flat layout over a curved sole: every taxel gets a height and an orientation of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import LayoutError
+from plantar.layout import SoleLayout
+
+__all__ = ["Surface", "laid_over", "rotations_to_normals"]
+
+Surface = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+"""Height z (...) of the sole's outer face in m over positions x (...) and y (...) in m, in the sole frame."""
+
+_STEP = 1e-5
+"""Half width in m of the differences that give the slope."""
+
+
+def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
+    """A layout on a curved sole z(x, y), seen from above as before (soleT_i of T 4.23).
+
+    Each taxel is turned the shortest way that brings its z axis onto the surface's normal, into the body; a turn about
+    z that it has already stays.
+
+    Args:
+        layout: The flat layout.
+        surface: Height of the sole's outer face in m; smooth. It is called with arrays.
+
+    Returns:
+        The layout with positions and vertices on the surface, rotations R_i, and the cells' areas on the surface.
+
+    Raises:
+        LayoutError: If the layout is not flat, or the surface gives what is no finite height for each point.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> flat = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> rocker = laid_over(flat, lambda x, y: 0.5 * x**2 / 0.3)
+        >>> toe = int(rocker.positions[:, 0].argmax())
+        >>> bool(rocker.rotations[toe, 0, 2] < -0.2), bool(rocker.areas[toe] > flat.areas[toe])
+        (True, True)
+    """
+    if np.abs(layout.vertices[:, 2]).max(initial=0.0) > 0.0 or np.abs(layout.positions[:, 2]).max(initial=0.0) > 0.0:
+        raise LayoutError("the layout is curved already; lay a flat one over the surface")
+
+    def height(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        try:
+            z = np.asarray(surface(x, y), dtype=float)
+        except (TypeError, ValueError) as error:
+            raise LayoutError(f"the surface gives no height: {error}") from None
+        if z.shape not in ((), x.shape):
+            raise LayoutError(f"the surface gives heights of shape {z.shape} for points of shape {x.shape}")
+        if not np.isfinite(z).all():
+            raise LayoutError("the surface gives a height that is not finite")
+        return np.broadcast_to(z, x.shape)
+
+    x, y = layout.positions[:, 0], layout.positions[:, 1]
+    slope_x = (height(x + _STEP, y) - height(x - _STEP, y)) / (2.0 * _STEP)
+    slope_y = (height(x, y + _STEP) - height(x, y - _STEP)) / (2.0 * _STEP)
+    normals = np.column_stack([-slope_x, -slope_y, np.ones(len(layout))])
+    positions = np.column_stack([x, y, height(x, y)])
+    corner_x, corner_y = layout.vertices[:, 0], layout.vertices[:, 1]
+    vertices = np.column_stack([corner_x, corner_y, height(corner_x, corner_y)])
+    return replace(
+        layout,
+        positions=positions,
+        vertices=vertices,
+        rotations=rotations_to_normals(normals) @ layout.rotations,
+        areas=np.array([_fan(positions[i], vertices[list(c)]) for i, c in enumerate(layout.corners)]),
+    )
+
+
+def rotations_to_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Shortest rotations that take the z axis onto directions.
+
+    Args:
+        normals: Directions (n, 3), of any length, with z above 0.
+
+    Returns:
+        Rotations (n, 3, 3).
+
+    Raises:
+        LayoutError: If a direction does not point up.
+
+    Example:
+        >>> rotations_to_normals(np.array([[0.0, 0.0, 2.0]])).tolist()
+        [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]]
+    """
+    if not (normals[:, 2] > 0.0).all():
+        raise LayoutError("a taxel does not face the ground: its z axis must point into the body, upwards")
+    nx, ny, nz = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T
+    k = 1.0 / (1.0 + nz)
+    rows = [
+        [1.0 - k * nx * nx, 0.0 - k * nx * ny, nx],
+        [0.0 - k * nx * ny, 1.0 - k * ny * ny, ny],
+        [0.0 - nx, 0.0 - ny, nz],
+    ]
+    return np.moveaxis(np.array([[np.asarray(v) for v in row] for row in rows]), -1, 0)
+
+
+def _fan(centre: NDArray[np.float64], ring: NDArray[np.float64]) -> float:
+    """Area in m^2 of the triangles from a cell's centre to its edges."""
+    arm = ring - centre
+    return 0.5 * float(np.linalg.norm(np.cross(arm, np.roll(arm, -1, axis=0)), axis=1).sum())
