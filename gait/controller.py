@@ -22,7 +22,6 @@ from gait.footsteps import Footstep, other_side
 from gait.lip import dcm, pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
-from gait.step_adjustment import AdjustmentLimits, adjusted_step, remaining_error
 from gait.swing import SwingTrajectory
 from gait.vrp_plan import LipReference
 from gait.walk_plan import plan_vrps
@@ -54,7 +53,6 @@ class ControllerSettings:
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
-        adjustment: How far footsteps may be moved to catch the DCM, or None to keep them where they are planned.
         feedback: False walks the plan in open loop, for comparison.
     """
 
@@ -70,7 +68,6 @@ class ControllerSettings:
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
-    adjustment: AdjustmentLimits | None = field(default_factory=AdjustmentLimits)
     feedback: bool = True
 
 
@@ -186,8 +183,6 @@ class WalkingController:
         self._ticks = 0
         self.replans = 0
         self._compensation = PostureCompensation(settings.period)
-        self._planned = self.schedule.steps
-        self._moved = False
         self._landed = True
         self._lowered = self._lowering = 0.0
         self._anchor = feet["left"].position
@@ -220,7 +215,6 @@ class WalkingController:
         if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
-            self._adjust_step(phase, sensors.time, reference, xi, zmp)
         else:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
         height = self._com_height(phase, sensors.time)
@@ -241,51 +235,6 @@ class WalkingController:
             dcm=xi,
             percepts=percepts,
         )
-
-    def _adjust_step(
-        self,
-        phase: Phase,
-        time: float,
-        reference: LipReference,
-        xi: NDArray[np.float64],
-        zmp: NDArray[np.float64],
-    ) -> None:
-        """Move the foothold of the present step when the stance foot alone cannot bring the DCM back; plan anew from
-        the moved footholds when the double support begins."""
-        limits = self.settings.adjustment
-        if phase.swing is None:
-            if self._moved:
-                self._moved = False
-                self.replans += 1
-                feet = {s: self._footstep(s) for s in _SIDES}
-                self.plan = plan_vrps(
-                    feet, self.schedule, self._vrp_in_sole, self.omega, reference.com, time, reference.vrp
-                )
-            return
-        if limits is None or self._swing is None or self._landed:
-            return
-        left = phase.end - time
-        if left < (1.0 - limits.latest) * (phase.end - phase.start):
-            return
-        stance = self._footstep(other_side(phase.swing))
-        error = remaining_error(xi - reference.dcm, zmp - reference.vrp, self.omega, left)
-        wanted = adjusted_step(self._planned[phase.step], stance, error, limits)
-        step = self.schedule.steps[phase.step]
-        dx, dy = wanted.x - step.x, wanted.y - step.y
-        gap = math.hypot(dx, dy)
-        if gap < 1e-4:
-            return
-        share = min(1.0, limits.speed * self.settings.period / gap)
-        step = replace(step, x=step.x + share * dx, y=step.y + share * dy)
-        self.schedule.move_step(phase.step, step)
-        self._swing = replace(self._swing, end=np.array([*self._to_command(step.position[:2]), self._swing.end[2]]))
-        self._moved = True
-
-    def _footstep(self, side: Side) -> Footstep:
-        """Where a foot stands in the world frame, as commanded and aligned."""
-        position, yaw = self._foothold[side]
-        place = position + self._offset
-        return Footstep(side, float(place[0]), float(place[1]), yaw + self._turn, float(position[2]))
 
     def _compensate(
         self, feet: dict[Side, FootTarget], phase: Phase, com: NDArray[np.float64], torso: float, state: BaseState

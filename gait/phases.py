@@ -115,20 +115,6 @@ class WalkSchedule:
         """Time in s at which the robot has walked and settled."""
         return self.walking_end + self.timing.settle
 
-    def move_step(self, index: int, step: Footstep) -> None:
-        """Replace a footstep that has not been taken yet; times and sides stay.
-
-        Args:
-            index: Index of the footstep.
-            step: The footstep that takes its place, of the same foot.
-
-        Raises:
-            InputError: If it is of the other foot.
-        """
-        if step.side != self.steps[index].side:
-            raise InputError(f"footstep {index} is of the {self.steps[index].side} foot; it cannot become {step.side}")
-        self.steps = (*self.steps[:index], step, *self.steps[index + 1 :])
-
     def at(self, time: float) -> Phase:
         """The phase at a time in s."""
         i = self._cursor

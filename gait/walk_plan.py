@@ -34,39 +34,32 @@ def plan_vrps(
     vrp_in_sole: Mapping[Side, NDArray[np.float64]],
     omega: float,
     com: ArrayLike | None = None,
-    since: float | None = None,
-    vrp: ArrayLike | None = None,
 ) -> VrpPlan:
     """VRP plan of a walk: still in single support, linear from foot to foot in double support.
 
     Args:
-        feet: Where the feet stand at the start, or at `since`.
+        feet: Where the feet stand at the start.
         schedule: The footsteps with their phases.
         vrp_in_sole: VRP (2,) in each sole's frame in m, usually the sole's centroid.
         omega: Pendulum frequency in rad/s.
         com: CoM (2,) at the start in m; between the feet where None.
-        since: Time in s from which to plan, for a plan made anew on the way; the schedule's beginning where None.
-        vrp: VRP (2,) at that time in m; between the feet where None.
 
     Returns:
-        The plan over the schedule's times from `since` on; it ends between the feet.
+        The plan over the schedule's times; it starts and ends between the feet.
     """
     standing = dict(feet)
-    first = schedule.phases[0].end if since is None else since
+    first = schedule.phases[0].end
 
     def between() -> NDArray[np.float64]:
         return np.asarray(np.mean([vrp_of_step(standing[s], vrp_in_sole[s]) for s in standing], axis=0))
 
-    start = between() if vrp is None else np.asarray(vrp, dtype=float)
-    times, points = ([first - 1.0, first], [start, start]) if since is None else ([first], [start])
+    times, points = [first - 1.0, first], [between(), between()]
     for phase in schedule.phases[1:]:
-        if phase.end <= first:
-            continue
         if phase.kind == PhaseKind.SINGLE_SUPPORT:
             assert phase.stance is not None
-            stance = vrp_of_step(standing[phase.stance], vrp_in_sole[phase.stance])
+            vrp = vrp_of_step(standing[phase.stance], vrp_in_sole[phase.stance])
             times += [phase.start, phase.end]
-            points += [stance, stance]
+            points += [vrp, vrp]
             step = schedule.steps[phase.step]
             standing[step.side] = step
         elif phase.kind == PhaseKind.STANDING:

@@ -18,7 +18,6 @@ from gait.balance import BalanceGains
 from gait.controller import Command, ControllerSettings, WalkingController
 from gait.footsteps import straight_plan
 from gait.phases import Timing
-from gait.step_adjustment import AdjustmentLimits
 from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
 from plantar.polygon import centroid
@@ -92,7 +91,6 @@ class Simulation:
             timing=Timing(walk.single_support, walk.double_support, walk.start, walk.end, walk.settle),
             swing_height=walk.swing_height,
             gains=BalanceGains.from_table(robot.balance),
-            adjustment=AdjustmentLimits() if scene.control.adjust_steps else None,
             feedback=scene.control.feedback,
         )
         self.controller = WalkingController(

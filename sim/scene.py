@@ -100,12 +100,10 @@ class Control:
 
     Attributes:
         feedback: False walks the plan in open loop.
-        adjust_steps: Moves footholds to catch a DCM that runs away.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
     feedback: bool = True
-    adjust_steps: bool = True
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
 
