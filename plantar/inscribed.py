@@ -1,0 +1,232 @@
+"""Largest shapes inside the contact: triangle, parallelogram, circle and rectangles (T 4.2.5, T 4.4.4).
+
+The functions of a convex polygon take its vertices (k, 2) in m in either direction, with repeated or collinear
+vertices; vertices that are not finite are left out. They return corners in m, counter-clockwise: none (0, 2) for an
+empty polygon, and a shape without area within it for a polygon without area. Inside means up to rounding: a corner may
+stand out by a few units in the last place of the coordinates.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.clean_ring import CleanRing, room
+from plantar.kernels import any_angle as _any_angle
+from plantar.kernels import concave as _concave
+from plantar.kernels import inscribed as _kernel
+from plantar.kernels import is_compiled
+from plantar.kernels import rectangle as _rectangle
+from plantar.outline import Outline
+
+__all__ = [
+    "Circle",
+    "inscribed_circle",
+    "inscribed_parallelogram",
+    "inscribed_rectangle",
+    "inscribed_rectangle_any_angle",
+    "inscribed_triangle",
+    "rectangle_in_outline",
+    "rectangle_in_outline_any_angle",
+]
+
+_NO_STARTS = np.empty(0, dtype=np.intp)
+_SAMPLES = 24
+"""Angles in a quarter turn that a search starts from, beside the directions of the edges."""
+
+
+class Circle(NamedTuple):
+    """A circle: centre (2,) in m and radius in m."""
+
+    center: NDArray[np.float64]
+    radius: float
+
+
+def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
+    """Triangle of most area in a convex polygon (T 4.2.5, [173]).
+
+    Its corners are vertices. For every first corner the third one walks on as the second does, in O(k^2); the walk in
+    O(k) that [173] publishes misses the largest one on some polygons.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+
+    Returns:
+        Corners (3, 2) in m; exact.
+
+    Example:
+        >>> inscribed_triangle([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0], [0.0, 1.0]]).tolist()
+        [[0.0, 0.0], [4.0, 0.0], [2.0, 3.0]]
+    """
+    ring = CleanRing(polygon)
+    if ring.n < 3:
+        return ring.flat_shape(3)
+    _kernel.largest_triangle(ring.xy, ring.n, ring.out)
+    return ring.corners(3)
+
+
+def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
+    """Parallelogram of most area in a convex polygon (T 4.2.5, [174]).
+
+    One corner lies on a vertex, the others on the boundary (Jin and Matulef 2011). From every vertex one side walks
+    once round the boundary, in O(k) linear pieces on which the area is a parabola: exact, in O(k^2).
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+
+    Returns:
+        Corners (4, 2) in m; its area is exact to 1e-12 of it.
+
+    Example:
+        >>> corners = inscribed_parallelogram([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
+        >>> corners.tolist()  # half of the triangle
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
+    """
+    ring = CleanRing(polygon)
+    if ring.n < 3:
+        return ring.flat_shape()
+    _kernel.largest_parallelogram(ring.xy, ring.n, ring.out)
+    return ring.corners(4)
+
+
+def inscribed_circle(polygon: ArrayLike) -> Circle | None:
+    """Largest circle in a convex polygon.
+
+    The edges move inwards at one speed, and the one that vanishes first leaves, until the rest cannot close: the point
+    that is left is equally far from three edges.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+
+    Returns:
+        Centre and radius in m, the radius exact to 1e-12 of it; where several circles fit, as in a long rectangle, one
+        of them. Radius 0 at the middle of a polygon without area; None for an empty polygon.
+
+    Example:
+        >>> circle = inscribed_circle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
+        >>> circle.center.round(12).tolist(), round(circle.radius, 12)
+        ([1.0, 1.0], 1.0)
+        >>> inscribed_circle([]) is None
+        True
+    """
+    ring = CleanRing(polygon)
+    if ring.n == 0:
+        return None
+    if ring.n < 3:
+        return Circle(ring.flat_shape().mean(axis=0), 0.0)
+    radius = _kernel.largest_circle(ring.xy, ring.n, ring.work(6 * ring.n), ring.out)
+    return Circle(ring.corners(1)[0], float(radius))
+
+
+def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.float64]:
+    """Rectangle of most area in a convex polygon whose sides stand at a given angle (T 4.4.4, [189]).
+
+    The height that a width allows is concave and piecewise linear in the width; both the best place of a width and
+    the best width are found with cuts (tangents), which end on the exact optimum after a few.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+        angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
+
+    Returns:
+        Corners (4, 2) in m from the lower left one at angle 0; its area is exact to 1e-12 of it.
+
+    Example:
+        >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
+    """
+    ring = CleanRing(polygon)
+    if ring.n < 3:
+        return _middle(ring)
+    _rectangle.largest_rectangle(ring.xy, ring.n, float(angle), 0.0, ring.work(8 * ring.n + 12), ring.out)
+    return ring.corners(4)
+
+
+def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
+    """Rectangle of most area in a convex polygon, at any angle.
+
+    The best angle is searched for: 24 angles and the directions of all edges, then golden sections around each local
+    maximum of these within 10 % of the best.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+
+    Returns:
+        Corners (4, 2) in m; its area is within 1e-6 of the largest one.
+
+    Example:
+        >>> corners = inscribed_rectangle_any_angle([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
+        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
+        2.0
+    """
+    ring = CleanRing(polygon)
+    if ring.n < 3:
+        return _middle(ring)
+    work = ring.work(8 * ring.n + 14 + 2 * _SAMPLES)
+    _any_angle.largest_rectangle_at_any_angle(ring.xy, ring.n, _NO_STARTS, _SAMPLES, work, ring.out)
+    return ring.corners(4)
+
+
+def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
+    """Rectangle of most area in a concave outline whose sides stand at a given angle.
+
+    Exact, not from a raster: the outline is cut into trapezoids, and branch and bound over the first and last
+    trapezoid of a rectangle solves what is left as convex polygons.
+
+    Args:
+        outline: Outline with islands and holes in m.
+        angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
+
+    Returns:
+        Corners (4, 2) in m; its area is exact to 1e-12 of it. No corners (0, 2) for an empty outline.
+
+    Example:
+        >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
+        >>> rectangle_in_outline(corner).tolist()
+        [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [0.0, 1.0]]
+    """
+    if not len(outline):
+        return np.empty((0, 2))
+    base = outline.points[0]
+    out = np.zeros(8)
+    starts = np.asarray(outline.starts, dtype=np.intp)
+    _concave.largest_rectangle_in_outline((outline.points - base).reshape(-1), starts, float(angle), 0.0, out)
+    return np.asarray(out.reshape(4, 2) + base)
+
+
+def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
+    """Rectangle of most area in a concave outline, at any angle.
+
+    Searched for as in `inscribed_rectangle_any_angle`.
+
+    Args:
+        outline: Outline with islands and holes in m.
+
+    Returns:
+        Corners (4, 2) in m; its area is within 1e-6 of the largest one around an angle that the search starts from. No
+        corners (0, 2) for an empty outline.
+
+    Example:
+        >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
+        >>> corners = rectangle_in_outline_any_angle(tilted)
+        >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
+        2.0
+    """
+    if not len(outline):
+        return np.empty((0, 2))
+    base = outline.points[0]
+    n = len(outline.points)
+    out = np.zeros(8)
+    starts = np.asarray(outline.starts, dtype=np.intp)
+    work = room(8 * n + 14 + 2 * _SAMPLES) if is_compiled("any_angle") else [0.0] * (8 * n + 14 + 2 * _SAMPLES)
+    points = (outline.points - base).reshape(-1)
+    _any_angle.largest_rectangle_at_any_angle(points, n, starts, _SAMPLES, work, out)
+    return np.asarray(out.reshape(4, 2) + base)
+
+
+def _middle(ring: CleanRing) -> NDArray[np.float64]:
+    """Rectangle without area at the middle of a polygon without area."""
+    shape = ring.flat_shape()
+    return np.repeat(shape.mean(axis=0, keepdims=True), 4, axis=0) if len(shape) else shape

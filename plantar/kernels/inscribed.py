@@ -1,0 +1,381 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+# cython: infer_types=True
+"""Kernels on a convex ring: clean ring, largest inscribed triangle, parallelogram and circle.
+
+A ring is a flat sequence x0, y0, x1, y1, ... of n vertices. Every kernel but `clean_ring` takes a clean ring: convex,
+counter-clockwise, without repeated vertices, in coordinates near the origin, with an area. `plantar.inscribed` holds
+the functions to call.
+"""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["clean_ring", "largest_circle", "largest_parallelogram", "largest_triangle"]
+
+
+def clean_ring(points, n, ring):
+    """Copy a ring about its first finite vertex: counter-clockwise, without repeated or non-finite vertices.
+
+    Args:
+        points: The n vertices, flat.
+        n: Number of vertices.
+        ring: Receives the vertices, relative to the first finite one, and after them (at 2 n) that vertex.
+
+    Returns:
+        Number of vertices left: 0, 1, 2 (the ends of a ring without area: at most 1e-14 of its size squared), or more.
+    """
+    count = 0
+    ox = 0.0
+    oy = 0.0
+    size = 0.0
+    for i in range(n):
+        x = points[2 * i]
+        y = points[2 * i + 1]
+        if not (math.isfinite(x) and math.isfinite(y)):
+            continue
+        if count == 0:
+            ox = x
+            oy = y
+        x -= ox
+        y -= oy
+        if count > 0 and x == ring[2 * count - 2] and y == ring[2 * count - 1]:
+            continue
+        ring[2 * count] = x
+        ring[2 * count + 1] = y
+        count += 1
+        size = max(size, abs(x), abs(y))
+    while count > 1 and ring[2 * count - 2] == 0.0 and ring[2 * count - 1] == 0.0:
+        count -= 1
+    ring[2 * n] = ox
+    ring[2 * n + 1] = oy
+    if count < 3:
+        return count
+    twice = 0.0
+    for i in range(1, count - 1):
+        twice += ring[2 * i] * ring[2 * i + 3] - ring[2 * i + 2] * ring[2 * i + 1]
+    if not abs(twice) > 2e-14 * size * size:
+        # On one line: the ends are the extremes along the direction to the vertex farthest from the first.
+        far = 0
+        for i in range(1, count):
+            if max(abs(ring[2 * i]), abs(ring[2 * i + 1])) > max(abs(ring[2 * far]), abs(ring[2 * far + 1])):
+                far = i
+        dx = ring[2 * far]
+        dy = ring[2 * far + 1]
+        low = 0
+        high = 0
+        for i in range(1, count):
+            along = ring[2 * i] * dx + ring[2 * i + 1] * dy
+            if along < ring[2 * low] * dx + ring[2 * low + 1] * dy:
+                low = i
+            if along > ring[2 * high] * dx + ring[2 * high + 1] * dy:
+                high = i
+        ax = ring[2 * low]
+        ay = ring[2 * low + 1]
+        bx = ring[2 * high]
+        by = ring[2 * high + 1]
+        ring[0] = ax
+        ring[1] = ay
+        ring[2] = bx
+        ring[3] = by
+        return 2
+    if twice < 0.0:
+        for i in range(1, (count + 1) // 2):
+            j = count - i
+            x = ring[2 * i]
+            y = ring[2 * i + 1]
+            ring[2 * i] = ring[2 * j]
+            ring[2 * i + 1] = ring[2 * j + 1]
+            ring[2 * j] = x
+            ring[2 * j + 1] = y
+    return count
+
+
+def largest_triangle(ring, n, out):
+    """Largest triangle on the vertices of a clean ring: for each first corner, the third one walks with the second.
+
+    Args:
+        ring: Clean ring of n vertices.
+        n: Number of vertices, 3 or more.
+        out: Receives the 3 corners, flat, counter-clockwise.
+
+    Returns:
+        Its area.
+    """
+    best = -1.0
+    bi = 0
+    bj = 1
+    bk = 2
+    for i in range(n - 2):
+        ax = ring[2 * i]
+        ay = ring[2 * i + 1]
+        k = i + 2
+        for j in range(i + 1, n - 1):
+            if k <= j:
+                k = j + 1
+            ux = ring[2 * j] - ax
+            uy = ring[2 * j + 1] - ay
+            height = ux * (ring[2 * k + 1] - ay) - uy * (ring[2 * k] - ax)
+            while k + 1 < n:
+                after = ux * (ring[2 * k + 3] - ay) - uy * (ring[2 * k + 2] - ax)
+                if after < height:
+                    break
+                height = after
+                k += 1
+            if height > best:
+                best = height
+                bi = i
+                bj = j
+                bk = k
+    out[0] = ring[2 * bi]
+    out[1] = ring[2 * bi + 1]
+    out[2] = ring[2 * bj]
+    out[3] = ring[2 * bj + 1]
+    out[4] = ring[2 * bk]
+    out[5] = ring[2 * bk + 1]
+    return 0.5 * best
+
+
+def largest_parallelogram(ring, n, out):
+    """Largest parallelogram in a clean ring.
+
+    One corner A of some largest parallelogram A B C D lies on a vertex and the others on the boundary. For each
+    vertex A the corner B walks once round the boundary; C and D are the ends of the far chord that is parallel and
+    equal to AB. While B, C and D stay on their edges they move linearly and the area is a parabola in the way of B.
+
+    Args:
+        ring: Clean ring of n vertices.
+        n: Number of vertices, 3 or more.
+        out: Receives the 4 corners, flat, counter-clockwise.
+
+    Returns:
+        Its area.
+    """
+    best = -1.0
+    best_a = 0
+    best_bx = 0.0
+    best_by = 0.0
+    best_dx = 0.0
+    best_dy = 0.0
+    for a in range(n):
+        ax = ring[2 * a]
+        ay = ring[2 * a + 1]
+        # B starts at A on edge a; C = D is the first vertex farthest from this edge. Edges count on from a.
+        i = (a + 1) % n
+        ux = ring[2 * i] - ax
+        uy = ring[2 * i + 1] - ay
+        far = 1
+        height = 0.0
+        for k in range(2, n):
+            i = (a + k) % n
+            reach = ux * (ring[2 * i + 1] - ay) - uy * (ring[2 * i] - ax)
+            if reach > height * (1.0 + 1e-12):
+                height = reach
+                far = k
+        b = 0
+        c = far - 1
+        d = far
+        t = 0.0
+        steps = 8 * n
+        while b < n and d < n and c >= b and steps > 0:
+            steps -= 1
+            i = (a + b) % n
+            j = (i + 1) % n
+            b0x = ring[2 * i] - ax
+            b0y = ring[2 * i + 1] - ay
+            bx = ring[2 * j] - ring[2 * i]
+            by = ring[2 * j + 1] - ring[2 * i + 1]
+            i = (a + c) % n
+            j = (i + 1) % n
+            c0x = ring[2 * i] - ax
+            c0y = ring[2 * i + 1] - ay
+            cx = ring[2 * j] - ring[2 * i]
+            cy = ring[2 * j + 1] - ring[2 * i + 1]
+            i = (a + d) % n
+            j = (i + 1) % n
+            d0x = ring[2 * i] - ax
+            d0y = ring[2 * i + 1] - ay
+            dx = ring[2 * j] - ring[2 * i]
+            dy = ring[2 * j + 1] - ring[2 * i + 1]
+            turn = cx * dy - cy * dx
+            if c >= d or turn <= 1e-14 * (abs(cx * dy) + abs(cy * dx)):
+                # The chord slides between parallel edges: C goes back or D goes on, whichever meets a vertex first.
+                if c >= d:  # the chord lies on one edge: slide along it, D to the next
+                    d = c + 1
+                    continue
+                # B - A + D = C: the share of each edge that is left, from where the chord stands.
+                ux = b0x + t * bx
+                uy = b0y + t * by
+                # With D at the end of its edge, C would stand at D1 + u; is that still on C's edge?
+                ex = d0x + dx + ux - c0x
+                ey = d0y + dy + uy - c0y
+                if ex * cx + ey * cy >= 0.0:
+                    d += 1
+                else:
+                    c -= 1
+                continue
+            # C0 + g c = D0 + e d + B(t): g = g0 + g1 t, e = e0 + e1 t.
+            wx = d0x - c0x + b0x
+            wy = d0y - c0y + b0y
+            g0 = (wx * dy - wy * dx) / turn
+            g1 = (bx * dy - by * dx) / turn
+            e0 = (wx * cy - wy * cx) / turn
+            e1 = (bx * cy - by * cx) / turn
+            end = 1.0
+            event = 0
+            if e1 > 0.0:
+                s = (1.0 - e0) / e1
+                if s < end:
+                    end = s
+                    event = 1
+            if g1 > 0.0:
+                s = (1.0 - g0) / g1
+                if s < end:
+                    end = s
+                    event = 2
+            elif g1 < 0.0:
+                s = -g0 / g1
+                if s < end:
+                    end = s
+                    event = 3
+            if end < t:
+                end = t
+            # Area AB x AD with B = B0 + t b, D = D0 + (e0 + e1 t) d: q0 + q1 t + q2 t^2.
+            px = d0x + e0 * dx
+            py = d0y + e0 * dy
+            q0 = b0x * py - b0y * px
+            q1 = bx * py - by * px + e1 * (b0x * dy - b0y * dx)
+            q2 = e1 * (bx * dy - by * dx)
+            for trial in range(3):
+                if trial == 0:
+                    s = t
+                elif trial == 1:
+                    s = end
+                else:
+                    if q2 >= 0.0:
+                        break
+                    s = -0.5 * q1 / q2
+                    if not t < s < end:
+                        break
+                value = q0 + s * (q1 + s * q2)
+                if value > best:
+                    g = g0 + g1 * s
+                    e = e0 + e1 * s
+                    if -1e-12 <= g <= 1.0 + 1e-12 and -1e-12 <= e <= 1.0 + 1e-12:
+                        best = value
+                        best_a = a
+                        best_bx = b0x + s * bx
+                        best_by = b0y + s * by
+                        best_dx = px + e1 * s * dx
+                        best_dy = py + e1 * s * dy
+            t = end
+            if event == 0:
+                b += 1
+                t = 0.0
+            elif event == 1:
+                d += 1
+            elif event == 2:
+                c += 1
+            else:
+                c -= 1
+    ax = ring[2 * best_a]
+    ay = ring[2 * best_a + 1]
+    out[0] = ax
+    out[1] = ay
+    out[2] = ax + best_bx
+    out[3] = ay + best_by
+    out[4] = ax + best_bx + best_dx
+    out[5] = ay + best_by + best_dy
+    out[6] = ax + best_dx
+    out[7] = ay + best_dy
+    return best
+
+
+def largest_circle(ring, n, work, out):
+    """Largest circle in a clean ring: its edges move inwards, the one that vanishes first leaves, until none can.
+
+    Args:
+        ring: Clean ring of n vertices.
+        n: Number of vertices, 3 or more.
+        work: Room for 6 n numbers.
+        out: Receives the centre x, y.
+
+    Returns:
+        The radius: the least distance of the centre to an edge line.
+    """
+    # Of edge i: unit normal inwards, level of its line, then the point where it vanishes, and when.
+    alive = 0
+    for i in range(n):
+        j = (i + 1) % n
+        dx = ring[2 * j] - ring[2 * i]
+        dy = ring[2 * j + 1] - ring[2 * i + 1]
+        length = math.sqrt(dx * dx + dy * dy)
+        nx = -dy / length
+        ny = dx / length
+        # An edge in line with the one before it (or the last with the first) says nothing new.
+        if alive > 0 and work[6 * alive - 6] * ny - work[6 * alive - 5] * nx <= 1e-13:
+            continue
+        if i == n - 1 and nx * work[1] - ny * work[0] <= 1e-13:
+            continue
+        work[6 * alive] = nx
+        work[6 * alive + 1] = ny
+        work[6 * alive + 2] = nx * ring[2 * i] + ny * ring[2 * i + 1]
+        alive += 1
+    for i in range(alive):
+        _vanish(work, alive, i)
+    x = 0.0
+    y = 0.0
+    while True:
+        first = 0
+        for i in range(1, alive):
+            if work[6 * i + 5] < work[6 * first + 5]:
+                first = i
+        x = work[6 * first + 3]
+        y = work[6 * first + 4]
+        p = first - 1 if first > 0 else alive - 1
+        q = first + 1 if first + 1 < alive else 0
+        # Without this edge its neighbours would no longer close: nothing is left inside.
+        if alive <= 3 or work[6 * p] * work[6 * q + 1] - work[6 * p + 1] * work[6 * q] <= 0.0:
+            break
+        for i in range(6 * first, 6 * (alive - 1)):
+            work[i] = work[i + 6]
+        alive -= 1
+        _vanish(work, alive, first - 1 if first > 0 else alive - 1)
+        _vanish(work, alive, first if first < alive else 0)
+    radius = -1.0
+    for i in range(n):
+        j = (i + 1) % n
+        dx = ring[2 * j] - ring[2 * i]
+        dy = ring[2 * j + 1] - ring[2 * i + 1]
+        gap = (dx * (y - ring[2 * i + 1]) - dy * (x - ring[2 * i])) / math.sqrt(dx * dx + dy * dy)
+        if radius < 0.0 or gap < radius:
+            radius = gap if gap > 0.0 else 0.0
+    out[0] = x
+    out[1] = y
+    return radius
+
+
+def _vanish(work, alive, i):
+    """Where and when edge i vanishes between its neighbours, all moving inwards at unit speed."""
+    p = i - 1 if i > 0 else alive - 1
+    q = i + 1 if i + 1 < alive else 0
+    nx = work[6 * i]
+    ny = work[6 * i + 1]
+    # n . z - level = r for the three lines; differences with the edge's own line leave two equations for z.
+    ax = work[6 * p] - nx
+    ay = work[6 * p + 1] - ny
+    ac = work[6 * p + 2] - work[6 * i + 2]
+    bx = work[6 * q] - nx
+    by = work[6 * q + 1] - ny
+    bc = work[6 * q + 2] - work[6 * i + 2]
+    turn = ax * by - ay * bx
+    if turn >= 0.0:
+        work[6 * i + 3] = 0.0
+        work[6 * i + 4] = 0.0
+        work[6 * i + 5] = 1e300
+        return
+    x = (ac * by - ay * bc) / turn
+    y = (ax * bc - ac * bx) / turn
+    work[6 * i + 3] = x
+    work[6 * i + 4] = y
+    work[6 * i + 5] = nx * x + ny * y - work[6 * i + 2]

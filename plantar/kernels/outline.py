@@ -1,0 +1,156 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+# cython: infer_types=True
+"""Kernel of the contact's outline: a walk along the edges that two active cells do not share.
+
+Plain Python that also compiles ahead of time (`outline.pxd` gives the C types). `plantar.outline` builds the table of
+edges and is the public face.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["EdgeTable"]
+
+
+class EdgeTable:
+    """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
+
+    Args:
+        cell_start: Offsets (n + 1,) of each cell's edges.
+        cell: Cell (h,) of each edge.
+        twin: The same edge seen from the neighbour (h,), -1 where there is none.
+        after: The cell's next edge (h,).
+        origin: Vertex (h,) an edge starts at.
+        vertices: Coordinates of the v vertices, flat (2 v,), in m.
+        straight: A vertex whose neighbours' line passes within this distance in m is no corner.
+        reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
+    """
+
+    def __init__(self, cell_start, cell, twin, after, origin, vertices, straight, reuse):
+        self.cell_start = cell_start
+        self.cell = cell
+        self.twin = twin
+        self.after = after
+        self.origin = origin
+        self.vertices = vertices
+        self.straight = straight
+        self.reuse = reuse
+        self.mark = bytearray(len(cell))
+        self.path = np.empty(len(cell), dtype=np.intp)
+        self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
+        self.leaving = bytearray(len(vertices) // 2)
+
+    def walk(self, active):
+        """Rings around the active cells, the contact on their left.
+
+        Args:
+            active: For each of the n cells a byte, other than 0 where it is active.
+
+        Returns:
+            Points (k, 2) of all rings in m, one ring after another; offsets (r + 1) of the rings; their signed areas
+            (r) in m^2, above 0 for the rim of an island and below 0 for that of a hole.
+        """
+        n = len(self.cell_start) - 1
+        # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
+        mark = self.mark
+        leaving = self.leaving
+        path = self.path
+        place = self.place
+        if not self.reuse:
+            mark = bytearray(len(self.mark))
+            leaving = bytearray(len(self.leaving))
+            path = np.empty(len(self.path), dtype=np.intp)
+            place = np.full(len(self.leaving), -1, dtype=np.intp)
+        count = 0
+        pinched = False
+        for i in range(n):
+            if active[i]:
+                for h in range(self.cell_start[i], self.cell_start[i + 1]):
+                    t = self.twin[h]
+                    if t < 0 or not active[self.cell[t]]:
+                        mark[h] = 1
+                        count += 1
+                        v = self.origin[h]
+                        leaving[v] += 1
+                        if leaving[v] > 1:
+                            pinched = True
+        starts = [0]
+        areas = []
+        room = np.empty((count, 2))
+        if count == 0:
+            return room, starts, areas
+        points = room
+        used = 0
+        for i in range(n):
+            if not active[i]:
+                continue
+            for first in range(self.cell_start[i], self.cell_start[i + 1]):
+                if mark[first] != 1:
+                    continue
+                size = 0
+                h = first
+                while mark[h] == 1:
+                    mark[h] = 2
+                    v = self.origin[h]
+                    if pinched:
+                        low = place[v]
+                        if low >= 0:  # back at a vertex of this ring: what lies between is a ring of its own
+                            used = self._keep(path, low, size, points, used, starts, areas)
+                            for k in range(low, size):
+                                place[path[k]] = -1
+                            size = low
+                        place[v] = size
+                    path[size] = v
+                    size += 1
+                    h = self.after[h]
+                    while mark[h] == 0:
+                        h = self.after[self.twin[h]]
+                used = self._keep(path, 0, size, points, used, starts, areas)
+                if pinched:
+                    for k in range(size):
+                        place[path[k]] = -1
+        for i in range(n):  # work arrays as they were: nothing marked
+            if active[i]:
+                for h in range(self.cell_start[i], self.cell_start[i + 1]):
+                    mark[h] = 0
+                    leaving[self.origin[h]] = 0
+        if used < count:
+            return room[:used], starts, areas
+        return room, starts, areas
+
+    def _keep(self, path, low, high, points, used, starts, areas):
+        """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""
+        base = used
+        b = path[high - 1]
+        bx = self.vertices[2 * b]
+        by = self.vertices[2 * b + 1]
+        a = path[high - 2]
+        ax = self.vertices[2 * a]
+        ay = self.vertices[2 * a + 1]
+        twice = 0.0
+        ox = bx
+        oy = by
+        for k in range(low, high):
+            c = path[k]
+            cx = self.vertices[2 * c]
+            cy = self.vertices[2 * c + 1]
+            ux = bx - ax
+            uy = by - ay
+            wx = cx - bx
+            wy = cy - by
+            turn = ux * wy - uy * wx
+            if abs(turn) > self.straight * (abs(ux) + abs(uy) + abs(wx) + abs(wy)):
+                points[used, 0] = bx
+                points[used, 1] = by
+                used += 1
+                ax = bx
+                ay = by
+            twice += (bx - ox) * (cy - oy) - (cx - ox) * (by - oy)
+            bx = cx
+            by = cy
+        if used - base < 3 or twice == 0.0:
+            return base
+        starts.append(used)
+        areas.append(0.5 * float(twice))
+        return used
