@@ -10,8 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.clean_ring import CleanRing
-from plantar.kernels import enclosing as _kernel
+from plantar.convex_shapes import convex_shapes, points_of
 
 __all__ = ["bounding_box", "enclosing_parallelogram", "oriented_box"]
 
@@ -31,19 +30,7 @@ def bounding_box(points: ArrayLike) -> NDArray[np.float64]:
         >>> bounding_box([]).shape
         (0, 2)
     """
-    cloud = np.asarray(points, dtype=np.float64).reshape(-1, 2)
-    if len(cloud) == 0:
-        return np.empty((0, 2))
-    (x1, y1), (x2, y2) = cloud.min(axis=0).tolist(), cloud.max(axis=0).tolist()
-    if not abs(x1 + y1 + x2 + y2) < np.inf:  # something is not finite
-        return bounding_box(cloud[np.isfinite(cloud).all(axis=1)]) if not np.isfinite(cloud).all() else _box(cloud)
-    return np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
-
-
-def _box(cloud: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Box of finite points whose sum overflows."""
-    (x1, y1), (x2, y2) = cloud.min(axis=0), cloud.max(axis=0)
-    return np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])
+    return np.asarray(convex_shapes().bounding_box(points_of(points)))
 
 
 def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -61,11 +48,7 @@ def oriented_box(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> round(float(np.linalg.norm(box[1] - box[0]) * np.linalg.norm(box[2] - box[1])), 12)
         2.0
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return ring.flat_shape()
-    _kernel.least_box(ring.xy, ring.n, ring.out)
-    return ring.corners(4)
+    return np.asarray(convex_shapes().box(points_of(polygon)))
 
 
 def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -86,8 +69,4 @@ def enclosing_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> sorted(np.round(corners, 12).tolist())
         [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]]
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return ring.flat_shape()
-    _kernel.least_parallelogram(ring.xy, ring.n, ring.work(4 * ring.n), ring.out)
-    return ring.corners(4)
+    return np.asarray(convex_shapes().parallelogram_around(points_of(polygon)))

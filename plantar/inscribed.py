@@ -13,12 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.clean_ring import CleanRing, room
+from plantar.convex_shapes import convex_shapes, points_of
 from plantar.kernels import any_angle as _any_angle
 from plantar.kernels import concave as _concave
-from plantar.kernels import inscribed as _kernel
-from plantar.kernels import is_compiled
-from plantar.kernels import rectangle as _rectangle
 from plantar.outline import Outline
 
 __all__ = [
@@ -32,7 +29,6 @@ __all__ = [
     "rectangle_in_outline_any_angle",
 ]
 
-_NO_STARTS = np.empty(0, dtype=np.intp)
 _SAMPLES = 24
 """Angles in a quarter turn that a search starts from, beside the directions of the edges."""
 
@@ -60,11 +56,7 @@ def inscribed_triangle(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> inscribed_triangle([[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [2.0, 3.0], [0.0, 1.0]]).tolist()
         [[0.0, 0.0], [4.0, 0.0], [2.0, 3.0]]
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return ring.flat_shape(3)
-    _kernel.largest_triangle(ring.xy, ring.n, ring.out)
-    return ring.corners(3)
+    return np.asarray(convex_shapes().triangle(points_of(polygon)))
 
 
 def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -84,11 +76,7 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> corners.tolist()  # half of the triangle
         [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return ring.flat_shape()
-    _kernel.largest_parallelogram(ring.xy, ring.n, ring.out)
-    return ring.corners(4)
+    return np.asarray(convex_shapes().parallelogram(points_of(polygon)))
 
 
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
@@ -111,13 +99,8 @@ def inscribed_circle(polygon: ArrayLike) -> Circle | None:
         >>> inscribed_circle([]) is None
         True
     """
-    ring = CleanRing(polygon)
-    if ring.n == 0:
-        return None
-    if ring.n < 3:
-        return Circle(ring.flat_shape().mean(axis=0), 0.0)
-    radius = _kernel.largest_circle(ring.xy, ring.n, ring.work(6 * ring.n), ring.out)
-    return Circle(ring.corners(1)[0], float(radius))
+    center, radius = convex_shapes().circle(points_of(polygon))
+    return Circle(center[0], float(radius)) if len(center) else None
 
 
 def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.float64]:
@@ -137,11 +120,7 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
         [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5], [0.0, 1.5]]
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return _middle(ring)
-    _rectangle.largest_rectangle(ring.xy, ring.n, float(angle), 0.0, ring.work(8 * ring.n + 12), ring.out)
-    return ring.corners(4)
+    return np.asarray(convex_shapes().rectangle(points_of(polygon), angle))
 
 
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
@@ -161,12 +140,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
         >>> round(float(np.linalg.norm(corners[1] - corners[0]) * np.linalg.norm(corners[2] - corners[1])), 9)
         2.0
     """
-    ring = CleanRing(polygon)
-    if ring.n < 3:
-        return _middle(ring)
-    work = ring.work(8 * ring.n + 14 + 2 * _SAMPLES)
-    _any_angle.largest_rectangle_at_any_angle(ring.xy, ring.n, _NO_STARTS, _SAMPLES, work, ring.out)
-    return ring.corners(4)
+    return np.asarray(convex_shapes().rectangle_at_any_angle(points_of(polygon)))
 
 
 def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.float64]:
@@ -220,13 +194,7 @@ def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
     n = len(outline.points)
     out = np.zeros(8)
     starts = np.asarray(outline.starts, dtype=np.intp)
-    work = room(8 * n + 14 + 2 * _SAMPLES) if is_compiled("any_angle") else [0.0] * (8 * n + 14 + 2 * _SAMPLES)
+    work = np.empty(8 * n + 14 + 2 * _SAMPLES)
     points = (outline.points - base).reshape(-1)
     _any_angle.largest_rectangle_at_any_angle(points, n, starts, _SAMPLES, work, out)
     return np.asarray(out.reshape(4, 2) + base)
-
-
-def _middle(ring: CleanRing) -> NDArray[np.float64]:
-    """Rectangle without area at the middle of a polygon without area."""
-    shape = ring.flat_shape()
-    return np.repeat(shape.mean(axis=0, keepdims=True), 4, axis=0) if len(shape) else shape

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.cell_edges import EdgeTable, edge_table
 from plantar.errors import ReadingError
+from plantar.kernels.outline import area_and_centroid
 from plantar.layout import SoleLayout
 
 __all__ = ["Outline", "concave_outline", "feet_outline"]
@@ -74,14 +75,8 @@ class Outline:
         """Centroid (2,) of the area in m, holes left out; None for an empty outline."""
         if not len(self):
             return None
-        base = self.points[0]
-        total = np.zeros(2)
-        for ring in self.rings:
-            local = ring - base
-            following = np.roll(local, -1, axis=0)
-            cross = local[:, 0] * following[:, 1] - following[:, 0] * local[:, 1]
-            total += ((local + following) * cross[:, None]).sum(axis=0)
-        return np.asarray(base + total / (6.0 * self.area)) if self.area > 0.0 else self.points.mean(axis=0)
+        _, x, y = area_and_centroid(self.points, self.starts)
+        return np.array([x, y])
 
     @cached_property
     def islands(self) -> tuple[tuple[NDArray[np.float64], ...], ...]:

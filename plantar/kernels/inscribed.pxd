@@ -1,7 +1,7 @@
 # C types of inscribed.py. Without a compiler this file is not read.
 from libc cimport math
 
-cpdef Py_ssize_t clean_ring(double[::1] points, Py_ssize_t n, double[::1] ring) noexcept
+cpdef Py_ssize_t clean_ring(double[::1] ring, Py_ssize_t n) noexcept
 cpdef double largest_triangle(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept
 cpdef double largest_parallelogram(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept
 cpdef double largest_circle(double[::1] ring, Py_ssize_t n, double[::1] work, double[::1] out) noexcept

@@ -14,31 +14,23 @@ import math
 __all__ = ["clean_ring", "largest_circle", "largest_parallelogram", "largest_triangle"]
 
 
-def clean_ring(points, n, ring):
-    """Copy a ring about its first finite vertex: counter-clockwise, without repeated or non-finite vertices.
+def clean_ring(ring, n):
+    """Clean a ring in place: counter-clockwise, without repeated or non-finite vertices.
 
     Args:
-        points: The n vertices, flat.
+        ring: The n vertices, flat, the first one at the origin.
         n: Number of vertices.
-        ring: Receives the vertices, relative to the first finite one, and after them (at 2 n) that vertex.
 
     Returns:
         Number of vertices left: 0, 1, 2 (the ends of a ring without area: at most 1e-14 of its size squared), or more.
     """
     count = 0
-    ox = 0.0
-    oy = 0.0
     size = 0.0
     for i in range(n):
-        x = points[2 * i]
-        y = points[2 * i + 1]
+        x = ring[2 * i]
+        y = ring[2 * i + 1]
         if not (math.isfinite(x) and math.isfinite(y)):
             continue
-        if count == 0:
-            ox = x
-            oy = y
-        x -= ox
-        y -= oy
         if count > 0 and x == ring[2 * count - 2] and y == ring[2 * count - 1]:
             continue
         ring[2 * count] = x
@@ -47,8 +39,6 @@ def clean_ring(points, n, ring):
         size = max(size, abs(x), abs(y))
     while count > 1 and ring[2 * count - 2] == 0.0 and ring[2 * count - 1] == 0.0:
         count -= 1
-    ring[2 * n] = ox
-    ring[2 * n + 1] = oy
     if count < 3:
         return count
     twice = 0.0

@@ -1,6 +1,12 @@
 # C types of outline.py. Without a compiler this file is not read.
 cimport cython
 
+@cython.locals(
+    x0=double, y0=double, twice=double, sx=double, sy=double, ax=double, ay=double, bx=double, by=double, cross=double,
+    r=Py_ssize_t, last=Py_ssize_t, i=Py_ssize_t
+)
+cpdef (double, double, double) area_and_centroid(const double[:, :] points, object starts)
+
 cdef class EdgeTable:
     cdef readonly const Py_ssize_t[::1] cell_start
     cdef readonly const Py_ssize_t[::1] cell

@@ -10,7 +10,40 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["EdgeTable"]
+__all__ = ["EdgeTable", "area_and_centroid"]
+
+
+def area_and_centroid(points, starts):
+    """Area and centroid of an outline, holes left out.
+
+    Args:
+        points: Vertices (k, 2) in m, one or more.
+        starts: Offsets (r + 1) of the rings.
+
+    Returns:
+        Area in m^2 and centroid x, y in m; the first vertex where the area is 0.
+    """
+    x0 = points[0, 0]
+    y0 = points[0, 1]
+    twice = 0.0
+    sx = 0.0
+    sy = 0.0
+    for r in range(len(starts) - 1):
+        last = starts[r + 1]
+        ax = points[last - 1, 0] - x0
+        ay = points[last - 1, 1] - y0
+        for i in range(starts[r], last):
+            bx = points[i, 0] - x0
+            by = points[i, 1] - y0
+            cross = ax * by - bx * ay
+            twice += cross
+            sx += (ax + bx) * cross
+            sy += (ay + by) * cross
+            ax = bx
+            ay = by
+    if twice == 0.0:
+        return 0.0, x0, y0
+    return 0.5 * twice, x0 + sx / (3.0 * twice), y0 + sy / (3.0 * twice)
 
 
 class EdgeTable:

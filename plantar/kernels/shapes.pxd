@@ -1,0 +1,46 @@
+# C types of shapes.py. Without a compiler this file is not read.
+cimport cython
+from libc cimport math
+from plantar.kernels cimport any_angle, enclosing, inscribed, rectangle
+
+cdef Py_ssize_t _SAMPLES
+
+cdef class ConvexShapes:
+    cdef bint lists
+    cdef double[::1] ring
+    cdef double[::1] work
+    cdef double[::1] out
+    cdef const Py_ssize_t[::1] starts
+    cdef Py_ssize_t n
+    cdef double x
+    cdef double y
+
+    cdef _room(self, Py_ssize_t size)
+
+    @cython.locals(k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, n=Py_ssize_t, ring=double[::1])
+    cdef Py_ssize_t _clean(self, const double[:, :] polygon) except -1
+
+    @cython.locals(i=Py_ssize_t, corners=double[:, ::1])
+    cdef _corners(self, Py_ssize_t count)
+
+    @cython.locals(i=Py_ssize_t, end=Py_ssize_t)
+    cdef _flat(self, Py_ssize_t count)
+
+    @cython.locals(i=Py_ssize_t)
+    cdef _middle(self, Py_ssize_t count)
+
+    cpdef triangle(self, const double[:, :] polygon)
+    cpdef parallelogram(self, const double[:, :] polygon)
+
+    @cython.locals(radius=double)
+    cpdef circle(self, const double[:, :] polygon)
+    cpdef rectangle(self, const double[:, :] polygon, double angle)
+    cpdef rectangle_at_any_angle(self, const double[:, :] polygon)
+    cpdef box(self, const double[:, :] polygon)
+    cpdef parallelogram_around(self, const double[:, :] polygon)
+
+    @cython.locals(
+        low_x=double, low_y=double, high_x=double, high_y=double, x=double, y=double, i=Py_ssize_t,
+        corners=double[:, ::1]
+    )
+    cpdef bounding_box(self, const double[:, :] points)

@@ -1,0 +1,163 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+# cython: infer_types=True
+"""Kernels from a polygon as it comes to the corners of a shape in or around it.
+
+Plain Python that also compiles ahead of time (`shapes.pxd` gives the C types). `plantar.inscribed` and
+`plantar.enclosing` are the public faces, with units and examples.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from plantar.kernels import any_angle, enclosing, inscribed, rectangle
+
+__all__ = ["ConvexShapes"]
+
+_SAMPLES = 24
+
+
+class ConvexShapes:
+    """Shapes of convex polygons (k, 2), with the work arrays they need.
+
+    The arrays are written to by every call: compiled calls follow each other, interpreted ones need an object each.
+
+    Args:
+        lists: Keep lists instead of arrays, which the interpreted form reads faster.
+    """
+
+    def __init__(self, lists):
+        self.lists = lists
+        self.ring = self._room(64)
+        self.work = self._room(512)
+        self.out = self._room(8)
+        self.starts = np.empty(0, dtype=np.intp)
+        self.n = 0
+        self.x = 0.0
+        self.y = 0.0
+
+    def _room(self, size):
+        return [0.0] * size if self.lists else np.zeros(size)
+
+    def _clean(self, polygon):
+        """Take a polygon; the number of vertices that count, with those in `ring` (see `inscribed.clean_ring`)."""
+        k = polygon.shape[0]
+        if 2 * k + 2 > len(self.ring):
+            self.ring = self._room(4 * k + 2)
+            self.work = self._room(32 * k + 512)
+        # First finite vertex, about which the others are taken.
+        i = 0
+        while i < k and not (math.isfinite(polygon[i, 0]) and math.isfinite(polygon[i, 1])):
+            i += 1
+        self.x = polygon[i, 0] if i < k else 0.0
+        self.y = polygon[i, 1] if i < k else 0.0
+        ring = self.ring
+        n = 0
+        for j in range(i, k):
+            ring[2 * n] = polygon[j, 0] - self.x
+            ring[2 * n + 1] = polygon[j, 1] - self.y
+            n += 1
+        self.n = inscribed.clean_ring(ring, n)
+        return self.n
+
+    def _corners(self, count):
+        """The first corners of `out`, where the polygon stands."""
+        room = np.empty((count, 2))
+        corners = room
+        for i in range(count):
+            corners[i, 0] = self.out[2 * i] + self.x
+            corners[i, 1] = self.out[2 * i + 1] + self.y
+        return room
+
+    def _flat(self, count):
+        """Shape without area of a polygon without area: from one end to the other and back; none where it is empty."""
+        if self.n == 0:
+            return np.empty((0, 2))
+        for i in range(count):
+            end = 2 if self.n == 2 and 0 < i <= count // 2 else 0
+            self.out[2 * i] = self.ring[end]
+            self.out[2 * i + 1] = self.ring[end + 1]
+        return self._corners(count)
+
+    def _middle(self, count):
+        """Corners that all stand at the middle of a polygon without area; none where it is empty."""
+        if self.n == 0:
+            return np.empty((0, 2))
+        for i in range(count):
+            self.out[2 * i] = 0.5 * (self.ring[0] + self.ring[2 * self.n - 2])
+            self.out[2 * i + 1] = 0.5 * (self.ring[1] + self.ring[2 * self.n - 1])
+        return self._corners(count)
+
+    def triangle(self, polygon):
+        """Corners of the largest triangle inside."""
+        if self._clean(polygon) < 3:
+            return self._flat(3)
+        inscribed.largest_triangle(self.ring, self.n, self.out)
+        return self._corners(3)
+
+    def parallelogram(self, polygon):
+        """Corners of the largest parallelogram inside."""
+        if self._clean(polygon) < 3:
+            return self._flat(4)
+        inscribed.largest_parallelogram(self.ring, self.n, self.out)
+        return self._corners(4)
+
+    def circle(self, polygon):
+        """Centre (1, 2), none where the polygon is empty, and radius of the largest circle inside."""
+        if self._clean(polygon) < 3:
+            return self._middle(1), 0.0
+        radius = inscribed.largest_circle(self.ring, self.n, self.work, self.out)
+        return self._corners(1), radius
+
+    def rectangle(self, polygon, angle):
+        """Corners of the largest rectangle inside, its first side at an angle."""
+        if self._clean(polygon) < 3:
+            return self._middle(4)
+        rectangle.largest_rectangle(self.ring, self.n, angle, 0.0, self.work, self.out)
+        return self._corners(4)
+
+    def rectangle_at_any_angle(self, polygon):
+        """Corners of the largest rectangle inside, at any angle."""
+        if self._clean(polygon) < 3:
+            return self._middle(4)
+        any_angle.largest_rectangle_at_any_angle(self.ring, self.n, self.starts, _SAMPLES, self.work, self.out)
+        return self._corners(4)
+
+    def box(self, polygon):
+        """Corners of the rectangle of least area around."""
+        if self._clean(polygon) < 3:
+            return self._flat(4)
+        enclosing.least_box(self.ring, self.n, self.out)
+        return self._corners(4)
+
+    def parallelogram_around(self, polygon):
+        """Corners of the parallelogram of least area around."""
+        if self._clean(polygon) < 3:
+            return self._flat(4)
+        enclosing.least_parallelogram(self.ring, self.n, self.work, self.out)
+        return self._corners(4)
+
+    def bounding_box(self, points):
+        """Corners of the axis-aligned box around the finite ones of some points."""
+        low_x = math.inf
+        low_y = math.inf
+        high_x = -math.inf
+        high_y = -math.inf
+        for i in range(points.shape[0]):
+            x = points[i, 0]
+            y = points[i, 1]
+            if math.isfinite(x) and math.isfinite(y):
+                low_x = min(low_x, x)
+                low_y = min(low_y, y)
+                high_x = max(high_x, x)
+                high_y = max(high_y, y)
+        if low_x > high_x:
+            return np.empty((0, 2))
+        room = np.empty((4, 2))
+        corners = room
+        for i in range(4):
+            corners[i, 0] = high_x if i == 1 or i == 2 else low_x
+            corners[i, 1] = high_y if i >= 2 else low_y
+        return room
