@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from plantar.activation import TaxelActivation, active_taxels, hysteresis
     from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
     from plantar.cell_layout import joined_layout, layout_of_cells
+    from plantar.contact_rectangle import safe_rectangle
     from plantar.curved_sole import laid_over
+    from plantar.enclosing import bounding_box, enclosing_parallelogram, oriented_box
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -34,8 +36,19 @@ if TYPE_CHECKING:
     from plantar.ground_plane import GroundPlane, fit_ground_plane, ground_points
     from plantar.health import StuckMonitor, TaxelHealth, fill_from_neighbours, stuck_taxels
     from plantar.hex_lattice import HexLattice
+    from plantar.inscribed import (
+        Circle,
+        inscribed_circle,
+        inscribed_parallelogram,
+        inscribed_rectangle,
+        inscribed_rectangle_any_angle,
+        inscribed_triangle,
+        rectangle_in_outline,
+        rectangle_in_outline_any_angle,
+    )
     from plantar.layout import SoleLayout, mirrored
     from plantar.layout_file import read_layout, write_layout
+    from plantar.outline import Outline, concave_outline, feet_outline
     from plantar.percept import Percept
     from plantar.pressure_wrench import joint_torque, pressure_driven_wrench
     from plantar.proximity import HeightContour, height_contours, near_taxels, preemptive_polygon, proximity_measure
@@ -50,6 +63,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "Circle",
     "DependencyError",
     "FeetPercept",
     "FootError",
@@ -59,6 +73,7 @@ __all__ = [
     "HexLattice",
     "InputError",
     "LayoutError",
+    "Outline",
     "Percept",
     "PlantarError",
     "Reading",
@@ -75,10 +90,14 @@ __all__ = [
     "__version__",
     "active_cells",
     "active_taxels",
+    "bounding_box",
     "center_of_pressure",
     "centroidal_moment_pivot",
+    "concave_outline",
     "divergent_component",
     "early_stop",
+    "enclosing_parallelogram",
+    "feet_outline",
     "feet_support_polygon",
     "fill_from_neighbours",
     "fit_ground_plane",
@@ -88,18 +107,27 @@ __all__ = [
     "height_contours",
     "hex_layout",
     "hysteresis",
+    "inscribed_circle",
+    "inscribed_parallelogram",
+    "inscribed_rectangle",
+    "inscribed_rectangle_any_angle",
+    "inscribed_triangle",
     "joined_layout",
     "joint_torque",
     "laid_over",
     "layout_of_cells",
     "mirrored",
     "near_taxels",
+    "oriented_box",
     "patch_signal",
     "preemptive_polygon",
     "pressure_driven_wrench",
     "proximity_measure",
     "pseudo_force",
     "read_layout",
+    "rectangle_in_outline",
+    "rectangle_in_outline_any_angle",
+    "safe_rectangle",
     "skin_wrench",
     "sole_wrenches",
     "stuck_taxels",
@@ -118,10 +146,12 @@ __all__ = [
 
 # Module of each name above that is not an error.
 _MODULE_OF_NAME = {
+    "Circle": "inscribed",
     "FeetPercept": "feet",
     "GroundPlane": "ground_plane",
     "HeightContour": "proximity",
     "HexLattice": "hex_lattice",
+    "Outline": "outline",
     "Percept": "percept",
     "Reading": "reading",
     "SoleLayout": "layout",
@@ -132,10 +162,14 @@ _MODULE_OF_NAME = {
     "TaxelHealth": "health",
     "active_cells": "body_skin",
     "active_taxels": "activation",
+    "bounding_box": "enclosing",
     "center_of_pressure": "force",
     "centroidal_moment_pivot": "zmp",
+    "concave_outline": "outline",
     "divergent_component": "zmp",
     "early_stop": "virtual_wrench",
+    "enclosing_parallelogram": "enclosing",
+    "feet_outline": "outline",
     "feet_support_polygon": "support",
     "fill_from_neighbours": "health",
     "fit_ground_plane": "ground_plane",
@@ -145,18 +179,27 @@ _MODULE_OF_NAME = {
     "height_contours": "proximity",
     "hex_layout": "tiling",
     "hysteresis": "activation",
+    "inscribed_circle": "inscribed",
+    "inscribed_parallelogram": "inscribed",
+    "inscribed_rectangle": "inscribed",
+    "inscribed_rectangle_any_angle": "inscribed",
+    "inscribed_triangle": "inscribed",
     "joined_layout": "cell_layout",
     "joint_torque": "pressure_wrench",
     "laid_over": "curved_sole",
     "layout_of_cells": "cell_layout",
     "mirrored": "layout",
     "near_taxels": "proximity",
+    "oriented_box": "enclosing",
     "patch_signal": "body_skin",
     "preemptive_polygon": "proximity",
     "pressure_driven_wrench": "pressure_wrench",
     "proximity_measure": "proximity",
     "pseudo_force": "body_skin",
     "read_layout": "layout_file",
+    "rectangle_in_outline": "inscribed",
+    "rectangle_in_outline_any_angle": "inscribed",
+    "safe_rectangle": "contact_rectangle",
     "skin_wrench": "body_skin",
     "sole_wrenches": "virtual_wrench",
     "stuck_taxels": "health",

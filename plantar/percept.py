@@ -13,6 +13,7 @@ from plantar.activation import active_taxels
 from plantar.errors import ReadingError
 from plantar.health import TaxelHealth, dead_taxels, fill_from_neighbours, saturated_taxels
 from plantar.layout import SoleLayout
+from plantar.percept_shapes import ShapeMembers
 from plantar.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
 from plantar.pressure_wrench import scaled_by_area
 from plantar.reading import Reading
@@ -21,7 +22,7 @@ from plantar.zmp import zero_moment_wrench
 __all__ = ["Percept"]
 
 
-class Percept(VirtualMembers):
+class Percept(ShapeMembers, VirtualMembers):
     """A reading seen through its layout.
 
     Nothing is computed before it is asked for, and nothing twice. An unloaded sole has defined answers: no CoP

@@ -1,0 +1,106 @@
+"""Members of a percept that describe the contact's shape."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import enclosing as _enclosing
+from plantar import inscribed as _inscribed
+from plantar.contact_rectangle import safe_rectangle
+from plantar.inscribed import Circle
+from plantar.layout import SoleLayout
+from plantar.outline import Outline, concave_outline
+
+__all__ = ["ShapeMembers"]
+
+
+class ShapeMembers:
+    """Shapes in and around the contact, in the sole frame in m; corners counter-clockwise, none (0, 2) without contact.
+
+    Example:
+        >>> from plantar import Percept, Reading, hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> empty = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
+        >>> len(empty.concave_outline_in_sole), empty.inscribed_circle_in_sole, empty.oriented_box_in_sole.shape
+        (0, None, (0, 2))
+    """
+
+    layout: SoleLayout
+
+    if TYPE_CHECKING:  # what `Percept` brings
+
+        @property
+        def active(self) -> NDArray[np.bool_]: ...
+
+        @property
+        def support_polygon_in_sole(self) -> NDArray[np.float64]: ...
+
+    @cached_property
+    def concave_outline_in_sole(self) -> Outline:
+        """Exact outline of the contact with islands and holes (T 4.2.5)."""
+        return concave_outline(self.layout, self.active)
+
+    @cached_property
+    def bounding_box_in_sole(self) -> NDArray[np.float64]:
+        """Axis-aligned box (4, 2) of the support polygon (T 4.4.4)."""
+        return _enclosing.bounding_box(self.support_polygon_in_sole)
+
+    @cached_property
+    def oriented_box_in_sole(self) -> NDArray[np.float64]:
+        """Rectangle (4, 2) of least area around the support polygon."""
+        return _enclosing.oriented_box(self.support_polygon_in_sole)
+
+    @cached_property
+    def enclosing_parallelogram_in_sole(self) -> NDArray[np.float64]:
+        """Parallelogram (4, 2) of least area around the support polygon (T 4.2.5)."""
+        return _enclosing.enclosing_parallelogram(self.support_polygon_in_sole)
+
+    @cached_property
+    def inscribed_triangle_in_sole(self) -> NDArray[np.float64]:
+        """Largest triangle (3, 2) in the support polygon (T 4.2.5)."""
+        return _inscribed.inscribed_triangle(self.support_polygon_in_sole)
+
+    @cached_property
+    def inscribed_parallelogram_in_sole(self) -> NDArray[np.float64]:
+        """Largest parallelogram (4, 2) in the support polygon (T 4.2.5)."""
+        return _inscribed.inscribed_parallelogram(self.support_polygon_in_sole)
+
+    @cached_property
+    def inscribed_circle_in_sole(self) -> Circle | None:
+        """Largest circle in the support polygon, or None without contact."""
+        return _inscribed.inscribed_circle(self.support_polygon_in_sole)
+
+    @cached_property
+    def inscribed_rectangle_in_sole(self) -> NDArray[np.float64]:
+        """Largest axis-aligned rectangle (4, 2) in the support polygon (T 4.4.4)."""
+        return _inscribed.inscribed_rectangle(self.support_polygon_in_sole)
+
+    @cached_property
+    def inscribed_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
+        """Largest rectangle (4, 2) in the support polygon, at any angle."""
+        return _inscribed.inscribed_rectangle_any_angle(self.support_polygon_in_sole)
+
+    @cached_property
+    def outline_rectangle_in_sole(self) -> NDArray[np.float64]:
+        """Largest axis-aligned rectangle (4, 2) in the concave outline: all of it is contact."""
+        return _inscribed.rectangle_in_outline(self.concave_outline_in_sole)
+
+    @cached_property
+    def outline_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
+        """Largest rectangle (4, 2) in the concave outline, at any angle."""
+        return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
+
+    def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:
+        """Largest axis-aligned rectangle (4, 2) in the support polygon, its sides moved inwards (T 4.4.4).
+
+        Args:
+            offset: How far in m, 0 or more.
+
+        Raises:
+            InputError: If the offset is not finite and 0 or more.
+        """
+        return safe_rectangle(self.support_polygon_in_sole, offset)
