@@ -13,8 +13,8 @@ from plantar.layout import SoleLayout
 
 __all__ = ["GroundPlane", "fit_ground_plane", "ground_points"]
 
-_DRAWS = 128
-"""Triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^13 holds a clean one."""
+_DRAWS = 80
+"""Triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^8 holds a clean one."""
 
 
 class GroundPlane(NamedTuple):
@@ -151,20 +151,23 @@ def _least_squares(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], in
 
 def _agreeing(points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:
     """Mask of the points that agree with the plane of least median of squares through three of them."""
-    triples = points[_triples(len(points))]
-    edge = triples[:, 1:] - triples[:, :1]
-    normal = np.cross(edge[:, 0], edge[:, 1])
-    # Flat triangles, and planes steeper than about 60 degrees, which no foot steps on.
-    size = np.abs(normal).max(axis=1)
-    usable = (np.abs(normal[:, 2]) > 0.5 * size) & (np.abs(normal[:, 2]) > 1e-6 * (edge**2).sum(axis=(1, 2)))
+    x, y, z = np.ascontiguousarray(points.T)
+    a, b, c = _triples(len(points))
+    xa, ya, za = x[a], y[a], z[a]
+    ux, uy, uz = x[b] - xa, y[b] - ya, z[b] - za
+    vx, vy, vz = x[c] - xa, y[c] - ya, z[c] - za
+    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    # Neither flat triangles nor planes steeper than 60 degrees or so, which no foot steps on.
+    usable = (np.abs(nz) > 0.5 * np.hypot(nx, ny)) & (np.abs(nz) > 1e-6 * (ux * ux + uy * uy + vx * vx + vy * vy))
     if not usable.any():
         return np.ones(len(points), dtype=bool)
-    normal, base = normal[usable], triples[usable, 0]
-    slope = -normal[:, :2] / normal[:, 2:]
-    level = base[:, 2] - (slope * base[:, :2]).sum(axis=1)
-    miss = np.abs(points[:, 2] - level[:, None] - slope @ points[:, :2].T)
-    half = (len(points) + 3) // 2  # the median of Rousseeuw: with three parameters, breakdown of one half
-    median = np.partition(miss, half - 1, axis=1)[:, half - 1]
+    if not usable.all():
+        xa, ya, za, nx, ny, nz = (v[usable] for v in (xa, ya, za, nx, ny, nz))
+    rise_x, rise_y = -nx / nz, -ny / nz
+    level = za - rise_x * xa - rise_y * ya
+    miss = np.abs(z - np.stack([level, rise_x, rise_y], axis=1) @ np.stack([np.ones(len(x)), x, y]))
+    half = (len(points) + 3) // 2 - 1  # the median of Rousseeuw: with three parameters, breakdown of one half
+    median = np.partition(miss, half, axis=1)[:, half]
     best = int(np.argmin(median))
     scale = 1.4826 * (1.0 + 5.0 / max(len(points) - 3, 1)) * float(median[best])
     return np.asarray(miss[best] <= max(tolerance, 2.5 * scale))
@@ -172,10 +175,10 @@ def _agreeing(points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_
 
 @lru_cache(maxsize=64)
 def _triples(n: int) -> NDArray[np.int64]:
-    """Index triples (m, 3) of n points: all of them where they are few, else the same random ones each time."""
+    """Index triples (3, m) of n points: all of them where they are few, else the same random ones each time."""
     if n * (n - 1) * (n - 2) <= 6 * _DRAWS:
         a, b, c = np.meshgrid(*[np.arange(n)] * 3, indexing="ij")
         ordered = (a < b) & (b < c)
-        return np.column_stack([a[ordered], b[ordered], c[ordered]])
+        return np.stack([a[ordered], b[ordered], c[ordered]])
     rng = np.random.default_rng(0)
-    return np.array([rng.choice(n, 3, replace=False) for _ in range(_DRAWS)])
+    return np.ascontiguousarray(np.array([rng.choice(n, 3, replace=False) for _ in range(_DRAWS)]).T)

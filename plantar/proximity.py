@@ -57,9 +57,10 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
     """
     if not 0.0 < sensing_range < math.inf:
         raise InputError(f"sensing range is {sensing_range} m; allowed: a finite value above 0")
-    measured = sensing_range - np.asarray(distance, dtype=np.float64)
+    measured = np.asarray(sensing_range - np.asarray(distance, dtype=np.float64))
     # fmax drops NaN, so that a dead taxel reads as one that sees nothing.
-    return np.asarray(np.minimum(np.fmax(measured, 0.0), sensing_range))
+    np.fmax(measured, 0.0, out=measured)
+    return np.minimum(measured, sensing_range, out=measured)
 
 
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:

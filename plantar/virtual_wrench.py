@@ -18,6 +18,9 @@ from plantar.proximity import proximity_measure
 
 __all__ = ["SoleWrenchSwitch", "early_stop", "sole_wrenches", "virtual_ground_reaction_wrench"]
 
+_CHUNK = 1024
+"""Frames that are worked on at once."""
+
 
 def virtual_ground_reaction_wrench(
     layout: SoleLayout, distance: ArrayLike, gain: float, sensing_range: float | None = None
@@ -47,7 +50,15 @@ def virtual_ground_reaction_wrench(
         (True, [0.0, 0.0])
     """
     reach = layout.proximity_range if sensing_range is None else sensing_range
-    return np.asarray(gain * (proximity_measure(distance, reach) @ layout.wrench_map.T))
+    readings = np.asarray(distance, dtype=np.float64)
+    into_wrench = gain * layout.wrench_map.T
+    if readings.ndim < 2:
+        return np.asarray(proximity_measure(readings, reach) @ into_wrench)
+    out = np.empty((*readings.shape[:-1], 6))
+    for start in range(0, len(readings), _CHUNK):  # what is measured stays in the cache until it is summed
+        part = slice(start, start + _CHUNK)
+        np.matmul(proximity_measure(readings[part], reach), into_wrench, out=out[part])
+    return out
 
 
 def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_] | bool:
