@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from plantar import LayoutError, SoleLayout, mirrored
-from plantar.layout import CELL_SHAPES, MODALITIES
+from plantar.layout import CELL_SHAPES, DEFAULT_RANGES, MODALITIES
 
 FIELDS = {f.name for f in dataclasses.fields(SoleLayout)}
 ARRAYS = ("positions", "rotations", "vertices", "areas", "outline", "ids")
@@ -165,3 +165,23 @@ def test_a_bad_field_is_named(sole, case):
 
 def test_every_field_with_a_rule_has_a_bad_case():
     assert {f for f, _, _ in bad_fields(5)} == FIELDS - {"name"}
+
+
+def test_limits_of_the_modalities_come_from_the_layout_or_the_defaults(sole):
+    stated = changed(
+        sole,
+        ranges={"force": (0.0, 300.0), "proximity": (0.0, 0.02)},
+        thresholds={"proximity": 0.01, "temperature": 45.0},
+    )
+    assert (stated.force_limit, stated.proximity_range) == (300.0, 0.02)
+    assert (stated.proximity_threshold, stated.temperature_threshold) == (0.01, 45.0)
+    bare = changed(sole, ranges={}, thresholds={})
+    assert (bare.force_limit, bare.proximity_range) == (math.inf, 0.05)
+    assert (bare.proximity_threshold, bare.temperature_threshold) == (0.05, 31.0)
+
+
+def test_a_full_load_on_one_cell_is_a_megapascal_not_the_80_that_are_printed():
+    """T 4.2.1 prints 80 MPa for 80 kg on 6.9 cm^2."""
+    pressure = DEFAULT_RANGES["force"][1] / 691e-6
+    assert DEFAULT_RANGES["force"][1] == pytest.approx(80.0 * 9.81, abs=0.5)
+    assert pressure == pytest.approx(1.1e6, rel=0.05)

@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from plantar import Percept, Reading, ReadingError, center_of_pressure, ground_reaction_wrench
 from plantar import polygon as polygon_module
 from plantar.ground_plane import fit_ground_plane
+from plantar.health import TaxelHealth
+from plantar.outline import Outline
 from plantar.polygon import signed_margin
 from plantar.proximity import preemptive_polygon
 from plantar.temperature import temperature_footprint, temperature_wrench
@@ -232,6 +234,35 @@ def test_members_of_the_other_modalities_are_those_of_their_functions(sole):
     assert wrench == pytest.approx([0, 0, 5.0 * n, 0, 0, 0])
     gain = 2e-3 / percept.contact_area
     assert percept.pressure_driven_wrench_in_sole == pytest.approx(gain * percept.wrench_in_sole)
+
+
+def numbers_in(value):
+    """All numbers that a member's value holds, at any depth."""
+    if value is None:
+        return []
+    if isinstance(value, TaxelHealth):
+        value = value.faulty
+    if isinstance(value, Outline):
+        value = value.rings
+    if isinstance(value, tuple):
+        return [v for part in value for v in numbers_in(part)]
+    return np.asarray(value, dtype=float).ravel().tolist()
+
+
+WILD = [np.nan, np.inf, -np.inf, 0.0, -0.0, -1.0, 1e-12, 0.02, 5.0, 40.0, 785.0, 1e9, 1e-300]
+
+
+@given(seeds, st.booleans())
+def test_no_reading_makes_a_member_raise_or_give_nan(sole, seed, fill):
+    rng = np.random.default_rng(seed)
+    wild = WILD if rng.random() < 0.5 else WILD[:4] + [30.0] * 4
+    n = len(sole)
+    reading = Reading(0.0, rng.choice(wild, n), rng.choice(wild, n), rng.choice(wild, n), rng.choice(wild, (n, 3)))
+    percept = Percept(sole, reading, stuck=rng.random(n) < 0.1, active=rng.random(n) < 0.7, fill=fill)
+    for name in MEMBERS:
+        numbers = numbers_in(getattr(percept, name))
+        if name not in ("sound_force", "acceleration_in_sole"):  # where NaN stands for a dead taxel itself
+            assert np.isfinite(numbers).all(), name
 
 
 def test_acceleration_is_turned_into_the_sole_frame(tilted_sole):
