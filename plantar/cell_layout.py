@@ -60,7 +60,7 @@ def layout_of_cells(
     """
     import shapely  # 0.2 s: only where a layout is made
 
-    rings = [_ring(cell, i) for i, cell in enumerate(cells)]
+    rings = [_ring(cell, f"cell {i}") for i, cell in enumerate(cells)]
     if not rings:
         raise LayoutError("a layout needs one cell or more")
     polygons = np.array([shapely.geometry.polygon.orient(shapely.Polygon(r)) for r in rings])
@@ -201,23 +201,20 @@ def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], 
     return tuple(tuple(sorted(s)) for s in near)
 
 
-def _ring(cell: ArrayLike, index: int) -> NDArray[np.float64]:
+def _ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
     try:
-        ring = np.asarray(cell, dtype=float)
+        ring = np.asarray(points, dtype=float)
     except (TypeError, ValueError):
-        raise LayoutError(f"cell {index} is not a list of (x, y) points") from None
+        raise LayoutError(f"{what} is not a list of (x, y) points") from None
     if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
-        raise LayoutError(f"cell {index} is not a list of 3 or more finite (x, y) points")
+        raise LayoutError(f"{what} is not a list of 3 or more finite (x, y) points")
     return ring
 
 
 def _ccw(outline: ArrayLike) -> NDArray[np.float64]:
     import shapely
 
-    ring = _ring(outline, 0) if np.ndim(outline) == 2 else None
-    if ring is None:
-        raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
-    polygon = shapely.Polygon(ring)
+    polygon = shapely.Polygon(_ring(outline, "outline"))
     if not polygon.is_valid:
         raise LayoutError("outline is not a simple polygon: it crosses itself")
     return np.asarray(shapely.get_coordinates(shapely.geometry.polygon.orient(polygon))[:-1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -76,8 +77,9 @@ def fit_ground_plane(
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel.
-        sensing_range: Distance in m from which a reading counts as out of range; that of the layout where None.
+        distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel. Noise may make one negative.
+        sensing_range: Distance in m from which a reading counts as out of range, also a negative one; that of the layout
+            where None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
 
     Returns:
@@ -85,7 +87,7 @@ def fit_ground_plane(
 
     Raises:
         ReadingError: If the number of distances is not that of the taxels.
-        InputError: If the tolerance is not above 0.
+        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
 
     Example:
         >>> from plantar import hex_layout
@@ -100,7 +102,9 @@ def fit_ground_plane(
     if not tolerance > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
     reach = layout.proximity_range if sensing_range is None else sensing_range
-    seen = np.flatnonzero((readings < reach) & (readings > -np.inf))
+    if not 0.0 < reach < math.inf:
+        raise InputError(f"sensing range is {reach} m; allowed: a finite value above 0")
+    seen = np.flatnonzero(np.abs(readings) < reach)
     if not len(seen):
         return None
     points = layout.positions[seen] - readings[seen, None] * layout.rotations[seen, :, 2]

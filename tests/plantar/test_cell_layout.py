@@ -128,7 +128,7 @@ def test_what_is_no_layout_is_refused(cells, message):
     with pytest.raises(LayoutError, match=message):
         layout_of_cells(cells)
     for outline in ("round", [[0, 0], [1, 1]], [[0, 0], [1, 1], [1, 0], [0, 1]]):
-        with pytest.raises(LayoutError):
+        with pytest.raises(LayoutError, match="outline is not"):
             layout_of_cells([SQUARE], outline=outline)
     with pytest.raises(LayoutError, match="positions"):
         layout_of_cells([SQUARE], positions=[[0.0, 0.0], [1.0, 0.0]])

@@ -142,3 +142,13 @@ def test_bad_arguments_are_refused(sole):
         fit_ground_plane(sole, [0.01])
     with pytest.raises(InputError, match="tolerance"):
         fit_ground_plane(sole, np.zeros(len(sole)), tolerance=0.0)
+    for reach in (0.0, math.nan, math.inf):
+        with pytest.raises(InputError, match="sensing range"):
+            fit_ground_plane(sole, np.zeros(len(sole)), sensing_range=reach)
+
+
+def test_a_reading_below_minus_the_range_is_no_distance(sole):
+    assert fit_ground_plane(sole, np.full(len(sole), -1e300)) is None
+    distance = np.full(len(sole), 0.02)
+    distance[0] = -1.0
+    assert fit_ground_plane(sole, distance).height == pytest.approx(0.02)
