@@ -78,8 +78,8 @@ def fit_ground_plane(
     Args:
         layout: The sole, n taxels.
         distance: Distances (n,) in m; inf where nothing is in range, NaN for a dead taxel. Noise may make one negative.
-        sensing_range: Distance in m from which a reading counts as out of range, also a negative one; that of the layout
-            where None.
+        sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
+            layout where None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
 
     Returns:
