@@ -1,6 +1,6 @@
 # C types of any_angle.py. Without a compiler this file is not read.
 from libc cimport math
-from plantar.kernels cimport concave, rectangle
+from . cimport concave, rectangle
 
 cdef double _QUARTER
 cdef double _NEAR

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from plantar.kernels import concave, rectangle
+from . import concave, rectangle
 
 __all__ = ["largest_rectangle_at_any_angle"]
 

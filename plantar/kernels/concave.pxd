@@ -1,7 +1,7 @@
 # C types of concave.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from plantar.kernels cimport rectangle
+from . cimport rectangle
 
 @cython.locals(
     m=Py_ssize_t, xs=double[::1], ys=double[::1], order=Py_ssize_t[::1], rank=Py_ssize_t[::1], line=double[::1],

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from plantar.kernels import rectangle
+from . import rectangle
 
 __all__ = ["largest_rectangle_in_outline"]
 

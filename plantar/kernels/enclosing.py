@@ -120,7 +120,7 @@ def least_parallelogram(ring, n, work, out):
         for j in range(i + 1, n):
             turn = abs(dx * work[4 * j + 1] - dy * work[4 * j])
             size = wide * work[4 * j + 3]
-            if turn > 1e-12 and (best < 0.0 or size < best * turn):
+            if turn > 0.0 and (best < 0.0 or size < best * turn):
                 best = size / turn
                 bi = i
                 bj = j

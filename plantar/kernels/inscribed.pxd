@@ -1,6 +1,9 @@
 # C types of inscribed.py. Without a compiler this file is not read.
 from libc cimport math
 
+cdef double _LARGEST
+cdef double _SMALLEST
+
 cpdef Py_ssize_t clean_ring(double[::1] ring, Py_ssize_t n) noexcept
 cpdef double largest_triangle(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept
 cpdef double largest_parallelogram(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept

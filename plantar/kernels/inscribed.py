@@ -13,6 +13,9 @@ import math
 
 __all__ = ["clean_ring", "largest_circle", "largest_parallelogram", "largest_triangle"]
 
+_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
+_SMALLEST = 1e-100  # vertices no farther apart than this in m are one: products of distances would underflow
+
 
 def clean_ring(ring, n):
     """Clean a ring in place: counter-clockwise, without repeated or non-finite vertices.
@@ -29,15 +32,15 @@ def clean_ring(ring, n):
     for i in range(n):
         x = ring[2 * i]
         y = ring[2 * i + 1]
-        if not (math.isfinite(x) and math.isfinite(y)):
+        if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
             continue
-        if count > 0 and x == ring[2 * count - 2] and y == ring[2 * count - 1]:
+        if count > 0 and abs(x - ring[2 * count - 2]) <= _SMALLEST and abs(y - ring[2 * count - 1]) <= _SMALLEST:
             continue
         ring[2 * count] = x
         ring[2 * count + 1] = y
         count += 1
         size = max(size, abs(x), abs(y))
-    while count > 1 and ring[2 * count - 2] == 0.0 and ring[2 * count - 1] == 0.0:
+    while count > 1 and abs(ring[2 * count - 2]) <= _SMALLEST and abs(ring[2 * count - 1]) <= _SMALLEST:
         count -= 1
     if count < 3:
         return count

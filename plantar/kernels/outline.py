@@ -74,6 +74,11 @@ class EdgeTable:
         self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
         self.leaving = bytearray(len(vertices) // 2)
 
+    def __reduce__(self):
+        """Rebuild from the arguments, so that a layout crosses to another process."""
+        tables = [self.cell_start, self.cell, self.twin, self.after, self.origin, self.vertices]
+        return type(self), (*(np.array(t) for t in tables), self.straight, self.reuse)
+
     def walk(self, active):
         """Rings around the active cells, the contact on their left.
 

@@ -212,13 +212,15 @@ def largest_rectangle(ring, n, angle, floor, work, out):
                     w = p
             bound = w * (h_left + s_left * (w - w_left))
             if has_right and h_right + s_right * (w - w_right) < h_left + s_left * (w - w_left):
-                w = 0.5 * (w_right - h_right / s_right)
+                w = 0.5 * (w_right - h_right / s_right) if s_right < 0.0 else w_left
                 if w < w_left:
                     w = w_left
-                if h_left + s_left * (w - w_left) < h_right + s_right * (w - w_right):
+                if s_left > s_right and h_left + s_left * (w - w_left) < h_right + s_right * (w - w_right):
                     w = (h_right - h_left + s_left * w_left - s_right * w_right) / (s_left - s_right)
                 bound = w * (h_right + s_right * (w - w_right))
         else:
+            if s_right >= 0.0:  # only where the ring is not convex
+                break
             w = 0.5 * (w_right - h_right / s_right)
             bound = w * (h_right + s_right * (w - w_right))
         if bound <= best * (1.0 + 1e-15) or not (w_left < w <= w_right) or (w == w_right and has_right):

@@ -1,9 +1,10 @@
 # C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from plantar.kernels cimport any_angle, enclosing, inscribed, rectangle
+from . cimport any_angle, enclosing, inscribed, rectangle
 
 cdef Py_ssize_t _SAMPLES
+cdef double _LARGEST
 
 cdef class ConvexShapes:
     cdef bint lists

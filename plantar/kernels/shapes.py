@@ -12,11 +12,12 @@ import math
 
 import numpy as np
 
-from plantar.kernels import any_angle, enclosing, inscribed, rectangle
+from . import any_angle, enclosing, inscribed, rectangle
 
 __all__ = ["ConvexShapes"]
 
 _SAMPLES = 24
+_LARGEST = 1e100
 
 
 class ConvexShapes:
@@ -49,15 +50,15 @@ class ConvexShapes:
             self.work = self._room(32 * k + 512)
         # First finite vertex, about which the others are taken.
         i = 0
-        while i < k and not (math.isfinite(polygon[i, 0]) and math.isfinite(polygon[i, 1])):
+        while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):
             i += 1
-        self.x = polygon[i, 0] if i < k else 0.0
-        self.y = polygon[i, 1] if i < k else 0.0
+        self.x = float(polygon[i, 0]) if i < k else 0.0
+        self.y = float(polygon[i, 1]) if i < k else 0.0
         ring = self.ring
         n = 0
         for j in range(i, k):
-            ring[2 * n] = polygon[j, 0] - self.x
-            ring[2 * n + 1] = polygon[j, 1] - self.y
+            ring[2 * n] = float(polygon[j, 0]) - self.x
+            ring[2 * n + 1] = float(polygon[j, 1]) - self.y
             n += 1
         self.n = inscribed.clean_ring(ring, n)
         return self.n
@@ -146,9 +147,9 @@ class ConvexShapes:
         high_x = -math.inf
         high_y = -math.inf
         for i in range(points.shape[0]):
-            x = points[i, 0]
-            y = points[i, 1]
-            if math.isfinite(x) and math.isfinite(y):
+            x = float(points[i, 0])
+            y = float(points[i, 1])
+            if abs(x) <= _LARGEST and abs(y) <= _LARGEST:
                 low_x = min(low_x, x)
                 low_y = min(low_y, y)
                 high_x = max(high_x, x)

@@ -1,0 +1,399 @@
+import math
+from itertools import combinations, combinations_with_replacement
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import linprog, minimize
+
+from plantar import (
+    HexLattice,
+    Outline,
+    concave_outline,
+    hex_layout,
+    inscribed_circle,
+    inscribed_parallelogram,
+    inscribed_rectangle,
+    inscribed_rectangle_any_angle,
+    inscribed_triangle,
+    rectangle_in_outline,
+    rectangle_in_outline_any_angle,
+)
+from plantar.polygon import area, convex_hull
+
+seeds = st.integers(0, 2**32 - 1)
+CONVEX = [inscribed_triangle, inscribed_parallelogram, inscribed_rectangle, inscribed_rectangle_any_angle]
+
+
+def random_hull(seed):
+    """A convex polygon: of random points, of an ellipse, or of a patch of hexagons with many parallel edges."""
+    rng = np.random.default_rng(seed)
+    kind = seed % 3
+    if kind == 0:
+        axial = rng.integers(-3, 4, (int(rng.integers(1, 12)), 2))
+        lattice = HexLattice(691e-6, (0.0, 0.0), [0.0, 0.5, math.pi / 6][seed % 9 // 3])
+        return convex_hull(lattice.corners(axial).reshape(-1, 2))
+    if kind == 1:
+        return convex_hull(rng.normal(0.0, 0.1, (int(rng.integers(3, 14)), 2)) * [1.0, rng.uniform(0.05, 1.0)])
+    t = np.sort(rng.uniform(0.0, 2 * math.pi, int(rng.integers(3, 30))))
+    return convex_hull(np.column_stack([0.12 * np.cos(t), 0.06 * np.sin(t)]))
+
+
+def half_planes(polygon):
+    """Inward unit normals (k, 2) and levels (k,) of the edges: inside where normal . p >= level."""
+    edge = np.roll(polygon, -1, axis=0) - polygon
+    normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
+    return normal, (normal * polygon).sum(axis=1)
+
+
+def gap_outside(polygon, points):
+    normal, level = half_planes(polygon)
+    return max(0.0, -float((np.asarray(points) @ normal.T - level).min()))
+
+
+# --- convex polygon -----------------------------------------------------------------------------------------------
+
+
+@given(seeds)
+def test_triangle_is_the_best_of_all_triples(seed):
+    hull = random_hull(seed)
+    best = max(area(hull[list(t)]) for t in combinations(range(len(hull)), 3))
+    assert area(inscribed_triangle(hull)) == pytest.approx(best, rel=1e-14)
+
+
+def test_triangle_where_the_linear_walk_fails():
+    """The polygon with which Keikha et al. 2017 (arXiv:1705.11035) refuted the walk in O(n)."""
+    polygon = convex_hull([[1, 1000], [1250, 5], [2500, 30], [3000, 150], [1500, 1500], [400, 1350]])
+    best = max(area(polygon[list(t)]) for t in combinations(range(len(polygon)), 3))
+    assert area(inscribed_triangle(polygon)) == best
+
+
+@given(seeds)
+def test_parallelogram_is_the_best_of_all_anchored_ones(seed):
+    """Reference: every vertex with every three edges, the one free parameter solved in closed form."""
+    hull = random_hull(seed)
+    hull = hull[: 12 if len(hull) > 12 else None]
+    corners = inscribed_parallelogram(hull)
+    assert area(corners) == pytest.approx(_best_anchored(hull), rel=1e-12)
+    assert gap_outside(hull, corners) < 1e-15
+    assert np.allclose(corners[0] + corners[2], corners[1] + corners[3], atol=1e-15)
+
+
+def _best_anchored(p):
+    n, best = len(p), 0.0
+    edges = np.roll(p, -1, axis=0) - p
+
+    def cross(u, v):
+        return u[0] * v[1] - u[1] * v[0]
+
+    for a in range(n):
+        for b, c, d in combinations_with_replacement(range(n), 3):
+            ib, ic, i_d = (a + b) % n, (a + c) % n, (a + d) % n
+            eb, ec, ed = edges[ib], edges[ic], edges[i_d]
+            turn = cross(ec, ed)
+            if abs(turn) < 1e-15:
+                continue
+            w = p[i_d] - p[ic] + p[ib] - p[a]
+            lines = [(cross(w, ed) / turn, cross(eb, ed) / turn), (cross(w, ec) / turn, cross(eb, ec) / turn)]
+            low, high = 0.0, 1.0
+            for at, slope in lines:
+                if abs(slope) < 1e-12:
+                    low, high = (low, high) if -1e-12 <= at <= 1 + 1e-12 else (1.0, 0.0)
+                else:
+                    s, t = sorted((-at / slope, (1 - at) / slope))
+                    low, high = max(low, s), min(high, t)
+            if low > high + 1e-12:
+                continue
+
+            def size(t, eb=eb, ed=ed, line=lines[1], base=p[ib] - p[a], far=p[i_d] - p[a]):
+                return cross(base + t * eb, far + (line[0] + line[1] * t) * ed)
+
+            f0, f1, f2 = size(0.0), size(0.5), size(1.0)
+            bend, tilt = 2 * (f2 - 2 * f1 + f0), -3 * f0 + 4 * f1 - f2
+            trials = [low, high] + ([-0.5 * tilt / bend] if bend < 0 and low < -0.5 * tilt / bend < high else [])
+            best = max(best, *(size(t) for t in trials))
+    return best
+
+
+@settings(max_examples=15)
+@given(seeds)
+def test_no_parallelogram_of_a_local_search_is_larger(seed):
+    hull = random_hull(seed)
+    normal, level = half_planes(hull)
+    rng = np.random.default_rng(seed)
+    scale = float(np.abs(hull).max())
+
+    def corners(z):
+        return np.array([z[:2], z[:2] + z[2:4], z[:2] + z[2:4] + z[4:], z[:2] + z[4:]])
+
+    best = area(inscribed_parallelogram(hull)) / scale**2
+    for _ in range(3):
+        weights = rng.dirichlet(np.ones(len(hull)), 3)
+        start = weights @ hull / scale
+        z0 = np.concatenate([start[0], 0.2 * (start[1] - start[0]), 0.2 * (start[2] - start[0])])
+        if z0[2] * z0[5] - z0[3] * z0[4] < 0.0:
+            z0 = z0[[0, 1, 4, 5, 2, 3]]
+        found = minimize(
+            lambda z: -(z[2] * z[5] - z[3] * z[4]),
+            z0,
+            method="SLSQP",
+            constraints={"type": "ineq", "fun": lambda z: (corners(z) @ normal.T - level / scale).ravel()},
+        )
+        inside = (corners(found.x) @ normal.T - level / scale).min() > -1e-9
+        assert not inside or -found.fun <= best * (1 + 1e-6) + 1e-9
+
+
+@given(seeds)
+def test_circle_is_that_of_the_linear_programme(seed):
+    hull = random_hull(seed)
+    normal, level = half_planes(1e4 * hull)  # the solver's tolerance is absolute
+    found = linprog(
+        [0, 0, -1],
+        A_ub=np.column_stack([-normal, np.ones(len(hull))]),
+        b_ub=-level,
+        bounds=[(None, None), (None, None), (0, None)],
+        method="highs",
+    )
+    circle = inscribed_circle(hull)
+    assert circle.radius == pytest.approx(found.x[2] / 1e4, rel=1e-9)
+    normal, level = half_planes(hull)
+    assert (normal @ circle.center - level).min() == pytest.approx(circle.radius, rel=1e-12)
+
+
+@given(seeds)
+def test_three_edges_prove_the_circle(seed):
+    """At the optimum the normals of the touching edges hold each other in balance: exact, without a solver."""
+    hull = random_hull(seed)
+    circle = inscribed_circle(hull)
+    normal, level = half_planes(hull)
+    touching = normal[normal @ circle.center - level < circle.radius * (1 + 1e-9)]
+    angles = np.sort(np.arctan2(touching[:, 1], touching[:, 0]))
+    gaps = np.diff(np.append(angles, angles[0] + 2 * math.pi))
+    assert gaps.max() <= math.pi + 1e-6
+
+
+def best_height(hull, width):
+    """Largest height of an axis-aligned rectangle of a width: exact linear programme in x, y, h."""
+    normal, level = half_planes(1e4 * hull)
+    rows, limits = [], []
+    for right in (0, 1):
+        for up in (0, 1):
+            rows.append(np.column_stack([-normal, -up * normal[:, 1]]))
+            limits.append(-level + right * 1e4 * width * normal[:, 0])
+    bounds = [(None, None), (None, None), (0, None)]
+    found = linprog([0, 0, -1], A_ub=np.vstack(rows), b_ub=np.concatenate(limits), bounds=bounds, method="highs")
+    return found.x[2] / 1e4 if found.success else 0.0
+
+
+@settings(max_examples=25)
+@given(seeds)
+def test_rectangle_is_the_best_of_a_search_over_widths(seed):
+    hull = random_hull(seed)
+    corners = inscribed_rectangle(hull)
+    assert gap_outside(hull, corners) < 1e-15
+    low, high = 0.0, float(np.ptp(hull[:, 0]))
+    ratio = 0.5 * (math.sqrt(5.0) - 1.0)
+    a, b = high - ratio * (high - low), low + ratio * (high - low)
+    fa, fb = a * best_height(hull, a), b * best_height(hull, b)
+    best = max(fa, fb)
+    for _ in range(22):
+        if fa > fb:
+            high, b, fb = b, a, fa
+            a = high - ratio * (high - low)
+            fa = a * best_height(hull, a)
+        else:
+            low, a, fa = a, b, fb
+            b = low + ratio * (high - low)
+            fb = b * best_height(hull, b)
+        best = max(best, fa, fb)
+    size = area(corners)
+    assert size >= best * (1 - 1e-9)
+    assert size <= best * (1 + 1e-3)
+    width = corners[1, 0] - corners[0, 0]
+    assert size == pytest.approx(width * best_height(hull, width), rel=1e-9)  # its height is the best of its width
+
+
+@given(seeds)
+def test_rectangle_of_the_transposed_polygon_is_the_same(seed):
+    """x and y go different ways through the kernel, so that their agreement bounds the error: 1e-12."""
+    hull = random_hull(seed)
+    flipped = convex_hull(hull[:, ::-1])
+    assert area(inscribed_rectangle(flipped)) == pytest.approx(area(inscribed_rectangle(hull)), rel=1e-12)
+
+
+@settings(max_examples=25)
+@given(seeds)
+def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
+    hull = random_hull(seed)
+    corners = inscribed_rectangle_any_angle(hull)
+    assert gap_outside(hull, corners) < 1e-14
+    best = max(area(inscribed_rectangle(hull, a)) for a in np.linspace(0.0, math.pi / 2, 300))
+    assert area(corners) >= best * (1 - 1e-6)
+
+
+@given(seeds, st.floats(-4.0, 4.0))
+def test_rectangle_at_an_angle_is_that_of_the_turned_polygon(seed, angle):
+    hull = random_hull(seed)
+    c, s = math.cos(angle), math.sin(angle)
+    turned = hull @ np.array([[c, -s], [s, c]])
+    assert area(inscribed_rectangle(hull, angle)) == pytest.approx(area(inscribed_rectangle(turned)), rel=1e-11)
+
+
+@pytest.mark.parametrize("shape", CONVEX)
+def test_degenerate_polygons_have_defined_shapes(shape):
+    corners = 3 if shape is inscribed_triangle else 4
+    assert shape([]).shape == (0, 2)
+    assert shape(np.full((3, 2), np.nan)).shape == (0, 2)
+    assert shape([[1.0, 2.0]] * 3).tolist() == [[1.0, 2.0]] * corners
+    line = shape([[0.0, 0.0], [1.0, 1.0], [0.5, 0.5], [0.2, 0.2]])
+    assert line.shape == (corners, 2)
+    assert area(line) == 0.0
+    assert np.isfinite(line).all()
+    assert (line[:, 0] == line[:, 1]).all()
+
+
+def test_circle_of_degenerate_polygons():
+    assert inscribed_circle([]) is None
+    assert inscribed_circle([[1.0, 2.0]]).radius == 0.0
+    center, radius = inscribed_circle([[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]])
+    assert (center.tolist(), radius) == ([0.5, 0.0], 0.0)
+
+
+@given(seeds, st.integers(-12, 9))
+def test_direction_repeats_nan_offset_and_scale_change_nothing(seed, power):
+    hull = random_hull(seed)
+    spoilt = np.vstack([[[np.nan, 0.0]], np.repeat(hull, 2, axis=0), [[np.inf, 1.0]]])
+    middles = np.stack([hull, 0.5 * (hull + np.roll(hull, -1, axis=0))], axis=1).reshape(-1, 2)  # collinear
+    scale = 10.0**power
+    for shape in (*CONVEX, lambda p: inscribed_circle(p).center + np.array([[1, 0], [0, 1], [-1, 0]]) * p_radius(p)):
+        expected = area(shape(hull))
+        tolerance = 1e-6 if shape is inscribed_rectangle_any_angle else 1e-11
+        for variant in (hull[::-1], spoilt, np.vstack([hull, hull[:1]]), middles):
+            assert area(shape(variant)) == pytest.approx(expected, rel=tolerance)
+        assert area(shape(hull * scale)) == pytest.approx(expected * scale**2, rel=tolerance)
+        assert area(shape(hull + 1e6)) == pytest.approx(expected, rel=1e-4)  # 1e6 m leaves 1e-10 m of a coordinate
+
+
+def p_radius(polygon):
+    return inscribed_circle(polygon).radius
+
+
+@given(st.lists(st.tuples(st.floats(), st.floats()), max_size=12))
+def test_any_points_get_an_answer(points):
+    """Not convex, not finite, crossing: no exception, and no NaN where the products of coordinates are finite."""
+    calm = np.clip(np.nan_to_num(np.array(points).reshape(-1, 2), nan=np.nan, posinf=np.inf, neginf=-np.inf), -1e9, 1e9)
+    for shape in CONVEX:
+        assert not np.isnan(shape(calm)).any()
+    circle = inscribed_circle(calm)
+    assert circle is None or (np.isfinite(circle.center).all() and 0.0 <= circle.radius < math.inf)
+
+
+# --- concave outline ----------------------------------------------------------------------------------------------
+
+SOLE = hex_layout([[-0.12, -0.06], [0.12, -0.06], [0.12, 0.06], [-0.12, 0.06]], cell_area=300e-6, angle=0.2)
+UPRIGHT = hex_layout([[-0.12, -0.06], [0.12, -0.06], [0.12, 0.06], [-0.12, 0.06]], cell_area=400e-6, clip=False)
+
+
+def random_contact(seed):
+    rng = np.random.default_rng(seed)
+    sole = (SOLE, UPRIGHT)[seed % 2]
+    active = rng.random(len(sole)) < rng.uniform(0.3, 1.0)
+    if seed % 3 == 0:
+        centre = sole.positions[rng.integers(len(sole)), :2]
+        active = np.hypot(*(sole.positions[:, :2] - centre).T) < rng.uniform(0.01, 0.1)
+    active[rng.integers(len(sole))] = True
+    return concave_outline(sole, active)
+
+
+def as_shape(outline):
+    return shapely.union_all([shapely.Polygon(part[0], part[1:]) for part in outline.islands])
+
+
+def largest_of_raster(mask):
+    """Most cells of a rectangle of a raster, row by row over a histogram: the method of largestinteriorrectangle."""
+    heights = np.zeros(mask.shape[1], dtype=int)
+    best = 0
+    for row in mask:
+        heights = np.where(row, heights + 1, 0)
+        stack: list[tuple[int, int]] = []
+        for i, height in enumerate([*heights.tolist(), 0]):
+            start = i
+            while stack and stack[-1][1] > height:
+                start, tall = stack.pop()
+                best = max(best, tall * (i - start))
+            if not stack or stack[-1][1] < height:
+                stack.append((start, height))
+    return best
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_rectangle_in_outline_lies_between_the_rasters(seed):
+    """At least the best of the 1 mm cells inside, at most that of those that touch the contact; and all in contact."""
+    outline = random_contact(seed)
+    corners = rectangle_in_outline(outline)
+    shape = as_shape(outline)
+    x1, y1, x2, y2 = shape.bounds
+    x, y = np.meshgrid(np.arange(x1, x2, 1e-3), np.arange(y1, y2, 1e-3))
+    cells = shapely.box(x, y, x + 1e-3, y + 1e-3)
+    shapely.prepare(shape)
+    inside = 1e-6 * largest_of_raster(shapely.covers(shape, cells))
+    touched = 1e-6 * largest_of_raster(shapely.intersects(shape, cells))
+    size = area(corners)
+    assert inside <= size * (1 + 1e-12)
+    assert size <= touched * (1 + 1e-9)
+    assert shapely.Polygon(corners).difference(shape).area <= 1e-12
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_no_rectangle_nearby_or_elsewhere_is_larger(seed):
+    outline = random_contact(seed)
+    corners = rectangle_in_outline(outline)
+    shape = as_shape(outline)
+    shapely.prepare(shape)
+    rng = np.random.default_rng(seed)
+    for spread in (1e-2, 1e-3, 1e-5, 1e-8):
+        trial = np.concatenate([corners[0], corners[2]]) + rng.normal(0.0, spread, (200, 4))
+        larger = (trial[:, 2] - trial[:, 0]) * (trial[:, 3] - trial[:, 1]) > area(corners) * (1 + 1e-11)
+        larger &= trial[:, 2] > trial[:, 0]
+        assert not shapely.covers(shape, shapely.box(*trial[larger].T)).any()
+
+
+@given(seeds)
+def test_rectangle_in_a_convex_outline_is_that_of_the_convex_polygon(seed):
+    hull = random_hull(seed)
+    expected = area(inscribed_rectangle(hull))
+    assert area(rectangle_in_outline(Outline.of_rings([hull]))) == pytest.approx(expected, rel=1e-11)
+
+
+@given(seeds)
+def test_rectangle_in_outline_of_the_transposed_outline_is_the_same(seed):
+    outline = random_contact(seed)
+    flipped = Outline.of_rings([ring[::-1, ::-1] for ring in outline.rings])
+    expected = area(rectangle_in_outline(outline))
+    assert area(rectangle_in_outline(flipped)) == pytest.approx(expected, rel=1e-12)
+
+
+@settings(max_examples=4)
+@given(seeds)
+def test_rectangle_in_outline_at_any_angle_is_the_best_of_a_scan(seed):
+    outline = random_contact(seed)
+    corners = rectangle_in_outline_any_angle(outline)
+    best = max(area(rectangle_in_outline(outline, a)) for a in np.linspace(0.0, math.pi / 2, 60))
+    assert area(corners) >= best * (1 - 1e-6)
+    assert shapely.Polygon(corners).difference(as_shape(outline)).area <= 1e-12
+
+
+def test_rectangle_goes_round_a_hole():
+    frame = Outline.of_rings([[[0, 0], [5, 0], [5, 5], [0, 5]], [[1, 1], [1, 3], [3, 3], [3, 1]]])
+    assert rectangle_in_outline(frame).tolist() == [[0, 3], [5, 3], [5, 5], [0, 5]]
+
+
+def test_empty_and_tiny_outlines_have_rectangles():
+    assert rectangle_in_outline(Outline.of_rings([])).shape == (0, 2)
+    assert rectangle_in_outline_any_angle(Outline.of_rings([])).shape == (0, 2)
+    far = np.array([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]]) + 1e6
+    assert area(rectangle_in_outline(Outline.of_rings([far]))) == pytest.approx(0.02, rel=1e-8)

@@ -1,0 +1,233 @@
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar import Outline, concave_outline, feet_outline, hex_layout
+from plantar.cell_edges import edge_table
+from plantar.errors import ReadingError
+from plantar.layout import SoleLayout
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def layout_of(cells, weld=True):
+    """A layout of given cells (polygons); equal corners share an index where `weld`."""
+    vertices: list[tuple[float, float]] = []
+    corners = []
+    for cell in cells:
+        ids = []
+        for x, y in np.asarray(cell, dtype=float).tolist():
+            if not weld or (x, y) not in vertices:
+                vertices.append((x, y))
+                ids.append(len(vertices) - 1)
+            else:
+                ids.append(vertices.index((x, y)))
+        corners.append(tuple(ids))
+    n = len(corners)
+    polygons = [shapely.Polygon(c) for c in cells]
+    x1, y1, x2, y2 = shapely.union_all(polygons).bounds
+    return SoleLayout(
+        name="cells",
+        side="left",
+        positions=np.array([[*p.centroid.coords[0], 0.0] for p in polygons]),
+        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)),
+        vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
+        corners=tuple(corners),
+        neighbours=((),) * n,
+        areas=np.array([p.area for p in polygons]),
+        outline=np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]]),
+        ids=np.arange(n),
+        cell_shape="polygon",
+    )
+
+
+def squares(columns, rows, side=0.01, start=(0.0, 0.0)):
+    x0, y0 = start
+    return [
+        [
+            (x0 + i * side, y0 + j * side),
+            (x0 + (i + 1) * side, y0 + j * side),
+            (x0 + (i + 1) * side, y0 + (j + 1) * side),
+            (x0 + i * side, y0 + (j + 1) * side),
+        ]
+        for i in range(columns)
+        for j in range(rows)
+    ]
+
+
+def as_shape(outline):
+    return shapely.union_all([shapely.Polygon(part[0], part[1:]) for part in outline.islands])
+
+
+def check_against_shapely(layout, active):
+    """Area, rings and place are those of shapely's union of the active cells."""
+    outline = concave_outline(layout, active)
+    cells = [shapely.Polygon(layout.cell_polygon(int(i))) for i in np.flatnonzero(active)]
+    union = shapely.union_all(cells, grid_size=1e-9)  # on a grid: corners that differ in their last bits leave slivers
+    assert outline.area == pytest.approx(sum(c.area for c in cells), rel=1e-12, abs=1e-18)
+    islands = [g for g in shapely.get_parts(union) if g.geom_type == "Polygon"]
+    assert len(outline.islands) >= len(islands)  # islands that meet in a point may count as one or as two
+    assert len(outline) - len(outline.islands) == sum(len(p) - 1 for p in outline.islands)
+    for part in outline.islands:
+        assert shapely.Polygon(part[0], part[1:]).is_valid
+    if len(outline):
+        assert as_shape(outline).symmetric_difference(union).area < 1e-8 * math.sqrt(outline.area)
+        centroid = shapely.union_all(cells, grid_size=1e-9).centroid.coords[0]
+        assert outline.centroid == pytest.approx(centroid, abs=1e-8)
+    for area, ring in zip(outline.ring_areas, outline.rings, strict=True):
+        assert shapely.LinearRing(ring).is_ccw == (area > 0.0)
+        assert len({tuple(p) for p in ring.tolist()}) == len(ring)
+    return outline
+
+
+@given(seeds, st.floats(0.0, 1.0), st.floats(-4.0, 4.0))
+def test_outline_of_hexagons(seed, share, angle):
+    layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], cell_area=4e-4, angle=angle)
+    check_against_shapely(layout, np.random.default_rng(seed).random(len(layout)) < share)
+
+
+def test_every_pattern_of_three_rows():
+    """All 4096 patterns of 12 hexagons in three rows: islands, holes and corners that touch."""
+    cells = [(q, r) for r in range(3) for q in range(4)]
+    layout = hex_layout([[-1, -1], [1, -1], [1, 1], [-1, 1]], cell_area=4e-4, cells=cells)
+    for pattern in range(2**12):
+        active = (pattern >> np.arange(12) & 1).astype(bool)
+        outline = concave_outline(layout, active)
+        assert outline.area == pytest.approx(layout.areas[active].sum(), rel=1e-13)
+        assert len(outline.islands) == _components(layout, active)
+    ring = concave_outline(layout, np.array([0, 1, 1, 0, 1, 0, 1, 0, 1, 1, 0, 0], dtype=bool))
+    assert [len(part) for part in ring.islands] == [2]
+
+
+def _components(layout, active):
+    """Number of groups of active cells that hang together by edges."""
+    left = set(np.flatnonzero(active).tolist())
+    groups = 0
+    while left:
+        groups += 1
+        todo = [left.pop()]
+        while todo:
+            near = left & set(layout.neighbours[todo.pop()])
+            left -= near
+            todo += near
+    return groups
+
+
+@given(seeds, st.floats(0.0, 1.0))
+def test_outline_of_a_square_grid_drops_straight_corners_and_parts_at_points(seed, share):
+    layout = layout_of(squares(7, 5))
+    active = np.random.default_rng(seed).random(35) < share
+    outline = check_against_shapely(layout, active)
+    for ring in outline.rings:
+        before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
+        assert (np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) > 1e-9).all()
+
+
+def test_a_ring_that_touches_itself_is_a_rim_and_a_hole():
+    """Eight squares round a missing one, one corner square missing too: the hole meets the outside in a point."""
+    layout = layout_of(squares(3, 3))
+    active = np.ones(9, dtype=bool)
+    active[[0, 4]] = False
+    outline = check_against_shapely(layout, active)
+    assert sorted(round(a * 1e4, 9) for a in outline.ring_areas) == [-1.0, 8.0]
+
+
+@given(seeds, st.floats(0.1, 1.0))
+def test_outline_of_mixed_sizes_with_corners_inside_edges(seed, share):
+    """Squares of 10, 5 and 10/3 mm side by side: T-junctions that no vertex index tells."""
+    cells = squares(3, 4) + squares(4, 8, 0.005, (0.03, 0.0)) + squares(6, 12, 0.04 / 12, (0.05, 0.0))
+    layout = layout_of(cells)
+    active = np.random.default_rng(seed).random(len(cells)) < share
+    check_against_shapely(layout, active)
+    whole = concave_outline(layout, np.ones(len(cells), dtype=bool))
+    assert (len(whole), len(whole.points)) == (1, 4)
+
+
+@given(seeds)
+def test_cells_that_share_no_vertices(seed):
+    layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]], cell_area=4e-4, angle=0.3)
+    rng = np.random.default_rng(seed)
+    cells = [layout.cell_polygon(i) + rng.normal(0.0, 1e-17, (len(c), 2)) for i, c in enumerate(layout.corners)]
+    apart = layout_of(cells, weld=False)
+    active = rng.random(len(cells)) < 0.7
+    assert concave_outline(apart, active).area == pytest.approx(concave_outline(layout, active).area, rel=1e-12)
+    assert len(concave_outline(apart, active)) == len(concave_outline(layout, active))
+
+
+def test_clockwise_cells_are_turned():
+    cells = [c[::-1] if i % 2 else c for i, c in enumerate(squares(4, 3))]
+    assert concave_outline(layout_of(cells), np.ones(12, dtype=bool)).area == pytest.approx(12e-4, rel=1e-12)
+
+
+@settings(max_examples=30)
+@given(seeds)
+def test_cells_that_overlap_are_united(seed):
+    rng = np.random.default_rng(seed)
+    cells = [
+        np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.01], [0.0, 0.01]]) + rng.uniform(0.0, 0.05, 2) for _ in range(8)
+    ]
+    layout = layout_of(cells)
+    union = shapely.union_all([shapely.Polygon(c) for c in cells])
+    overlap = union.area < sum(shapely.Polygon(c).area for c in cells) * (1 - 1e-9)
+    assert (edge_table(layout.vertices[:, :2], layout.corners) is None) == overlap
+    assert concave_outline(layout, np.ones(8, dtype=bool)).area == pytest.approx(union.area, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "cells",
+    [
+        [[(0, 0), (4, 0), (4, 4), (0, 4)], [(1, 1), (2, 1), (2, 2), (1, 2)]],
+        [[(0, 0), (4, 0), (4, 4), (0, 4)]] * 2,
+        [[(0, 0), (4, 0), (4, 4), (0, 4)], [(0, 0), (4, 0), (4, 2), (0, 2)]],
+    ],
+)
+def test_a_cell_inside_another_is_found(cells):
+    layout = layout_of([np.array(c) * 0.01 for c in cells])
+    outline = concave_outline(layout, np.ones(2, dtype=bool))
+    assert (len(outline), round(outline.area, 12)) == (1, 16e-4)
+
+
+def test_an_unloaded_sole_has_an_empty_outline(sole):
+    outline = concave_outline(sole, np.zeros(len(sole), dtype=bool))
+    assert (len(outline), outline.area, outline.centroid, outline.points.shape) == (0, 0.0, None, (0, 2))
+    assert outline.islands == ()
+    assert len(outline.moved(np.eye(2), [1.0, 0.0])) == 0
+
+
+def test_a_mask_that_does_not_fit_is_refused(sole):
+    with pytest.raises(ReadingError, match="mask of active taxels"):
+        concave_outline(sole, np.ones(len(sole) + 1, dtype=bool))
+    with pytest.raises(ReadingError, match="mask of active taxels"):
+        concave_outline(sole, np.ones(len(sole)))
+
+
+def test_a_layout_that_has_been_outlined_can_be_copied(sole):
+    import copy
+    import pickle
+
+    concave_outline(sole, np.ones(len(sole), dtype=bool))
+    for twin in (pickle.loads(pickle.dumps(sole)), copy.deepcopy(sole)):
+        assert concave_outline(twin, np.ones(len(sole), dtype=bool)).area == pytest.approx(sole.areas.sum(), rel=1e-12)
+
+
+@given(st.floats(-math.pi, math.pi), st.floats(-1e6, 1e6))
+def test_a_moved_outline_keeps_its_area(angle, shift):
+    layout = layout_of(squares(3, 3))
+    outline = concave_outline(layout, np.array([1, 1, 1, 1, 0, 1, 1, 1, 1], dtype=bool))
+    c, s = math.cos(angle), math.sin(angle)
+    moved = outline.moved([[c, -s], [s, c]], [shift, -shift])
+    assert moved.area == pytest.approx(outline.area, rel=1e-13 + 1e-13 * abs(shift) * 1e3)
+    mirrored = outline.moved(np.diag([1.0, -1.0]), [0.0, 0.0])
+    assert mirrored.area == pytest.approx(outline.area, rel=1e-14)
+
+
+def test_feet_that_overlap_count_once():
+    left = Outline.of_rings([[[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]]])
+    right = left.moved(np.eye(2), [0.1, 0.05])
+    assert feet_outline([left, right]).area == pytest.approx(0.035, rel=1e-12)
+    assert feet_outline([left, Outline.of_rings([])]).area == pytest.approx(0.02, rel=1e-12)
+    assert len(feet_outline([])) == 0
