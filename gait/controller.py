@@ -47,6 +47,9 @@ class ControllerSettings:
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
         contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
+        landing_force: Vertical force in N up to which a foot that has touched is pressed down.
+        landing_depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it
+            with some tens of newtons and does not hover.
         landing_speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
         landing_acceleration: Its acceleration in m/s^2.
         landing_reach: Distance in m that it goes down at most.
@@ -62,8 +65,10 @@ class ControllerSettings:
     timing: Timing = field(default_factory=Timing)
     swing_height: float = 0.05
     contact_force: float = 70.0
-    landing_speed: float = 0.05
-    landing_acceleration: float = 0.5
+    landing_force: float = 200.0
+    landing_depth: float = 0.0003
+    landing_speed: float = 0.03
+    landing_acceleration: float = 1.0
     landing_reach: float = 0.03
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
@@ -182,7 +187,7 @@ class WalkingController:
         self._swing_step = -1
         self._ticks = 0
         self.replans = 0
-        self._compensation = PostureCompensation(settings.period)
+        self._compensation = PostureCompensation(settings.period, fade=settings.timing.double_support)
         self._landed = True
         self._lowered = self._lowering = 0.0
         self._anchor = feet["left"].position
@@ -250,7 +255,7 @@ class WalkingController:
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
         aligned = Footstep(side, 0.0, 0.0, -self._turn).rotation_sole_to_world
         shift, turn = self._compensation.update(
-            phase.swing == side and not self._landed,
+            phase.swing == side,
             foot.position,
             state.com + aligned @ (place - state.com),
             com,
@@ -283,13 +288,13 @@ class WalkingController:
         return np.array([self._anchor[0] + c * dx + s * dy, self._anchor[1] - s * dx + c * dy])
 
     def _move_feet(self, phase: Phase, time: float, state: BaseState) -> None:
-        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground."""
+        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off."""
         s = self.settings
         if phase.swing is not None and self._swing_step != phase.step:
             step = self.schedule.steps[phase.step]
             position, yaw = self._foothold[phase.swing]
             ground = self._foothold[other_side(phase.swing)][0][2]
-            target = np.array([*self._to_command(step.position[:2]), ground])
+            target = np.array([*self._to_command(step.position[:2]), ground - s.landing_depth])
             self._swing = SwingTrajectory(
                 position.copy(), target, yaw, step.yaw - self._turn, s.swing_height, phase.end - phase.start
             )
@@ -307,12 +312,12 @@ class WalkingController:
                 self._landed = True
             if not self._landed:
                 self._foothold[side] = self._swing.at(elapsed)
-            return
-        self._landed = True  # the plan puts weight on it now
-        if state.loads[side] < s.contact_force and self._lowered < s.landing_reach:
-            self._lowering = min(s.landing_speed, self._lowering + s.landing_acceleration * s.period)
-        else:
-            self._lowering = max(0.0, self._lowering - 4.0 * s.landing_acceleration * s.period)
+                return
+        self._landed = True  # it touched, or the plan puts weight on it now
+        # Press down the more gently the more it carries; a switch at one force would make the foot tap.
+        missing = 1.0 - state.loads[side] / s.landing_force
+        wanted = s.landing_speed * missing if missing > 0.0 and self._lowered < s.landing_reach else 0.0
+        self._lowering = min(wanted, self._lowering + s.landing_acceleration * s.period)
         if self._lowering > 0.0:
             drop = self._lowering * s.period
             self._lowered += drop

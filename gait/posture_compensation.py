@@ -48,7 +48,7 @@ class PostureCompensation:
 
     def update(
         self,
-        airborne: bool,
+        swings: bool,
         position: NDArray[np.float64],
         position_in_world: NDArray[np.float64],
         com_command: NDArray[np.float64],
@@ -59,7 +59,7 @@ class PostureCompensation:
         """One control tick.
 
         Args:
-            airborne: Whether the foot is still in its swing.
+            swings: Whether it is still the foot's single support: the other foot carries the body.
             position: Wanted sole position (3,) in the command frame in m.
             position_in_world: The same point in the world frame in m.
             com_command: CoM reference (3,) in the command frame in m.
@@ -71,7 +71,7 @@ class PostureCompensation:
             Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
         """
         step = self.period / self.fade
-        self._weight = min(1.0, self._weight + step) if airborne else max(0.0, self._weight - step)
+        self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
         lean = rotation_command @ rotation_estimated.T
         shift = com_command + lean @ (position_in_world - com_estimated) - position
         turn = 0.5 * np.array([lean[2, 1] - lean[1, 2], lean[0, 2] - lean[2, 0], lean[1, 0] - lean[0, 1]])

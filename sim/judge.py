@@ -17,7 +17,7 @@ from sim.world import PHYSICS_PERIOD, World
 __all__ = ["Judge", "Landing"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
-_TOUCH = 5.0  # N: less than this is no contact
+_TOUCH = 20.0  # N: less than this is no contact, the usual level of force plates in gait analysis
 _AIRBORNE = 0.15  # s without contact before a touch counts as a landing
 _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
 _SETTLED = 0.6  # s after touchdown in which the contact area is looked for
