@@ -20,6 +20,7 @@ from gait.footsteps import straight_plan
 from gait.phases import Timing
 from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
+from plantar.percept import Percept
 from plantar.polygon import centroid
 from sim.judge import Judge
 from sim.log import RunLog
@@ -40,6 +41,7 @@ CONTROL_PERIOD = 0.005
 """Control period of both robots in s."""
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_MEMBERS = frozenset(Percept.members())
 _EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
 _FRAME_EVERY = round(1.0 / (FRAME_RATE * PHYSICS_PERIOD))
 
@@ -250,7 +252,7 @@ def _compute_rest(command: Command, everything: bool) -> int:
     """Count the members of both percepts that the controller did not ask for; compute them where all is wanted."""
     count = 0
     for percept in command.percepts.values():
-        missing = [name for name in percept.members() if name not in percept.__dict__]
+        missing = _MEMBERS - percept.__dict__.keys()
         if everything:
             for name in missing:
                 getattr(percept, name)
