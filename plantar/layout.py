@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import LayoutError
+from plantar.kernels.sole import SoleKernel
 
 __all__ = [
     "CELL_SHAPES",
@@ -220,6 +221,18 @@ class SoleLayout:
         out = np.vstack([normal.T, np.cross(self.positions, normal).T])
         out.flags.writeable = False
         return out
+
+    @cached_property
+    def kernel(self) -> SoleKernel:
+        """What the kernels of loads and support polygons keep of this sole."""
+        return SoleKernel(
+            self.positions,
+            self.rotations[:, :, 2],
+            self.areas,
+            self.vertices[:, :2],
+            self.corner_start,
+            self.corner_vertex,
+        )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
         """Corners (k, 2) of one cell in the sole plane in m, counter-clockwise."""

@@ -7,8 +7,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar import force as _force
-from plantar import polygon as _polygon
 from plantar.activation import active_taxels
 from plantar.errors import ReadingError
 from plantar.health import TaxelHealth, dead_taxels, fill_from_neighbours, saturated_taxels
@@ -118,25 +116,34 @@ class Percept(ShapeMembers, VirtualMembers):
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
         return np.where(self.active, self.sound_force if self.fill else self.reading.force, 0.0)
 
+    def _loads(self) -> NDArray[np.float64]:
+        """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
+        loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
+        if loads is None:
+            force = self.sound_force if self.fill else self.reading.force
+            loads = self.__dict__["_loads_summed"] = self.layout.kernel.loads(force, self.active)
+        return loads
+
     @cached_property
     def vertical_force(self) -> float:
         """Vertical force on the sole in N."""
-        return float(self.active_force @ self.layout.rotations[:, 2, 2])
+        return float(self._loads()[2])
 
     @cached_property
     def contact_area(self) -> float:
         """Area in m^2 of the active cells (T 4.22, with each cell's own area)."""
-        return float(self.layout.areas[self.active].sum())
+        return float(self._loads()[6])
 
     @cached_property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Centre of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
-        return _force.center_of_pressure(self.layout, self.active_force)
+        loads = self._loads()
+        return loads[7:] if 0.0 < loads[2] < np.inf else None
 
     @cached_property
     def wrench_in_sole(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
-        return _force.ground_reaction_wrench(self.layout, self.active_force)
+        return self._loads()[:6]
 
     @cached_property
     def zero_moment_wrench_in_sole(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -148,19 +155,22 @@ class Percept(ShapeMembers, VirtualMembers):
         """The wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
         return scaled_by_area(self.wrench_in_sole, self.contact_area, self.reference_area)
 
+    def _hull(self) -> tuple[NDArray[np.float64], float, float, float]:
+        """Support polygon, its area and its centroid, found together when the first of them is asked for."""
+        hull: tuple[NDArray[np.float64], float, float, float] | None = self.__dict__.get("_hull_found")
+        if hull is None:
+            hull = self.__dict__["_hull_found"] = self.layout.kernel.hull(self.active)
+        return hull
+
     @cached_property
     def support_polygon_in_sole(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) in the sole frame in m, counter-clockwise (T 4.24)."""
-        if not self.active.any():
-            return np.empty((0, 2))
-        layout = self.layout
-        used = np.unique(layout.corner_vertex[np.repeat(self.active, np.diff(layout.corner_start))])
-        return _polygon.convex_hull(layout.vertices[used, :2])
+        return self._hull()[0]
 
     @cached_property
     def support_area(self) -> float:
         """Area A_p of the support polygon in m^2."""
-        return _polygon.area(self.support_polygon_in_sole)
+        return float(self._hull()[1])
 
     @cached_property
     def area_ratio(self) -> float:
@@ -170,4 +180,5 @@ class Percept(ShapeMembers, VirtualMembers):
     @cached_property
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
-        return _polygon.centroid(self.support_polygon_in_sole)
+        polygon, _area, x, y = self._hull()
+        return np.array((x, y)) if len(polygon) else None

@@ -31,7 +31,10 @@ cdef bint _is_straight(
     double ax, double ay, double bx, double by, double cx, double cy, double tolerance
 ) noexcept
 
-@cython.locals(size=Py_ssize_t, i=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, base=Py_ssize_t, kept=Py_ssize_t)
+@cython.locals(
+    size=Py_ssize_t, i=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, base=Py_ssize_t, kept=Py_ssize_t, step=Py_ssize_t,
+    ax=double, ay=double, bx=double, by=double, cx=double, cy=double
+)
 cpdef Py_ssize_t hull_ring(
     const double[:, :] points, Py_ssize_t[::1] order, Py_ssize_t count, double tolerance, Py_ssize_t[::1] ring
 ) noexcept

@@ -141,47 +141,35 @@ def hull_ring(points, order, count, tolerance, ring):
     """
     if count == 0:
         return 0
-    size = 1
+    size = base = 1
     ring[0] = order[0]
-    for i in range(1, count):
-        p = order[i]
+    for step in range(1, 2 * count - 1):  # forth along the lower chain, back along the upper one
+        if step == count:
+            base = size
+        p = order[step] if step < count else order[2 * count - 2 - step]
         q = ring[size - 1]
-        if points[p, 0] == points[q, 0] and points[p, 1] == points[q, 1]:
+        cx, cy = points[p, 0], points[p, 1]
+        bx, by = points[q, 0], points[q, 1]
+        if cx == bx and cy == by:
             continue
-        while size >= 2 and not _is_corner(
-            points[ring[size - 2], 0],
-            points[ring[size - 2], 1],
-            points[ring[size - 1], 0],
-            points[ring[size - 1], 1],
-            points[p, 0],
-            points[p, 1],
-            tolerance,
-        ):
+        while size > base:
+            q = ring[size - 2]
+            ax, ay = points[q, 0], points[q, 1]
+            if _is_corner(ax, ay, bx, by, cx, cy, tolerance):
+                break
             size -= 1
+            bx, by = ax, ay
         ring[size] = p
         size += 1
     if size == 1:
         return 1
-    base = size
-    for i in range(count - 2, -1, -1):
-        p = order[i]
-        q = ring[size - 1]
-        if points[p, 0] == points[q, 0] and points[p, 1] == points[q, 1]:
-            continue
-        while size > base and not _is_corner(
-            points[ring[size - 2], 0],
-            points[ring[size - 2], 1],
-            points[ring[size - 1], 0],
-            points[ring[size - 1], 1],
-            points[p, 0],
-            points[p, 1],
-            tolerance,
-        ):
-            size -= 1
-        ring[size] = p
-        size += 1
     size -= 1  # the first point again
     # The two ends of the chains, where no turn was asked for, may lie on straight edges.
+    if size == 2 or not (
+        _ring_is_straight(points, ring[size - 1], ring[0], ring[1], tolerance)
+        or _ring_is_straight(points, ring[base - 2], ring[base - 1], ring[base if base < size else 0], tolerance)
+    ):
+        return size
     kept = 0
     for i in range(size):
         p = ring[i]

@@ -1,0 +1,235 @@
+"""The percept's members over whole recordings: arrays of forces (frames, taxels), without a loop over frames in Python.
+
+Forces may be a memory-mapped array larger than memory. Rows that are float64 and contiguous are read where they are, in
+one pass; others are converted block by block (`BLOCK` frames), never as a whole. A taxel is active as in `Percept`:
+above the threshold, and below the layout's force limit where it saturates; a dead one (NaN) never is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import ReadingError
+from plantar.kernels import frames as _kernel
+from plantar.layout import SoleLayout
+
+__all__ = ["BLOCK", "Loads", "SupportPolygons", "blocks", "loads", "support_polygons", "wrenches"]
+
+BLOCK = 4096
+"""Frames that are looked at together where a conversion or an iterator cuts a recording into pieces."""
+
+
+@dataclass(frozen=True, eq=False)
+class Loads:
+    """What the forces of each frame sum up to.
+
+    Attributes:
+        wrench: Ground reaction wrench (frames, 6) about the sole frame's origin in N and N m (T 4.23).
+        contact_area: Area (frames,) of the active cells in m^2 (T 4.22).
+        center_of_pressure: Position (frames, 2) in the sole frame in m (T 4.21); NaN in a frame without load.
+    """
+
+    wrench: NDArray[np.float64]
+    contact_area: NDArray[np.float64]
+    center_of_pressure: NDArray[np.float64]
+
+    @property
+    def vertical_force(self) -> NDArray[np.float64]:
+        """Vertical force (frames,) in N."""
+        return self.wrench[:, 2]
+
+
+@dataclass(frozen=True, eq=False)
+class SupportPolygons:
+    """The convex support polygon of each frame (T 4.24).
+
+    Attributes:
+        area: Area (frames,) in m^2, 0 without contact.
+        centroid: Centroid (frames, 2) in m; NaN without contact.
+        size: Number of vertices (frames,).
+        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other; None where not asked for.
+    """
+
+    area: NDArray[np.float64]
+    centroid: NDArray[np.float64]
+    size: NDArray[np.int64]
+    vertices: NDArray[np.float64] | None = None
+
+    def polygon(self, frame: int) -> NDArray[np.float64]:
+        """Support polygon of one frame.
+
+        Args:
+            frame: Index of the frame, from 0.
+
+        Returns:
+            Vertices (k, 2) in m, counter-clockwise; empty without contact.
+
+        Raises:
+            ReadingError: If the vertices were not asked for.
+        """
+        if self.vertices is None:
+            raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
+        end = int(self.size[: frame + 1].sum())
+        return self.vertices[end - int(self.size[frame]) : end]
+
+
+def wrenches(
+    layout: SoleLayout,
+    force: ArrayLike,
+    threshold: float | None = None,
+    out: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """Ground reaction wrench of every frame (T 4.23), at the speed of memory.
+
+    Args:
+        layout: The sole, n taxels.
+        force: Normal forces (frames, n) in N.
+        threshold: Activation threshold in N; the layout's own where None, -inf to count every finite force.
+        out: Where to write (frames, 6), float64 and contiguous; a new array where None.
+
+    Returns:
+        Wrench (frames, 6) about the sole frame's origin in N and N m.
+
+    Raises:
+        ReadingError: If the forces or `out` have another shape, or are not numeric.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
+        >>> wrenches(layout, np.full((1000, len(layout)), 10.0)).shape
+        (1000, 6)
+    """
+    array = _forces(layout, force)
+    if out is None:
+        out = np.empty((len(array), 6))
+    elif out.shape != (len(array), 6) or out.dtype != np.float64 or not out.flags.c_contiguous:
+        raise ReadingError(
+            f"out has shape {out.shape}, type {out.dtype}; expected ({len(array)}, 6) contiguous float64"
+        )
+    low, high = _limits(layout, threshold)
+    for rows, part in _pieces(array):
+        _kernel.wrenches(layout.kernel, part, low, high, out[rows])
+    return out
+
+
+def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> Loads:
+    """Wrench, contact area and CoP of every frame, in one pass (T 4.21-4.23).
+
+    Args:
+        layout: The sole, n taxels.
+        force: Normal forces (frames, n) in N.
+        threshold: Activation threshold in N; the layout's own where None.
+
+    Returns:
+        The sums of each frame.
+
+    Raises:
+        ReadingError: If the forces have another shape or are not numeric.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
+        >>> loads(layout, np.full((2, len(layout)), 10.0)).vertical_force.tolist()
+        [330.0, 330.0]
+    """
+    array = _forces(layout, force)
+    out = np.empty((len(array), 9))
+    low, high = _limits(layout, threshold)
+    for rows, part in _pieces(array):
+        _kernel.loads(layout.kernel, part, low, high, out[rows])
+    return Loads(out[:, :6], out[:, 6], out[:, 7:])
+
+
+def support_polygons(
+    layout: SoleLayout, force: ArrayLike, threshold: float | None = None, *, vertices: bool = False
+) -> SupportPolygons:
+    """Convex support polygon of every frame, with its area and centroid (T 4.24).
+
+    Args:
+        layout: The sole, n taxels.
+        force: Normal forces (frames, n) in N.
+        threshold: Activation threshold in N; the layout's own where None.
+        vertices: Keep the polygons, and not only what is measured of them.
+
+    Returns:
+        Area, centroid and size of each polygon, and the polygons where asked for.
+
+    Raises:
+        ReadingError: If the forces have another shape or are not numeric.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
+        >>> support_polygons(layout, np.zeros((3, len(layout)))).area.tolist()
+        [0.0, 0.0, 0.0]
+    """
+    array = _forces(layout, force)
+    measure = np.empty((len(array), 3))
+    size = np.empty(len(array), dtype=np.intp)
+    active = np.empty(len(layout), dtype=np.uint8)
+    low, high = _limits(layout, threshold)
+    found: list[NDArray[np.float64]] = []
+    points = np.empty((0, 2))
+    for rows, part in _pieces(array, BLOCK if vertices else None):
+        done = 0
+        while done < len(part):
+            sizes = size[rows][done:]
+            if vertices:
+                points = np.empty((max(len(layout.vertices), 32 * (len(part) - done)), 2))
+            count = _kernel.hulls(layout.kernel, part[done:], low, high, active, sizes, measure[rows][done:], points)
+            if vertices:
+                found.append(points[: int(sizes[:count].sum())].copy())
+            done += count
+    return SupportPolygons(
+        measure[:, 0], measure[:, 1:], size, np.concatenate([points[:0], *found]) if vertices else None
+    )
+
+
+def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+    """Cut a recording into blocks of frames, for results that should not be held in memory as a whole.
+
+    Args:
+        force: Forces (frames, n), for example of `numpy.load(path, mmap_mode="r")`.
+        frames: Frames in a block.
+
+    Yields:
+        Which frames, and a view of them: nothing is read or copied before the view is.
+
+    Raises:
+        ReadingError: If there is not at least one frame in a block.
+
+    Example:
+        >>> [(rows.start, rows.stop, part.shape) for rows, part in blocks(np.zeros((5, 3)), frames=2)]
+        [(0, 2, (2, 3)), (2, 4, (2, 3)), (4, 5, (1, 3))]
+    """
+    if frames < 1:
+        raise ReadingError(f"a block has {frames} frames; allowed: 1 or more")
+    for start in range(0, len(force), frames):
+        rows = slice(start, min(start + frames, len(force)))
+        yield rows, force[rows]
+
+
+def _forces(layout: SoleLayout, force: ArrayLike) -> NDArray[np.float64]:
+    """The forces as an array of numbers, not copied, of the layout's width."""
+    array = np.asanyarray(force)
+    if array.dtype.kind not in "fiub":
+        raise ReadingError("forces are not numeric")
+    if array.ndim != 2 or array.shape[1] != len(layout):
+        raise ReadingError(f"forces have shape {array.shape}; expected (frames, {len(layout)})")
+    return array
+
+
+def _limits(layout: SoleLayout, threshold: float | None) -> tuple[float, float]:
+    """Between which forces a taxel is active."""
+    return layout.force_threshold if threshold is None else float(threshold), layout.force_limit
+
+
+def _pieces(force: NDArray[np.float64], frames: int | None = None) -> Iterator[tuple[slice, NDArray[np.float64]]]:
+    """The forces as the kernels take them: whole where they are contiguous float64, else converted in blocks."""
+    plain = force.dtype == np.float64 and force.flags.c_contiguous and force.dtype.isnative and force.flags.aligned
+    for rows, part in blocks(force, (frames or max(len(force), 1)) if plain else BLOCK):
+        yield rows, part if plain else np.ascontiguousarray(part, dtype=np.float64)

@@ -1,0 +1,31 @@
+# C types of frames.py. Without a compiler this file is not read.
+cimport cython
+from .sole cimport SoleKernel
+
+cdef double _INFINITE
+cdef double _NONE
+
+@cython.locals(
+    frames=Py_ssize_t, n=Py_ssize_t, columns="const double[:, ::1]", k=Py_ssize_t, i=Py_ssize_t,
+    lever_x="const double[::1]", lever_y="const double[::1]", kept="double[::1]", f=double, az=double, ax=double,
+    ay=double, bz=double, bx=double, by=double, fx=double, fy=double, fz=double, tx=double, ty=double, tz=double
+)
+cpdef void wrenches(
+    SoleKernel sole, const double[:, ::1] force, double threshold, double saturation, double[:, ::1] out
+) noexcept
+
+@cython.locals(
+    columns="const double[:, ::1]", areas="const double[::1]", k=Py_ssize_t, i=Py_ssize_t, f=double, fx=double,
+    fy=double, fz=double, tx=double, ty=double, tz=double, area=double, sx=double, sy=double
+)
+cpdef void loads(
+    SoleKernel sole, const double[:, ::1] force, double threshold, double saturation, double[:, ::1] out
+) noexcept
+
+@cython.locals(
+    filled=Py_ssize_t, room=Py_ssize_t, k=Py_ssize_t, i=Py_ssize_t, found=Py_ssize_t, area=double, x=double, y=double
+)
+cpdef Py_ssize_t hulls(
+    SoleKernel sole, const double[:, ::1] force, double threshold, double saturation, unsigned char[::1] active,
+    Py_ssize_t[::1] size, double[:, ::1] measure, double[:, ::1] points
+) noexcept

@@ -1,0 +1,122 @@
+"""Kernels over many readings of one sole: one pass over the forces, nothing kept but the results."""
+
+from __future__ import annotations
+
+__all__ = ["hulls", "loads", "wrenches"]
+
+_INFINITE = float("inf")
+_NONE = float("nan")
+
+
+def wrenches(sole, force, threshold, saturation, out):
+    """Wrench of the active taxels of each frame; reference and error as `SoleKernel.loads`.
+
+    On a flat sole three sums do. Masking comes first and the sums run over even and odd taxels apart: the compiler can
+    put such pairs side by side without changing the order of any sum.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Forces up to this, and NaN, are left out; in N.
+        saturation: Forces from this on are left out; in N.
+        out: Receives the wrenches (frames, 6) about the sole frame's origin in N and N m.
+    """
+    frames, n = force.shape[0], sole.taxels
+    columns = sole.columns
+    lever_x, lever_y, kept = sole.lever_x, sole.lever_y, sole.kept
+    for k in range(frames):
+        for i in range(n):
+            f = force[k, i]
+            f = f if f > threshold else 0.0
+            kept[i] = f if f < saturation else 0.0
+        if sole.flat:
+            az = ax = ay = bz = bx = by = 0.0
+            for i in range(0, n - 1, 2):
+                az += kept[i]
+                bz += kept[i + 1]
+                ax += kept[i] * lever_x[i]
+                bx += kept[i + 1] * lever_x[i + 1]
+                ay += kept[i] * lever_y[i]
+                by += kept[i + 1] * lever_y[i + 1]
+            if n % 2 == 1:
+                az += kept[n - 1]
+                ax += kept[n - 1] * lever_x[n - 1]
+                ay += kept[n - 1] * lever_y[n - 1]
+            out[k, 0] = out[k, 1] = out[k, 5] = 0.0
+            out[k, 2], out[k, 3], out[k, 4] = az + bz, ax + bx, ay + by
+        else:
+            fx = fy = fz = tx = ty = tz = 0.0
+            for i in range(n):
+                f = kept[i]
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5] = fx, fy, fz, tx, ty, tz
+
+
+def loads(sole, force, threshold, saturation, out):
+    """Wrench, contact area and CoP of each frame; reference and error as `SoleKernel.loads`.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Forces up to this, and NaN, are left out; in N.
+        saturation: Forces from this on are left out; in N.
+        out: Receives (frames, 9): wrench about the sole frame's origin, area in m^2, CoP in m, NaN where there is none.
+    """
+    columns, areas = sole.columns, sole.areas
+    for k in range(force.shape[0]):
+        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        for i in range(sole.taxels):
+            f = force[k, i]
+            if threshold < f < saturation:
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+                sx += f * columns[i, 6]
+                sy += f * columns[i, 7]
+                area += areas[i]
+        out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5], out[k, 6] = fx, fy, fz, tx, ty, tz, area
+        if 0.0 < fz < _INFINITE:
+            out[k, 7], out[k, 8] = sx / fz, sy / fz
+        else:
+            out[k, 7] = out[k, 8] = _NONE
+
+
+def hulls(sole, force, threshold, saturation, active, size, measure, points):
+    """Support polygon of each frame, with its area and centroid; reference and error as `SoleKernel.hull`.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Taxels up to this, and NaN, are not active; in N.
+        saturation: Taxels from this on are not active; in N.
+        active: Scratch (n,).
+        size: Receives the number of vertices (frames,).
+        measure: Receives area in m^2 and centroid in m (frames, 3), NaN where there is no contact.
+        points: Receives the vertices (room, 2) in m, one polygon after the other; of no length where none are wanted.
+
+    Returns:
+        Number of frames done: fewer than all where the room is used up.
+    """
+    filled = 0
+    room = points.shape[0]
+    for k in range(force.shape[0]):
+        for i in range(sole.taxels):
+            active[i] = threshold < force[k, i] < saturation
+        found = sole.find_hull(active)
+        if room:
+            if filled + found > room:
+                return k
+            sole.copy_hull(found, points[filled:])
+            filled += found
+        size[k] = found
+        area, x, y = sole.measure_hull(found)
+        measure[k, 0], measure[k, 1], measure[k, 2] = area, x, y
+    return force.shape[0]

@@ -1,0 +1,52 @@
+# C types of sole.py. Without a compiler this file is not read.
+cimport cython
+from . cimport convex
+
+cdef double _NONE
+cdef double _INFINITE
+
+@cython.final
+cdef class SoleKernel:
+    cdef public const double[:, ::1] columns
+    cdef public const double[::1] lever_x
+    cdef public const double[::1] lever_y
+    cdef public const double[::1] areas
+    cdef public const double[:, ::1] points
+    cdef public const Py_ssize_t[::1] corner_start
+    cdef public const Py_ssize_t[::1] corner_rank
+    cdef public const Py_ssize_t[::1] row_taxel
+    cdef public const Py_ssize_t[::1] row_start
+    cdef public const Py_ssize_t[::1] around_taxel
+    cdef public const Py_ssize_t[::1] around_start
+    cdef public Py_ssize_t taxels
+    cdef public Py_ssize_t corners
+    cdef public double tolerance
+    cdef public bint flat
+    cdef public double[::1] kept
+    cdef unsigned char[::1] used
+    cdef Py_ssize_t[::1] order
+    cdef Py_ssize_t[::1] ring
+    cdef public double[:, ::1] polygon
+
+    cpdef loads(self, const double[:] force, const unsigned char[:] active)
+
+    @cython.locals(
+        columns="const double[:, ::1]", fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
+        sx=double, sy=double, i=Py_ssize_t, f=double
+    )
+    cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept
+
+    @cython.locals(size=Py_ssize_t, area=double, x=double, y=double)
+    cpdef hull(self, const unsigned char[:] active)
+
+    @cython.locals(
+        used="unsigned char[::1]", order="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", low=Py_ssize_t,
+        high=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t, last=Py_ssize_t, end=int, i=Py_ssize_t, c=Py_ssize_t,
+        stop=Py_ssize_t, v=Py_ssize_t, found=Py_ssize_t, size=Py_ssize_t
+    )
+    cpdef Py_ssize_t find_hull(self, const unsigned char[:] active) noexcept
+
+    @cython.locals(i=Py_ssize_t)
+    cpdef void copy_hull(self, Py_ssize_t size, double[:, ::1] out) noexcept
+
+    cpdef (double, double, double) measure_hull(self, Py_ssize_t size) noexcept

@@ -1,0 +1,263 @@
+"""Kernels of one sole: loads and support polygon of its active taxels, one call each for a reading.
+
+What does not change from reading to reading is prepared once: columns to multiply the forces with, the corners of the
+cells, sorted, each with the cells that surround it, and the rows of cells that are shifted copies of each other.
+
+A kernel has scratch memory of its own: compiled calls hold the interpreter lock and so follow each other; interpreted
+ones must not come from two threads at once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import convex
+
+__all__ = ["SoleKernel"]
+
+_NONE = float("nan")
+_INFINITE = float("inf")
+
+
+class SoleKernel:
+    """The taxels of one sole, prepared for the kernels.
+
+    Args:
+        positions: Taxel centres (n, 3) in the sole frame in m.
+        normals: z axes (n, 3) of the taxels in the sole frame.
+        areas: Cell areas (n,) in m^2.
+        vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
+        corner_start: Offsets (n + 1,) of each taxel's corners.
+        corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
+    """
+
+    def __init__(self, positions, normals, areas, vertices, corner_start, corner_vertex):
+        positions = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
+        normals = np.asarray(normals, dtype=np.float64).reshape(-1, 3)
+        vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 2)
+        corner_vertex = np.asarray(corner_vertex, dtype=np.intp)
+        vertical = normals[:, 2:3]
+        self.columns = np.ascontiguousarray(
+            np.hstack([normals, np.cross(positions, normals), vertical * positions[:, :2]])
+        )
+        plain = np.array([0.0, 0.0, 1.0])
+        self.flat = bool((normals == plain).all() and (positions[:, 2] == 0.0).all())
+        self.lever_x = np.ascontiguousarray(positions[:, 1])  # moments about x and y of a unit force
+        self.lever_y = np.ascontiguousarray(-positions[:, 0])
+        self.areas = np.ascontiguousarray(areas, dtype=np.float64)
+        order = np.lexsort((vertices[:, 1], vertices[:, 0]))
+        rank = np.empty(len(order), dtype=np.intp)
+        rank[order] = np.arange(len(order))
+        self.points = np.ascontiguousarray(vertices[order])
+        self.taxels = len(self.areas)
+        self.corners = len(order)
+        largest = float(np.abs(vertices).max(initial=0.0))
+        extent = float(np.ptp(vertices, axis=0).max()) if len(vertices) else 0.0
+        self.tolerance = convex.hull_tolerance(largest, extent)
+        starts = np.asarray(corner_start, dtype=np.intp).tolist()
+        rings = [corner_vertex[starts[i] : starts[i + 1]] for i in range(self.taxels)]
+        rows = _rows_of_copies([vertices[ring] for ring in rings], self.tolerance)
+        self.row_taxel = np.array([i for row in rows for i in row], dtype=np.intp)
+        around = _cells_around(vertices, rings)
+        self.around_taxel = np.array([i for v in order.tolist() for i in around[v]], dtype=np.intp)
+        self.around_start = np.cumsum([0, *(len(around[v]) for v in order.tolist())], dtype=np.intp)
+        self.row_start = np.cumsum([0, *map(len, rows)], dtype=np.intp)
+        self.corner_rank = np.concatenate([*(rank[ring] for ring in rings), np.empty(0, dtype=np.intp)])
+        self.corner_start = np.array(starts, dtype=np.intp)
+        self.kept = np.zeros(self.taxels)
+        self.used = np.zeros(len(order), dtype=np.uint8)
+        self.order = np.zeros(len(order), dtype=np.intp)
+        self.ring = np.zeros(len(order) + 1, dtype=np.intp)
+        self.polygon = np.zeros((len(order), 2))
+
+    def loads(self, force, active):
+        """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
+
+        Reference: `math.fsum` of the single terms. The error of each sum is below n * 1.2e-16 of the sum of its terms'
+        absolute values.
+
+        Args:
+            force: Normal forces (n,) in N; those of taxels that are not active are not read.
+            active: Mask (n,).
+
+        Returns:
+            (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
+        """
+        out = np.empty(9)
+        self._loads(force, active, out)
+        return out
+
+    def _loads(self, force, active, out):
+        """`loads` into an array."""
+        columns = self.columns
+        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        for i in range(self.taxels):
+            if active[i]:
+                f = force[i]
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+                sx += f * columns[i, 6]
+                sy += f * columns[i, 7]
+                area += self.areas[i]
+        out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, fz, tx, ty, tz, area
+        if 0.0 < fz < _INFINITE:
+            out[7], out[8] = sx / fz, sy / fz
+        else:
+            out[7] = out[8] = _NONE
+
+    def hull(self, active):
+        """Convex hull of the active cells (T 4.24), with its area and centroid.
+
+        Only corners that are not surrounded by active cells can be its vertices; those come sorted. Reference: gift
+        wrapping in exact fractions; errors as `convex.convex_hull`, `convex.area` and `convex.area_and_centroid`.
+
+        Args:
+            active: Mask (n,).
+
+        Returns:
+            Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
+        """
+        size = self.find_hull(active)
+        area, x, y = self.measure_hull(size)
+        out = np.empty((size, 2))
+        self.copy_hull(size, out)
+        return out, area, x, y
+
+    def find_hull(self, active):
+        """Find the hull of the active cells and leave it in `polygon`.
+
+        Args:
+            active: Mask (n,).
+
+        Returns:
+            Number of its corners.
+        """
+        used, order, rank = self.used, self.order, self.corner_rank
+        low, high = self.corners, -1
+        for row in range(self.row_start.shape[0] - 1):
+            first, last = self.row_start[row], self.row_start[row + 1] - 1
+            while first <= last and not active[self.row_taxel[first]]:
+                first += 1
+            if first > last:
+                continue
+            while not active[self.row_taxel[last]]:
+                last -= 1
+            for end in range(2 if last > first else 1):
+                i = self.row_taxel[last if end else first]
+                for c in range(self.corner_start[i], self.corner_start[i + 1]):
+                    v = rank[c]
+                    used[v] = 1
+                    low = min(low, v)
+                    high = max(high, v)
+        found = 0
+        for v in range(low, high + 1):
+            if used[v]:
+                used[v] = 0
+                c, stop = self.around_start[v], self.around_start[v + 1]
+                if c < stop:  # cells surround this corner: it is a corner of the hull only where one is not active
+                    while c < stop and active[self.around_taxel[c]]:
+                        c += 1
+                    if c == stop:
+                        continue
+                order[found] = v
+                found += 1
+        size = convex.hull_ring(self.points, self.order, found, self.tolerance, self.ring)
+        for i in range(size):
+            v = self.ring[i]
+            self.polygon[i, 0] = self.points[v, 0]
+            self.polygon[i, 1] = self.points[v, 1]
+        return size
+
+    def copy_hull(self, size, out):
+        """Copy the hull that `find_hull` left.
+
+        Args:
+            size: Number of its corners.
+            out: Receives them (size, 2) in m.
+        """
+        for i in range(size):
+            out[i, 0] = self.polygon[i, 0]
+            out[i, 1] = self.polygon[i, 1]
+
+    def measure_hull(self, size):
+        """Area in m^2 and centroid in m of the hull of `size` corners that `find_hull` left; NaN where it is empty."""
+        if size == 0:
+            return 0.0, _NONE, _NONE
+        return convex.area_and_centroid(self.polygon[:size])
+
+
+def _rows_of_copies(cells, tolerance):
+    """Rows of cells that are copies of each other, shifted along one line: the hull of a row's active cells is that of
+    the first and the last of them.
+
+    Args:
+        cells: Corners (k, 2) of each cell in m.
+        tolerance: How far in m a copy may be off.
+
+    Returns:
+        For each row the indices of its cells from one end to the other; a cell without copies is a row of its own.
+    """
+    kinds = {}  # cells of one kind, the first of which stands for them
+    for i, cell in enumerate(cells):
+        shape = cell - cell[0]
+        kind = kinds.setdefault((np.rint(shape * 1e6) + 0.0).tobytes(), [i])
+        first = cells[kind[0]]
+        if kind[0] == i:
+            continue
+        if np.abs(shape - (first - first[0])).max() <= 2.0 * tolerance:
+            kind.append(i)
+        else:
+            kinds[f"{i}".encode()] = [i]
+    rows = []
+    for kind in kinds.values():
+        where = np.array([cells[i][0] for i in kind])
+        steps = where[1:] - where[0]
+        best = [[i] for i in kind]
+        for j in np.argsort((steps * steps).sum(axis=1))[:6].tolist():  # the directions of the nearest copies
+            length = float(np.hypot(steps[j, 0], steps[j, 1]))
+            if length <= tolerance:
+                continue
+            ux, uy = (steps[j] / length).tolist()
+            across, along = where[:, 1] * ux - where[:, 0] * uy, where[:, 0] * ux + where[:, 1] * uy
+            order = np.argsort(across, kind="stable")
+            ends = np.flatnonzero(np.diff(across[order]) > 4.0 * tolerance) + 1
+            found = [part[np.argsort(along[part], kind="stable")] for part in np.split(order, ends)]
+            if len(found) < len(best) and all(np.ptp(across[part]) <= 8.0 * tolerance for part in found):
+                best = [[kind[i] for i in part.tolist()] for part in found]
+        rows += best
+    return rows
+
+
+def _cells_around(vertices, rings):
+    """The cells that surround each vertex; none for a vertex at a rim.
+
+    Cells surround a vertex when their edges to it pair up and their angles sum to a full turn.
+
+    Args:
+        vertices: Corner points (v, 2) in m.
+        rings: Vertex indices of each cell's corners, counter-clockwise.
+    """
+    cells = [[] for _ in vertices]
+    ways = [set() for _ in vertices]
+    angle = [0.0] * len(vertices)
+    for i, ring in enumerate(rings):
+        after = vertices[np.roll(ring, -1)] - vertices[ring]
+        before = vertices[np.roll(ring, 1)] - vertices[ring]
+        turn = np.arctan2(after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0], (after * before).sum(axis=1))
+        for v, left, right, t in zip(
+            ring.tolist(), np.roll(ring, 1).tolist(), np.roll(ring, -1).tolist(), turn.tolist(), strict=True
+        ):
+            cells[v].append(i)
+            ways[v] |= {(1, left), (-1, right)}  # the way out of one cell is the way into the next
+            angle[v] += t if t >= 0.0 else t + 2.0 * np.pi
+    found = []
+    for v, near in enumerate(cells):
+        n = len(near)
+        paired = {a for way, a in ways[v] if way == 1} == {a for way, a in ways[v] if way == -1}
+        whole = n > 2 and len(ways[v]) == 2 * n and paired and abs(angle[v] - 2.0 * np.pi) < 1e-6
+        found.append(near if whole else [])
+    return found

@@ -1,0 +1,130 @@
+"""Kernels of one sole against sums by `math.fsum` and hulls in exact fractions."""
+
+import itertools
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar import HexLattice, hex_layout
+from plantar.kernels.sole import SoleKernel
+from plantar.polygon import area, centroid, convex_hull
+
+OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
+LAYOUTS = {
+    "clipped": hex_layout(OUTLINE),
+    "whole": hex_layout(OUTLINE, clip=False),
+    "turned": hex_layout(OUTLINE, clip=False, angle=1.1, origin=(0.007, 0.002)),
+    "upright": hex_layout(OUTLINE, clip=False, angle=math.pi / 2),
+    "small": hex_layout(OUTLINE, cell_area=150e-6),
+}
+seeds = st.integers(0, 2**32 - 1)
+layouts = st.sampled_from(sorted(LAYOUTS))
+
+
+def exact_hull_area(points):
+    """Area of the hull by the monotone chain in fractions."""
+    cloud = sorted({(Fraction(x), Fraction(y)) for x, y in points})
+
+    def chain(sequence):
+        out = []
+        for p in sequence:
+            while len(out) > 1:
+                (ax, ay), (bx, by) = out[-2:]
+                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0:
+                    break
+                out.pop()
+            out.append(p)
+        return out[:-1]
+
+    ring = chain(cloud) + chain(cloud[::-1])
+    return float(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) / 2)
+
+
+def corners_of(layout, active):
+    """Corners of the active cells, cell by cell."""
+    return np.concatenate([layout.cell_polygon(int(i)) for i in np.flatnonzero(active)])
+
+
+@given(seeds, layouts)
+@settings(max_examples=200)
+def test_hull_is_that_of_the_active_cells_corners(seed, name):
+    layout = LAYOUTS[name]
+    rng = np.random.default_rng(seed)
+    active = rng.random(len(layout)) < rng.random()
+    active[rng.integers(len(layout))] = True
+    polygon, size, x, y = layout.kernel.hull(active)
+    assert polygon.tolist() == convex_hull(corners_of(layout, active)).tolist()
+    assert size == pytest.approx(exact_hull_area(corners_of(layout, active)), rel=1e-12)
+    assert size == pytest.approx(area(polygon), rel=1e-15)
+    assert (x, y) == pytest.approx(centroid(polygon).tolist(), rel=1e-15)
+
+
+def test_every_pattern_of_three_rows_has_the_exact_hull():
+    """All 511 patterns of a 3 x 3 lattice, turned by every 30 degrees; GEOS gets some of such patterns wrong."""
+    axial = [(q - r // 2, r) for r in range(3) for q in range(3)]
+    for angle in np.arange(4) * math.pi / 6:
+        lattice = HexLattice(691e-6, (0.013, -0.02), float(angle))
+        layout = hex_layout(np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * 0.2, angle=float(angle), cells=axial)
+        keys = lattice.corner_keys(np.array(axial))
+        unit = 0.5 * lattice.width * 0.5 * lattice.side
+        for pattern in itertools.product([False, True], repeat=9):
+            active = np.array(pattern)
+            polygon, size, _x, _y = layout.kernel.hull(active)
+            if not active.any():
+                assert polygon.shape == (0, 2)
+                continue
+            integers = keys[active].reshape(-1, 2).tolist()
+            assert size == pytest.approx(exact_hull_area(integers) * unit, rel=1e-12)
+
+
+@given(seeds, layouts)
+def test_loads_are_the_sums(seed, name):
+    layout = LAYOUTS[name]
+    rng = np.random.default_rng(seed)
+    force = rng.uniform(-1.0, 60.0, len(layout)) * 10.0 ** rng.integers(-12, 9)
+    active = rng.random(len(layout)) < 0.5
+    got = layout.kernel.loads(force, active)
+    on = np.flatnonzero(active).tolist()
+    terms = [np.cross(layout.positions[i], [0.0, 0.0, force[i]]).tolist() for i in on]
+    scale = math.fsum(abs(float(force[i])) for i in on)
+    assert got[2] == pytest.approx(math.fsum(float(force[i]) for i in on), abs=1e-14 * scale)
+    for j in range(3):
+        assert got[3 + j] == pytest.approx(math.fsum(t[j] for t in terms), abs=1e-14 * scale)
+    assert got[6] == pytest.approx(math.fsum(float(layout.areas[i]) for i in on), rel=1e-14)
+    if got[2] > 0.0:
+        assert got[7] == pytest.approx(-got[4] / got[2])
+        assert got[8] == pytest.approx(got[3] / got[2])
+    else:
+        assert np.isnan(got[7:]).all()
+
+
+def test_a_curved_sole_counts_the_direction_of_each_taxel():
+    normal = np.array([[0.6, 0.0, 0.8], [0.0, 0.0, 1.0]])
+    positions = np.array([[0.1, 0.0, 0.02], [0.0, 0.1, 0.0]])
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    kernel = SoleKernel(positions, normal, [1.0, 1.0], corners, [0, 3, 6], [0, 1, 2, 0, 1, 2])
+    got = kernel.loads(np.array([10.0, 5.0]), np.array([True, True]))
+    force = normal * np.array([[10.0], [5.0]])
+    assert got[:3] == pytest.approx(force.sum(axis=0))
+    assert got[3:6] == pytest.approx(np.cross(positions, force).sum(axis=0))
+    assert got[7:] == pytest.approx((force[:, 2:] * positions[:, :2]).sum(axis=0) / force[:, 2].sum())
+
+
+def test_cells_that_lie_on_each_other_hide_no_corner():
+    """Three copies of one hexagon have angles of a full turn at each corner, and yet no cell surrounds it."""
+    angle = np.arange(6) * math.pi / 3
+    vertices = np.column_stack([np.cos(angle), np.sin(angle)])
+    kernel = SoleKernel(np.zeros((3, 3)), [[0, 0, 1.0]] * 3, [1.0] * 3, vertices, [0, 6, 12, 18], list(range(6)) * 3)
+    polygon, size, _x, _y = kernel.hull(np.ones(3, dtype=bool))
+    assert len(polygon) == 6
+    assert size == pytest.approx(1.5 * math.sqrt(3.0))
+
+
+def test_a_sole_without_taxels():
+    kernel = SoleKernel(np.empty((0, 3)), np.empty((0, 3)), [], np.empty((0, 2)), [0], [])
+    assert kernel.hull(np.empty(0, dtype=bool))[0].shape == (0, 2)
+    assert kernel.loads(np.empty(0), np.empty(0, dtype=bool))[:7].tolist() == [0.0] * 7
