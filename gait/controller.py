@@ -187,7 +187,7 @@ class WalkingController:
         self._swing_step = -1
         self._ticks = 0
         self.replans = 0
-        self._compensation = PostureCompensation(settings.period, fade=settings.timing.double_support)
+        self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
         self._landed = True
         self._lowered = self._lowering = 0.0
         self._anchor = feet["left"].position
