@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError, ReadingError
 from plantar.layout import SoleLayout
-from plantar.polygon import convex_hull
 
 __all__ = [
     "HeightContour",
@@ -104,11 +103,8 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
     chosen = np.asarray(taxels, dtype=bool)
     if chosen.shape != (len(layout),):
         raise ReadingError(f"mask has shape {chosen.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    if not chosen.any():
-        return np.empty((0, 2))
-    used = np.zeros(len(layout.vertices), dtype=bool)
-    used[layout.corner_vertex[np.repeat(chosen, np.diff(layout.corner_start))]] = True
-    return convex_hull(layout.vertices[used, :2])
+    polygon: NDArray[np.float64] = layout.kernel.hull(chosen)[0]
+    return polygon
 
 
 def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float) -> NDArray[np.float64]:
