@@ -1,0 +1,140 @@
+"""Comparing routes to one result: time of a call, and error against an independent reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from plantar.bench.timing import time_routes
+
+__all__ = ["Reference", "Result", "Route", "compare"]
+
+
+class Route(NamedTuple):
+    """One way to a result."""
+
+    name: str
+    call: Callable[[Any], object]
+    """What is timed: a function of one case."""
+    cases: Sequence[Any]
+    value: Callable[[Any], ArrayLike] = lambda result: result
+    """What is compared, from what `call` returns; not timed."""
+    ours: bool = False
+    approximate: bool = False
+    """Whether the route is one by nature, not by rounding."""
+
+
+class Reference(NamedTuple):
+    """What is right for each case, and what an error is measured by."""
+
+    values: Sequence[ArrayLike]
+    scales: Sequence[float] | None = None
+    """Size by which an error is divided; the reference's largest component where None."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """Time and error of one route.
+
+    Attributes:
+        kernel: What is computed.
+        size: Active taxels, or what else the size is.
+        route: Name of the route.
+        ours: Whether it is of this package.
+        approximate: Whether it approximates by nature.
+        median_us: Median time of a call in microseconds.
+        spread: Interquartile range of the rounds, as a share of the median.
+        ratio: Its time over that of our first route in the same run.
+        error: Largest relative error over the cases; None where there is nothing to compare.
+    """
+
+    kernel: str
+    size: str
+    route: str
+    ours: bool
+    approximate: bool
+    median_us: float
+    spread: float
+    ratio: float
+    error: float | None
+
+    def as_dict(self) -> dict[str, Any]:
+        """The fields by name."""
+        return asdict(self)
+
+
+def compare(
+    kernel: str,
+    size: str,
+    routes: Sequence[Route],
+    reference: Reference | None,
+    rounds: int = 9,
+    most: float = 0.5,
+) -> list[Result]:
+    """Time routes interleaved, and compare what they give with the reference.
+
+    Args:
+        kernel: What is computed.
+        size: What size it has.
+        routes: The routes, our own first.
+        reference: What is right; None where there is nothing to compare.
+        rounds: Rounds to take the median over.
+        most: Time in s to spend on a route.
+
+    Returns:
+        A result a route, in the order of the routes. A route that raises counts as wrong altogether: error 1.
+
+    Example:
+        >>> routes = [Route("builtin", sum, [[1.0, 2.0]], ours=True), Route("first", min, [[1.0, 2.0]])]
+        >>> [r.error for r in compare("sum", "2", routes, Reference([3.0]), rounds=3)]
+        [0.0, 0.6666666666666666]
+    """
+    errors = {r.name: _error(r, reference) for r in routes}
+    times = time_routes({r.name: _shielded(r.call) for r in routes}, {r.name: r.cases for r in routes}, rounds, most)
+    base = times[routes[0].name].median
+    return [
+        Result(
+            kernel,
+            size,
+            r.name,
+            r.ours,
+            r.approximate,
+            1e6 * times[r.name].median,
+            times[r.name].spread,
+            times[r.name].median / base,
+            errors[r.name],
+        )
+        for r in routes
+    ]
+
+
+def _shielded(call: Callable[[Any], object]) -> Callable[[Any], object]:
+    """A library may raise on a case; it is timed all the same."""
+
+    def run(case: Any) -> object:
+        try:
+            return call(case)
+        except Exception:
+            return None
+
+    return run
+
+
+def _error(route: Route, reference: Reference | None) -> float | None:
+    if reference is None:
+        return None
+    worst = 0.0
+    for i, (case, right) in enumerate(zip(route.cases, reference.values, strict=True)):
+        wanted = np.asarray(right, dtype=float)
+        scale = float(np.abs(wanted).max()) if reference.scales is None else reference.scales[i]
+        try:
+            got = np.asarray(route.value(route.call(case)), dtype=float)
+            error = float(np.abs(got - wanted).max()) / scale if got.shape == wanted.shape else 1.0
+        except Exception:
+            error = 1.0
+        worst = max(worst, error if np.isfinite(error) else 1.0)
+    return worst

@@ -1,0 +1,233 @@
+"""Run time against error of the perception's kernels, beside other libraries and routes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import enclosing, inscribed, polygon
+from plantar.bench import references as exact
+from plantar.bench import rivals
+from plantar.bench.comparison import Reference, Result, Route, compare
+from plantar.bench.soles import Contact, contacts
+from plantar.kernels.sole import SoleKernel
+from plantar.layout import SoleLayout
+from plantar.outline import Outline, concave_outline
+
+__all__ = ["OFFSET", "compare_shapes", "sole_kernel"]
+
+Array = NDArray[np.float64]
+
+OFFSET = 0.01
+"""Distance in m of the inner offset that is measured."""
+
+
+def sole_kernel(layout: SoleLayout) -> SoleKernel:
+    """The kernel of a sole, made once and kept by the caller."""
+    return SoleKernel(
+        layout.positions,
+        layout.rotations[:, :, 2],
+        layout.areas,
+        layout.vertices[:, :2],
+        layout.corner_start,
+        layout.corner_vertex,
+    )
+
+
+def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
+    """Compare the kernels of support polygon, outline and shapes for one number of active taxels.
+
+    Args:
+        size: One of `plantar.bench.soles.SIZES`.
+        rounds: Rounds to take the median over.
+
+    Yields:
+        Name of each kernel and the results of its routes.
+    """
+    found = contacts(size)
+    few = found[:4] if size == "dense" else found[:6]
+    hulls = [polygon.convex_hull(c.points) for c in few]
+    measures: tuple[tuple[str, Callable[[], tuple[list[Route], Reference]]], ...] = (
+        ("hull + area", lambda: _hull(found if size != "dense" else few)),
+        ("concave outline", lambda: _outline(few)),
+        ("closest point", lambda: _closest(hulls)),
+        ("inner offset", lambda: _offset(hulls)),
+        ("triangle inside", lambda: _triangle(hulls)),
+        ("parallelogram inside", lambda: _parallelogram(hulls[:2])),
+        ("circle inside", lambda: _circle(hulls)),
+        ("rectangle inside, axis-aligned", lambda: _rectangle(hulls[:4])),
+        ("rectangle inside, any angle", lambda: _any_rectangle(hulls[1:2])),
+        ("rectangle in the outline", lambda: _outline_rectangle(few[:3])),
+        ("rectangle in the outline, any angle", lambda: _outline_any_rectangle(few[1:3])),
+        ("parallelogram around", lambda: _around(hulls)),
+        ("box around, any angle", lambda: _box(hulls)),
+    )
+    for name, make in measures:
+        routes, reference = make()
+        yield name, compare(name, size, routes, reference, rounds)
+
+
+def _size(ring: Array) -> float:
+    return abs(polygon.area(ring))
+
+
+def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+    kernel = sole_kernel(found[0].layout)
+    masks = [c.active for c in found]
+    points = [c.points for c in found]
+    routes = [
+        Route("plantar, from active taxels", kernel.hull, masks, lambda r: r[1], ours=True),
+        Route("plantar, from points", lambda p: polygon.area(polygon.convex_hull(p)), points, ours=True),
+        Route("scipy ConvexHull", rivals.hull_scipy, points),
+        Route("shapely convex_hull", rivals.hull_shapely, points),
+        Route("cv2 convexHull (float32)", rivals.hull_cv2, [p.astype(np.float32) for p in points]),
+        Route("plain Python loops", rivals.hull_in_loops, [[tuple(q) for q in p.tolist()] for p in points]),
+    ]
+    return routes, Reference([exact.hull_area_exact(p) for p in points])
+
+
+def _outline(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+    layout = found[0].layout
+    cells = [c.cells for c in found]
+    points = [c.points for c in found]
+    radius = 1.1 * float(np.sqrt(layout.cell_area * 2.0 / (3.0 * np.sqrt(3.0))))
+    routes = [
+        Route(
+            "plantar",
+            lambda mask: concave_outline(layout, mask).area,
+            [c.active for c in found],
+            ours=True,
+        ),
+        Route("shapely coverage_union_all", rivals.outline_coverage, cells),
+        Route("shapely union_all", rivals.outline_union, cells),
+        Route("shapely concave_hull", rivals.concave_hull_area, points, approximate=True),
+        Route("alpha shape (scipy Delaunay)", lambda p: rivals.alpha_shape_area(p, radius), points, approximate=True),
+    ]
+    return routes, Reference([exact.area_exact(c) for c in cells])
+
+
+def _closest(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    import shapely
+
+    rng = np.random.default_rng(1)
+    cases = [(h, h.mean(axis=0) + rng.uniform(-0.15, 0.15, 2)) for h in hulls for _ in range(3)]
+    prepared = [(shapely.Polygon(h), p) for h, p in cases]
+    lists = [([tuple(v) for v in h.tolist()], tuple(p.tolist())) for h, p in cases]
+    routes = [
+        Route("plantar", lambda case: polygon.closest_point(*case), cases, ours=True),
+        Route("shapely nearest_points, with construction", rivals.closest_shapely, cases),
+        Route("shapely nearest_points, polygon ready", rivals.closest_shapely_ready, prepared),
+        Route("numpy, all edges", rivals.closest_numpy, cases),
+        Route("plain Python loops", rivals.closest_in_loops, lists),
+    ]
+    values = [exact.closest_point_exact(h, p) for h, p in cases]
+    return routes, Reference(values, [float(np.ptp(h)) for h, _ in cases])
+
+
+def _offset(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", lambda h: polygon.inner_offset(h, OFFSET), hulls, _size, ours=True),
+        Route("shapely buffer, mitred", lambda h: rivals.offset_shapely(h, OFFSET, "mitre"), hulls),
+        Route("shapely buffer, round", lambda h: rivals.offset_shapely(h, OFFSET, "round"), hulls),
+    ]
+    return routes, Reference([exact.inner_offset_area(h, OFFSET) for h in hulls])
+
+
+def _triangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", inscribed.inscribed_triangle, hulls, _size, ours=True),
+        Route("numpy, all triples", rivals.triangle_numpy, hulls),
+    ]
+    return routes, Reference([exact.triangle_area_exact(h) for h in hulls])
+
+
+def _parallelogram(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", inscribed.inscribed_parallelogram, hulls, _size, ours=True),
+        Route(
+            "numpy, 48 directions", partial(exact.parallelogram_area, samples=48, finest=1.0), hulls, approximate=True
+        ),
+        Route("numpy, nested search", exact.parallelogram_area, hulls),
+    ]
+    return routes, Reference([exact.parallelogram_area(h) for h in hulls])
+
+
+def _circle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    def radius(circle: inscribed.Circle) -> float:
+        return circle.radius
+
+    routes = [
+        Route("plantar", inscribed.inscribed_circle, hulls, radius, ours=True),
+        Route("shapely maximum_inscribed_circle", rivals.circle_shapely, hulls, approximate=True),
+    ]
+    return routes, Reference([exact.circle_radius(h) for h in hulls])
+
+
+def _rectangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", inscribed.inscribed_rectangle, hulls, _size, ours=True),
+        Route("scipy SLSQP", rivals.rectangle_slsqp, hulls),
+        Route("scipy SLSQP, exact gradients", lambda h: rivals.rectangle_slsqp(h, True), hulls),
+    ]
+    return routes, Reference([exact.rectangle_area(h) for h in hulls])
+
+
+def _any_rectangle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", inscribed.inscribed_rectangle_any_angle, hulls, _size, ours=True),
+        Route("scipy SLSQP at 32 angles", rivals.rectangle_slsqp_any_angle, hulls, approximate=True),
+    ]
+    return routes, Reference([exact.rectangle_area_any_angle(h) for h in hulls])
+
+
+def _outline_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+    outlines = [concave_outline(c.layout, c.active) for c in found]
+    rings = [list(o.rings) for o in outlines]
+    routes = [
+        Route("plantar", inscribed.rectangle_in_outline, outlines, _size, ours=True),
+        Route("largestinteriorrectangle's method, 1 mm", rivals.interior_rectangle, rings, approximate=True),
+        Route("histogram stack, 1 mm", rivals.histogram_rectangle, rings, approximate=True),
+    ]
+    return routes, Reference([_best_known(o, 0.0) for o in outlines])
+
+
+def _outline_any_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+    outlines = [concave_outline(c.layout, c.active) for c in found]
+    rings = [list(o.rings) for o in outlines]
+    routes = [
+        Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, _size, ours=True),
+        Route("histogram stack, 1 mm, 16 angles", rivals.histogram_any_angle, rings, approximate=True),
+    ]
+    angles = np.arange(0.0, 90.0, 0.5)
+    return routes, Reference([max(_best_known(o, float(a)) for a in np.deg2rad(angles)) for o in outlines])
+
+
+def _best_known(outline: Outline, angle: float) -> float:
+    """Area in m^2 of the best rectangle known at an angle: ours once shapely finds it inside, or the reference's."""
+    import shapely
+
+    corners = inscribed.rectangle_in_outline(outline, angle)
+    parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
+    outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
+    ours = _size(corners) if outside < 1e-9 * _size(corners) else 0.0
+    return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
+
+
+def _around(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", enclosing.enclosing_parallelogram, hulls, _size, ours=True),
+        Route("numpy, all pairs of edges", rivals.parallelogram_around_numpy, hulls),
+    ]
+    return routes, Reference([exact.least_parallelogram_area(h) for h in hulls])
+
+
+def _box(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
+    routes = [
+        Route("plantar", enclosing.oriented_box, hulls, _size, ours=True),
+        Route("shapely oriented_envelope", rivals.box_shapely, hulls),
+        Route("cv2 minAreaRect (float32)", rivals.box_cv2, [h.astype(np.float32) for h in hulls]),
+    ]
+    return routes, Reference([exact.least_box_area(h) for h in hulls])

@@ -1,0 +1,423 @@
+"""Independent references: exact integers and fractions where a result is rational, nested searches where it is not.
+
+None shares code with the kernels; all are slow.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "area_exact",
+    "circle_radius",
+    "closest_point_exact",
+    "hull_area_exact",
+    "inner_offset_area",
+    "integers",
+    "least_box_area",
+    "least_parallelogram_area",
+    "outline_rectangle_area",
+    "parallelogram_area",
+    "rectangle_area",
+    "rectangle_area_any_angle",
+    "triangle_area_exact",
+    "wrench_exact",
+]
+
+Array = NDArray[np.float64]
+Point = tuple[int, int]
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+
+
+def integers(points: Array) -> tuple[list[Point], int]:
+    """Points (n, 2) as integers without rounding: each coordinate times a common power of 2.
+
+    Args:
+        points: Finite points (n, 2) in m.
+
+    Returns:
+        The integer points and the power of 2.
+
+    Example:
+        >>> integers(np.array([[0.5, 3.0]]))
+        ([(1, 6)], 2)
+    """
+    ratios = [float(v).as_integer_ratio() for v in np.asarray(points).reshape(-1)]
+    scale = max((d for _, d in ratios), default=1)
+    flat = [n * (scale // d) for n, d in ratios]
+    return list(zip(flat[::2], flat[1::2], strict=True)), scale
+
+
+def _turn(a: Point, b: Point, c: Point) -> int:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def _twice(ring: Sequence[Point]) -> int:
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise([*ring, ring[0]]))
+
+
+def hull_area_exact(points: Array) -> float:
+    """Area in m^2 of the hull of points (n, 2): monotone chain in integers.
+
+    Example:
+        >>> hull_area_exact(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.25, 0.25]]))
+        0.5
+    """
+    whole, scale = integers(points)
+    ordered = sorted(set(whole))
+    ring: list[Point] = []
+    for sequence in (ordered, ordered[::-1]):
+        chain: list[Point] = []
+        for p in sequence:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], p) <= 0:
+                chain.pop()
+            chain.append(p)
+        ring += chain[:-1]
+    return float(Fraction(_twice(ring), 2 * scale * scale)) if len(ring) > 2 else 0.0
+
+
+def area_exact(rings: Sequence[Array]) -> float:
+    """Sum in m^2 of the signed areas of rings (k, 2), in integers; exact up to the last rounding."""
+    total = Fraction(0)
+    for ring in rings:
+        whole, scale = integers(ring)
+        total += Fraction(_twice(whole), 2 * scale * scale)
+    return float(total)
+
+
+def closest_point_exact(polygon: Array, point: Array) -> Array:
+    """Point of a convex counter-clockwise polygon that is closest to a point (2,), in fractions.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        point: Point in m.
+
+    Returns:
+        The closest point (2,) in m, rounded at the end.
+    """
+    ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
+    px, py = (Fraction(float(v)) for v in point)
+    best: tuple[Fraction, Fraction, Fraction] | None = None
+    outside = False
+    for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
+        lx, ly = bx - ax, by - ay
+        outside |= (px - ax) * ly - (py - ay) * lx > 0
+        t = max(Fraction(0), min(Fraction(1), ((px - ax) * lx + (py - ay) * ly) / (lx * lx + ly * ly)))
+        qx, qy = ax + t * lx, ay + t * ly
+        distance = (px - qx) ** 2 + (py - qy) ** 2
+        if best is None or distance < best[0]:
+            best = (distance, qx, qy)
+    assert best is not None
+    return np.array([float(best[1]), float(best[2])]) if outside else np.asarray(point, dtype=float)
+
+
+def inner_offset_area(polygon: Array, distance: float) -> float:
+    """Area in m^2 of what keeps a distance from every edge of a convex counter-clockwise polygon.
+
+    Half planes cut one after another, in fractions rounded to 2^-200; lengths by integer square roots.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        distance: Distance in m.
+
+    Returns:
+        The area; 0 where nothing is left.
+    """
+    unit = 1 << 200
+    ring = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
+    left = ring
+    for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True):
+        lx, ly = bx - ax, by - ay
+        squared = lx * lx + ly * ly
+        length = Fraction(math.isqrt(squared.numerator * unit * unit // squared.denominator), unit)
+        level = Fraction(distance) * length
+        depth = [lx * (y - ay) - ly * (x - ax) - level for x, y in left]
+        kept: list[tuple[Fraction, Fraction]] = []
+        for i, (x, y) in enumerate(left):
+            u, v = left[i - 1]
+            if (depth[i] >= 0) != (depth[i - 1] >= 0):
+                t = depth[i - 1] / (depth[i - 1] - depth[i])
+                kept.append((_rounded(u + t * (x - u), unit), _rounded(v + t * (y - v), unit)))
+            if depth[i] >= 0:
+                kept.append((x, y))
+        left = kept
+    if len(left) < 3:
+        return 0.0
+    return float(sum((a[0] * b[1] - b[0] * a[1] for a, b in pairwise([*left, left[0]])), Fraction(0)) / 2)
+
+
+def _rounded(value: Fraction, unit: int) -> Fraction:
+    return Fraction(value.numerator * unit // value.denominator, unit)
+
+
+def triangle_area_exact(polygon: Array) -> float:
+    """Area in m^2 of the largest triangle on a polygon's vertices (k, 2): all triples, in integers."""
+    whole, scale = integers(polygon)
+    most = max((abs(_turn(a, b, c)) for a, b, c in combinations(whole, 3)), default=0)
+    return float(Fraction(most, 2 * scale * scale))
+
+
+def least_box_area(polygon: Array) -> float:
+    """Area in m^2 of the least rectangle around a convex polygon (k, 2): one side along each edge, in fractions."""
+    whole, scale = integers(polygon)
+    areas = []
+    for (ax, ay), (bx, by) in zip(whole, whole[1:] + whole[:1], strict=True):
+        lx, ly = bx - ax, by - ay
+        along = [x * lx + y * ly for x, y in whole]
+        across = [y * lx - x * ly for x, y in whole]
+        areas.append(Fraction((max(along) - min(along)) * (max(across) - min(across)), lx * lx + ly * ly))
+    return float(min(areas) / (scale * scale))
+
+
+def least_parallelogram_area(polygon: Array) -> float:
+    """Area in m^2 of the least parallelogram around a convex polygon (k, 2): all pairs of edges, in fractions."""
+    whole, scale = integers(polygon)
+    edges = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(whole, whole[1:] + whole[:1], strict=True)]
+    widths = []
+    for lx, ly in edges:
+        across = [y * lx - x * ly for x, y in whole]
+        widths.append(max(across) - min(across))
+    areas = [
+        Fraction(widths[i] * widths[j], abs(turn))
+        for i, j in combinations(range(len(edges)), 2)
+        if (turn := edges[i][0] * edges[j][1] - edges[i][1] * edges[j][0])
+    ]
+    return float(min(areas) / (scale * scale))
+
+
+def circle_radius(polygon: Array) -> float:
+    """Radius in m of the largest circle in a convex counter-clockwise polygon (k, 2): all triples of edges."""
+    edge = np.roll(polygon, -1, axis=0) - polygon
+    normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
+    level = (normal * (polygon - polygon[0])).sum(axis=1)
+    best = 0.0
+    for triple in combinations(range(len(polygon)), 3):
+        rows = list(triple)
+        matrix = np.column_stack([normal[rows], -np.ones(3)])
+        if abs(float(np.linalg.det(matrix))) < 1e-9:
+            continue
+        x, y, radius = np.linalg.solve(matrix, level[rows]).tolist()
+        depth = normal @ [x, y] - level
+        if radius > best and float(depth.min()) >= radius * (1.0 - 1e-12) - 1e-15:
+            best = radius
+    return best
+
+
+def _golden(gain: Callable[[Array], Array], low: Array, high: Array, steps: int = 60) -> Array:
+    """Largest value of many concave functions at once, each between its own bounds (m,), by golden section."""
+    c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    at_c, at_d = gain(c), gain(d)
+    best = np.maximum(at_c, at_d)
+    for _ in range(steps):
+        left = at_c > at_d
+        low, high = np.where(left, low, c), np.where(left, d, high)
+        c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        at_c, at_d = gain(c), gain(d)
+        best = np.maximum(best, np.maximum(at_c, at_d))
+    return best
+
+
+def _chains(polygon: Array, angles: Array) -> tuple[Array, Array, Array, Array]:
+    """Edge lines of a polygon turned back by angles (m,): slopes and levels (m, k) of upper and lower edges."""
+    c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    x, y = (polygon - polygon.mean(axis=0)).T
+    px, py = c * x + s * y, c * y - s * x
+    dx, dy = np.roll(px, -1, axis=1) - px, np.roll(py, -1, axis=1) - py
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = dy / dx
+        level = py - slope * px
+    upright = np.abs(dx) < 1e-13 * float(np.ptp(polygon))
+    upper = np.where((dx < 0.0) & ~upright, level, np.inf)
+    lower = np.where((dx > 0.0) & ~upright, level, -np.inf)
+    slope = np.where(upright, 0.0, slope)
+    return slope, upper, lower, px
+
+
+def _rectangles(polygon: Array, angles: Array) -> Array:
+    """Area (m,) of the largest rectangle in a convex polygon at each angle (m,): golden section in golden section."""
+    slope, upper, lower, px = _chains(polygon, angles)
+    left, right = px.min(axis=1), px.max(axis=1)
+
+    def height(x: Array, width: Array) -> Array:
+        ends = (x[:, None], (x + width)[:, None])
+        top = np.minimum(*((slope * e + upper).min(axis=1) for e in ends))
+        bottom = np.maximum(*((slope * e + lower).max(axis=1) for e in ends))
+        return np.asarray(top - bottom)
+
+    def area(width: Array) -> Array:
+        return width * _golden(lambda x: height(x, width), left, right - width)
+
+    return _golden(area, np.zeros_like(left), right - left)
+
+
+def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
+    """Area in m^2 of the largest rectangle at an angle in a convex counter-clockwise polygon (k, 2).
+
+    Args:
+        polygon: Polygon in m.
+        angle: Angle of its first side in rad.
+
+    Returns:
+        The area: of each width the best place and of these the best width, both by golden section.
+
+    Example:
+        >>> round(rectangle_area(np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])), 9)
+        3.0
+    """
+    return float(_rectangles(polygon, np.array([angle]))[0])
+
+
+def _search(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
+    """Largest value over a period: samples, then ever finer ones around the best of them."""
+    step = period / samples
+    angles = np.arange(samples) * step
+    found = values(angles)
+    centres = angles[np.argsort(found)[-4:]]
+    best = float(found.max())
+    while step > finest:
+        step *= 0.25
+        tried = np.unique((centres[:, None] + step * np.arange(-4, 5)).reshape(-1))
+        found = values(tried)
+        best = max(best, float(found.max()))
+        centres = tried[np.argsort(found)[-4:]]
+    return best
+
+
+def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
+    """Area in m^2 of the largest rectangle at any angle in a convex counter-clockwise polygon.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        samples: Angles tried first, over a quarter turn.
+
+    Returns:
+        The best area found: the samples, then a finer and finer search around the best four.
+    """
+    return _search(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
+
+
+def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-10) -> float:
+    """Area in m^2 of the largest parallelogram in a convex counter-clockwise polygon.
+
+    With two sides in one direction, both as long as some length, the best is that length times the distance of the two
+    farthest chords that have it. The length is searched for by golden section, the direction over half a turn.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        samples: Directions tried first.
+        finest: Step in rad at which the search around the best of them ends.
+
+    Returns:
+        The best area found.
+    """
+    size = len(polygon)
+
+    def best(angles: Array) -> Array:
+        slope, upper, lower, px = _chains(polygon, angles)
+        place = np.sort(px, axis=1)  # between them the chord's length is linear
+        length = np.array(
+            [
+                (slope * place[:, k : k + 1] + upper).min(axis=1) - (slope * place[:, k : k + 1] + lower).max(axis=1)
+                for k in range(size)
+            ]
+        ).T
+
+        def area(chord: Array) -> Array:
+            inside = length >= chord[:, None]
+            first = np.argmax(inside, axis=1)
+            last = size - 1 - np.argmax(inside[:, ::-1], axis=1)
+            rows = np.arange(len(chord))
+            ends = []
+            for at, beside in ((first, np.maximum(first - 1, 0)), (last, np.minimum(last + 1, size - 1))):
+                near, far = length[rows, at], length[rows, beside]
+                gap = near - far
+                share = np.where(gap > 0.0, (near - chord) / np.where(gap > 0.0, gap, 1.0), 0.0)
+                ends.append(place[rows, at] + np.minimum(share, 1.0) * (place[rows, beside] - place[rows, at]))
+            return np.where(inside.any(axis=1), chord * (ends[1] - ends[0]), 0.0)
+
+        return _golden(area, np.zeros(len(angles)), length.max(axis=1))
+
+    return _search(best, math.pi, samples, finest)
+
+
+def outline_rectangle_area(rings: Sequence[Array]) -> float:
+    """Area in m^2 of the largest axis-aligned rectangle in an outline with islands and holes.
+
+    Between two abscissae the edges block intervals of y, and the highest rectangle fills the largest gap inside. Pairs
+    of abscissae at and between the vertices are tried, then ever finer ones around the best of them.
+
+    Args:
+        rings: Rims of islands and holes (k, 2) in m.
+
+    Returns:
+        The best area found: never more than the largest one.
+    """
+    tail = np.concatenate(rings)
+    head = np.concatenate([np.roll(r, -1, axis=0) for r in rings])
+    turn = tail[:, 0] > head[:, 0]
+    left, right = np.where(turn[:, None], head, tail), np.where(turn[:, None], tail, head)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = (right[:, 1] - left[:, 1]) / (right[:, 0] - left[:, 0])
+
+    def areas(x0: Array, x1: Array) -> Array:
+        low, high = np.maximum(left[:, 0], x0[:, None]), np.minimum(right[:, 0], x1[:, None])
+        crossing = low < high
+        ends = [np.where(crossing, left[:, 1] + slope * (x - left[:, 0]), np.inf) for x in (low, high)]
+        bottom, top = np.minimum(*ends), np.maximum(*ends)
+        order = np.argsort(bottom, axis=1)
+        bottom = np.take_along_axis(bottom, order, axis=1)
+        reach = np.where(np.isfinite(bottom), np.take_along_axis(top, order, axis=1), -np.inf)
+        reach = np.maximum.accumulate(reach, axis=1)
+        gap = bottom[:, 1:] - reach[:, :-1]
+        # A gap is inside where an odd number of edges passes below it, halfway between the abscissae.
+        middle = 0.5 * (x0 + x1)[:, None]
+        passes = np.take_along_axis((left[:, 0] <= middle) & (middle < right[:, 0]), order, axis=1)
+        inside = np.cumsum(passes, axis=1)[:, :-1] % 2 == 1
+        height = np.where(inside & np.isfinite(gap), gap, 0.0).max(axis=1, initial=0.0)
+        return np.asarray((x1 - x0) * np.maximum(height, 0.0))
+
+    xs = np.unique(np.round(tail[:, 0], 12))
+    xs = np.unique(np.concatenate([xs, 0.5 * (xs[1:] + xs[:-1])]))
+    if len(xs) > 160:
+        xs = xs[:: len(xs) // 160 + 1]
+    i, j = np.triu_indices(len(xs), 1)
+    found = np.concatenate([areas(xs[a], xs[b]) for a, b in zip(*(np.array_split(k, 40) for k in (i, j)), strict=True)])
+    best = np.argsort(found)[-8:]
+    step = float(np.ptp(xs)) / len(xs)
+    grid = np.array([(p, q) for p in np.linspace(-1.0, 1.0, 9) for q in np.linspace(-1.0, 1.0, 9)])
+    most = 0.0
+    for k in best.tolist():
+        at, value, reach = np.array([xs[i[k]], xs[j[k]]]), float(found[k]), step
+        while reach > 1e-16:
+            tried = at + reach * grid
+            values = areas(tried[:, 0], tried[:, 1])
+            index = int(values.argmax())
+            if values[index] > value:
+                at, value = tried[index], float(values[index])
+            else:
+                reach *= 0.3
+        most = max(most, value)
+    return most
+
+
+def wrench_exact(columns: Array, force: Array) -> Array:
+    """Wrench (6,) of forces (n,) through columns (n, 6) of unit wrenches: `math.fsum` of exact products.
+
+    Args:
+        columns: Wrench of 1 N on each taxel.
+        force: Forces in N.
+
+    Returns:
+        The wrench in N and N m, each component rounded once.
+    """
+    loads = [Fraction(float(f)) for f in force]
+    sums = [
+        sum((Fraction(float(c)) * f for c, f in zip(column, loads, strict=True)), Fraction(0)) for column in columns.T
+    ]
+    return np.array([float(s) for s in sums])

@@ -1,0 +1,86 @@
+"""The stress run: a million readings thrown at every function of the perception, and what comes back checked."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from plantar.bench.stress_fields import FIELD_CHECKS
+from plantar.bench.stress_force import FORCE_CHECKS, LAST_CHECKS
+from plantar.bench.stress_shapes import SHAPE_CHECKS
+from plantar.bench.stress_soles import blocks_of, stress_soles
+from plantar.bench.tally import Tally, Tested
+from plantar.errors import InputError
+
+__all__ = ["StressResult", "stress"]
+
+
+@dataclass(frozen=True)
+class StressResult:
+    """What a stress run saw.
+
+    Attributes:
+        readings: Readings that were thrown.
+        seed: Seed of the run.
+        seconds: How long it took.
+        functions: Of each function or property the readings, the worst error, the bound and the failures.
+    """
+
+    readings: int
+    seed: int
+    seconds: float
+    functions: dict[str, Tested]
+
+    @property
+    def failures(self) -> int:
+        """Failures of all functions together."""
+        return sum(t.failures for t in self.functions.values())
+
+    def as_dict(self) -> dict[str, Any]:
+        """All figures, for `--json`."""
+        tested = [{"function": name, **asdict(t)} for name, t in sorted(self.functions.items())]
+        return {
+            "readings": self.readings,
+            "seed": self.seed,
+            "seconds": round(self.seconds, 1),
+            "failures": self.failures,
+            "functions": tested,
+        }
+
+
+def stress(
+    readings: int = 1_000_000, seed: int = 0, progress: Callable[[float, str], None] | None = None
+) -> StressResult:
+    """Throw readings at every public function of the perception.
+
+    A warning of numpy counts as a failure, since the code means to do without; so does what raises, hangs, gives NaN
+    unasked, or leaves its bound.
+
+    Args:
+        readings: How many, 1 or more.
+        seed: Of what is left to chance.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        Counts, worst errors and failures.
+
+    Raises:
+        InputError: If there is not at least one reading.
+    """
+    if readings < 1:
+        raise InputError(f"stress run of {readings} readings; allowed: 1 or more")
+    tally = Tally()
+    start = time.perf_counter()
+    done = 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for block in blocks_of(stress_soles(), readings, seed):
+            for check in (*FORCE_CHECKS, *SHAPE_CHECKS, *FIELD_CHECKS, *LAST_CHECKS):
+                tally.run(check, block)
+            done += len(block)
+            if progress is not None:
+                progress(done / readings, f"{done} readings, {tally.failures} failures")
+    return StressResult(done, seed, time.perf_counter() - start, tally.tested)

@@ -1,0 +1,175 @@
+"""Checks of proximity, temperature, acceleration, the ground's plane and the wrenches that nothing exerts."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import body_skin, ground_plane, proximity, temperature, virtual_wrench
+from plantar.bench.rings import Rings
+from plantar.bench.stress_soles import Block
+from plantar.bench.tally import Tally
+
+__all__ = ["FIELD_CHECKS"]
+
+Array = NDArray[np.float64]
+_GAIN = 50.0
+
+
+def near_ground(block: Block, tally: Tally) -> None:
+    """Near taxels, their polygons, contours that nest, and the virtual wrench."""
+    layout, distance, percepts = block.layout, block.proximity, block.percepts
+    reach = layout.proximity_range
+    known = np.where(np.isnan(distance), math.inf, distance)
+    near = known < layout.proximity_threshold
+    tally.add("near_taxels", block, (proximity.near_taxels(distance, layout.proximity_threshold) != near).any(axis=1))
+    seen = [i for i, p in enumerate(percepts) if p.near is not None]
+    wrong = [bool((percepts[i].near != near[i]).any()) for i in seen]
+    tally.add("Percept.near", block, wrong, 0.0, len(block))
+    hulls = [percepts[i].preemptive_polygon_in_sole for i in seen]
+    rings = Rings([h if h is not None else np.empty((0, 2)) for h in hulls])
+    tally.add("Percept.preemptive_polygon_in_sole: convex", block, rings.not_convex(), 0.0, len(block))
+    empty = (rings.size > 0) != near[seen].any(axis=1)
+    tally.add("Percept.preemptive_polygon_in_sole: empty", block, empty, 0.0, len(block))
+    direct = [proximity.preemptive_polygon(layout, distance[i], layout.proximity_threshold) for i in seen]
+    same = [h is not None and np.array_equal(a, h) for a, h in zip(direct, hulls, strict=True)]
+    tally.add("preemptive_polygon", block, ~np.array(same), 0.0, len(seen))
+    broken = []
+    for i in seen:
+        stack = percepts[i].height_contours_in_sole
+        assert stack is not None
+        masks = [c.taxels for c in stack]
+        broken.append(any(bool((a & ~b).any()) for a, b in zip(masks[:-1], masks[1:], strict=True)))
+    tally.add("Percept.height_contours_in_sole: nest", block, broken, 0.0, len(block))
+    measure = proximity.proximity_measure(distance, reach)
+    right = np.clip(reach - known, 0.0, reach)
+    tally.add("proximity_measure", block, np.abs(measure - right).max(axis=1) / reach, 1e-15)
+    normal = layout.rotations[:, :, 2]
+    columns = np.hstack([normal, np.cross(layout.positions, normal)]).astype(np.longdouble)
+    wanted = np.asarray(_GAIN * (right.astype(np.longdouble) @ columns), dtype=float)
+    scale = np.asarray(_GAIN * (right @ np.abs(columns)), dtype=float) + 1e-300
+    whole = virtual_wrench.virtual_ground_reaction_wrench(layout, distance, _GAIN)
+    tally.add("virtual_ground_reaction_wrench", block, (np.abs(whole - wanted) / scale).max(axis=1), 1e-14)
+    own = np.array([percepts[i].virtual_wrench_in_sole for i in seen])
+    tally.add(
+        "Percept.virtual_wrench_in_sole",
+        block,
+        (np.abs(own - wanted[seen]) / scale[seen]).max(axis=1),
+        1e-14,
+        len(block),
+    )
+
+
+def plane_of_ground(block: Block, tally: Tally) -> None:
+    """Planes are finite, as flat as their points allow, and found again where every taxel sees one plane."""
+    layout = block.layout
+    wrong = []
+    for p in block.percepts:
+        plane = p.ground_plane_in_sole
+        if plane is not None:
+            values = [plane.height, *plane.slope, plane.residual]
+            wrong.append(not all(math.isfinite(v) for v in values) or not plane.inliers.any())
+    tally.add("Percept.ground_plane_in_sole: finite", block, wrong, 0.0, len(block))
+    height, slope = 0.02, block.rng.uniform(-0.1, 0.1, 2)
+    if np.abs(layout.positions[:, 2]).max() == 0.0 and len(layout) > 3:
+        local = layout.positions[:, :2] - layout.positions[0, :2]
+        missed = []
+        for _ in range(0, len(block), 25):
+            reading = height + 0.1 * (local @ slope)
+            reading[int(block.rng.integers(len(layout)))] = np.nan
+            plane = ground_plane.fit_ground_plane(layout, reading)
+            assert plane is not None
+            level = plane.height_at(layout.positions[:, :2])
+            missed.append(float(np.abs(level - height - 0.1 * (local @ slope)).max()) if plane.directions == 2 else 0.0)
+        tally.add("fit_ground_plane: finds a plane", block, missed, 1e-9, len(missed))
+    points = ground_plane.ground_points(layout, block.proximity)
+    lost = np.isnan(points).any(axis=2) != ~np.isfinite(block.proximity)
+    tally.add("ground_points", block, lost.any(axis=1))
+
+
+def switches(block: Block, tally: Tally) -> None:
+    """The sole wrench's switch reading by reading as over frames, and the early stop."""
+    contact = np.array([p.wrench_in_sole for p in block.percepts])
+    contact[:: max(1, len(block) // 7)] = np.nan
+    virtual = virtual_wrench.virtual_ground_reaction_wrench(block.layout, block.proximity, _GAIN)
+    frames = virtual_wrench.sole_wrenches(contact, virtual, 30.0, 10.0)
+    switch = virtual_wrench.SoleWrenchSwitch(30.0, 10.0)
+    one = np.array([switch.update(c, v) for c, v in zip(contact, virtual, strict=True)])
+    tally.add("sole_wrenches as SoleWrenchSwitch", block, (frames != one).any(axis=1))
+    tally.add("sole_wrenches: no NaN", block, np.where(np.isfinite(frames), 0.0, np.nan).max(axis=1))
+    stop = virtual_wrench.early_stop(virtual, 1.0)
+    length = np.sqrt((virtual[:, :3].astype(np.longdouble) ** 2).sum(axis=1))
+    clear = np.abs(length - 1.0) > 1e-12
+    tally.add("early_stop", block, clear & (np.asarray(stop) != (length > 1.0)))
+
+
+def heat(block: Block, tally: Tally) -> None:
+    """Warm taxels, their footprint and the wrench away from heat."""
+    layout, readings, percepts = block.layout, block.temperature, block.percepts
+    level, highest = layout.temperature_threshold, 60.0
+    fine = np.isfinite(readings)
+    warm = np.where(fine, readings, -math.inf) >= level
+    tally.add("warm_taxels", block, (temperature.warm_taxels(readings, level) != warm).any(axis=1))
+    excess = np.where(warm, np.minimum(np.where(fine, readings, 0.0), highest) - level, 0.0)
+    got = temperature.temperature_measure(readings, level, highest)
+    tally.add("temperature_measure", block, np.abs(got - excess).max(axis=1) / highest, 1e-15)
+    normal = layout.rotations[:, :, 2]
+    columns = np.hstack([normal, np.cross(layout.positions, normal)])
+    scale = excess @ np.abs(columns) + 1e-300
+    wrenches = temperature.temperature_wrench(layout, readings)
+    tally.add("temperature_wrench", block, (np.abs(wrenches - excess @ columns) / scale).max(axis=1), 1e-14)
+    seen = [i for i in range(len(block)) if i % 16]
+    own = np.array([percepts[i].temperature_wrench_in_sole for i in seen])
+    tally.add(
+        "Percept.temperature_wrench_in_sole",
+        block,
+        (np.abs(own - wrenches[seen]) / scale[seen]).max(axis=1),
+        1e-14,
+        len(block),
+    )
+    found = [percepts[i].temperature_footprint_in_sole for i in seen]
+    rings = Rings([f if f is not None else np.empty((0, 2)) for f in found])
+    tally.add("Percept.temperature_footprint_in_sole: convex", block, rings.not_convex(), 0.0, len(block))
+    tally.add(
+        "Percept.temperature_footprint_in_sole: empty",
+        block,
+        (rings.size > 0) != warm[seen].any(axis=1),
+        0.0,
+        len(block),
+    )
+    missing = [percepts[i].temperature_wrench_in_sole is not None for i in range(0, len(block), 16)]
+    tally.add("Percept: None where a modality is missing", block, missing, 0.0, len(missing))
+    turned = [percepts[i].acceleration_in_sole for i in seen]
+    wanted = np.einsum("nij,knj->kni", layout.rotations, block.acceleration[seen])
+    both = np.array(turned, dtype=float)
+    error = np.where(np.isnan(wanted), 0.0, np.abs(np.where(np.isnan(both), math.inf, both) - np.nan_to_num(wanted)))
+    tally.add("Percept.acceleration_in_sole", block, error.max(axis=(1, 2)), 1e-12, len(block))
+
+
+def skin(block: Block, tally: Tally) -> None:
+    """Pseudo-forces, patch signals and wrenches of skin cells."""
+    layout = block.layout
+    felt = np.clip(block.force, -1e12, 1e12)
+    active = body_skin.active_cells(felt, block.proximity, 1.0, 0.02)
+    one = np.where(np.isfinite(felt), felt, 0.0)
+    two = np.where(np.isfinite(block.proximity), block.proximity, 0.0)
+    wanted = (np.isfinite(felt) & (one > 1.0)) | (np.isfinite(block.proximity) & (two > 0.02))
+    tally.add("active_cells", block, (active != wanted).any(axis=1))
+    pseudo = body_skin.pseudo_force(felt, block.proximity, 2.0, 0.5, active)
+    right = np.where(wanted, 2.0 * one + 0.5 * two, 0.0)
+    tally.add("pseudo_force", block, (np.abs(pseudo - right) / (np.abs(right) + 1e-300)).max(axis=1), 1e-15)
+    mixed = body_skin.patch_signal(felt, block.proximity, 0.25)
+    right = 0.25 * one + 0.75 * two
+    size = 0.25 * np.abs(one) + 0.75 * np.abs(two) + 1e-300
+    tally.add("patch_signal", block, (np.abs(mixed - right) / size).max(axis=1), 1e-15)
+    wrenches = body_skin.skin_wrench(layout.positions, layout.rotations, one)
+    normal = layout.rotations[:, :, 2]
+    columns = np.hstack([normal, np.cross(layout.positions, normal)])
+    scale = np.abs(one) @ np.abs(columns) + 1e-300
+    tally.add("skin_wrench", block, (np.abs(wrenches - one @ columns) / scale).max(axis=1), 1e-14)
+
+
+FIELD_CHECKS = (near_ground, plane_of_ground, switches, heat, skin)
+"""The checks of this module, each a function of a block and a tally."""

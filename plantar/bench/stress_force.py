@@ -1,0 +1,280 @@
+"""Checks of the sums over forces, the activation, the faults, the points of balance, and the batch functions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import activation, batch, force, health, pressure_wrench, sole_pose, zmp
+from plantar.bench import references as exact
+from plantar.bench.stress_soles import Block
+from plantar.bench.tally import Tally
+from plantar.feet import FeetPercept
+from plantar.percept import Percept
+from plantar.sole_pose import SolePose
+
+__all__ = ["FORCE_CHECKS", "LAST_CHECKS"]
+
+Array = NDArray[np.float64]
+_SUM = 1e-14
+"""Allowed error of a sum of up to 51 terms, over the sum of their absolute values."""
+
+
+def _columns(block: Block) -> Array:
+    """Wrench (n, 6) of 1 N on each taxel, one cross product at a time."""
+    out = np.empty((len(block.layout), 6))
+    for i, (place, turn) in enumerate(zip(block.layout.positions, block.layout.rotations, strict=True)):
+        normal = turn @ [0.0, 0.0, 1.0]
+        out[i] = [*normal, *np.cross(place, normal)]
+    return out
+
+
+def _sums(block: Block) -> tuple[Array, Array]:
+    """Wrenches (readings, 6) in extended precision, and the sums of the terms' absolute values."""
+    kept = np.where(block.active, block.force, 0.0).astype(np.longdouble)
+    columns = _columns(block).astype(np.longdouble)
+    return np.asarray(kept @ columns, dtype=float), np.asarray(np.abs(kept) @ np.abs(columns), dtype=float)
+
+
+def _error(got: Array, wanted: Array, scale: Array) -> Array:
+    return np.asarray((np.abs(got - wanted) / np.where(scale > 0.0, scale, 1.0)).max(axis=-1))
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two results are the same to the last bit, NaN being NaN."""
+    if one is None or other is None:
+        return one is None and other is None
+    return np.array_equal(np.asarray(one), np.asarray(other), equal_nan=np.asarray(one).dtype.kind == "f")
+
+
+def percept_loads(block: Block, tally: Tally) -> None:
+    """Active taxels, wrench, area and CoP of each percept against sums in extended precision and `math.fsum`."""
+    percepts = block.percepts
+    active = np.array([p.active for p in percepts])
+    tally.add("Percept.active", block, (active != block.active).any(axis=1))
+    wanted, scale = _sums(block)
+    got = np.array([p.wrench_in_sole for p in percepts])
+    tally.add("Percept.wrench_in_sole", block, _error(got, wanted, scale), _SUM)
+    rows = range(0, len(block), 100)
+    right = np.array([exact.wrench_exact(_columns(block), np.where(active[i], block.force[i], 0.0)) for i in rows])
+    tally.add("Percept.wrench_in_sole: math.fsum", block, _error(got[::100], right, scale[::100]), _SUM, len(right))
+    vertical = np.array([p.vertical_force for p in percepts])
+    tally.add("Percept.vertical_force", block, _error(vertical[:, None], wanted[:, 2:3], scale[:, 2:3]), _SUM)
+    areas = np.array([math.fsum(block.layout.areas[row]) for row in active])
+    got_area = np.array([p.contact_area for p in percepts])
+    tally.add("Percept.contact_area", block, _error(got_area[:, None], areas[:, None], areas[:, None]), _SUM)
+    kept = np.array([p.active_force for p in percepts])
+    tally.add("Percept.active_force", block, (kept != np.where(block.active, block.force, 0.0)).any(axis=1))
+    cops = [p.position_cop_in_sole for p in percepts]
+    loaded = wanted[:, 2] > 0.0
+    tally.add(
+        "Percept.position_cop_in_sole: None without load",
+        block,
+        [(c is None) == bool(k) for c, k in zip(cops, loaded, strict=True)],
+    )
+    place = np.array([np.zeros(2) if c is None else c for c in cops])
+    weights = (kept * block.layout.rotations[:, 2, 2]).astype(np.longdouble)
+    total = np.where(loaded, weights.sum(axis=1), 1.0)
+    truth = np.asarray((weights @ block.layout.positions[:, :2]) / total[:, None], dtype=float)
+    reach = float(np.abs(block.layout.positions[:, :2]).max()) + 1e-9
+    error = np.where(loaded, np.abs(place - truth).max(axis=1) / reach, 0.0)
+    tally.add("Percept.position_cop_in_sole", block, error, 1e-13)
+    direct = [force.center_of_pressure(block.layout, k) for k in kept]
+    near = np.array([np.zeros(2) if c is None else c for c in direct])
+    tally.add("center_of_pressure", block, np.where(loaded, np.abs(near - truth).max(axis=1) / reach, 0.0), 1e-13)
+    whole = force.ground_reaction_wrench(block.layout, kept)
+    tally.add("ground_reaction_wrench", block, _error(whole, wanted, scale), _SUM)
+    one = [force.ground_reaction_wrench(block.layout, k) for k in kept[::16]]
+    tally.add(
+        "ground_reaction_wrench: batch as scalar",
+        block,
+        _error(whole[::16], np.array(one), scale[::16]),
+        _SUM,
+        len(one),
+    )
+
+
+def percept_faults(block: Block, tally: Tally) -> None:
+    """Faults, filling, and activation with and without memory."""
+    percepts, layout, given = block.percepts, block.layout, block.force
+    faulty = np.array([p.health.faulty for p in percepts])
+    wanted = ~np.isfinite(given) | (np.nan_to_num(given, nan=-1.0, posinf=-1.0) >= layout.force_limit)
+    tally.add("Percept.health", block, (faulty != wanted).any(axis=1))
+    sound = np.array([p.sound_force for p in percepts])
+    tally.add("Percept.sound_force", block, (np.isnan(sound) != wanted).any(axis=1))
+    mask = activation.active_taxels(given, layout.force_threshold, layout.force_limit)
+    tally.add("active_taxels", block, (mask != block.active).any(axis=1))
+    high, limit = layout.force_threshold, layout.force_limit
+    flags = activation.hysteresis(given, high, 0.5 * high, saturation=limit)
+    memory = activation.TaxelActivation(high, 0.5 * high, limit)
+    states = np.array([memory.update(f) for f in given])
+    tally.add("hysteresis as TaxelActivation", block, (flags != states).any(axis=1))
+    state = np.zeros(len(layout), dtype=bool)
+    slow = []
+    for row in np.where(np.isfinite(given), given, -math.inf):
+        state = (row < limit) & ((row > high) | (state & (row > 0.5 * high)))
+        slow.append(state)
+    tally.add("TaxelActivation", block, (states != np.array(slow)).any(axis=1))
+    times = 0.3 * np.arange(len(block))
+    stuck = health.stuck_taxels(times, given, hold=0.5)
+    monitor = health.StuckMonitor(hold=0.5)
+    live = np.array([monitor.update(float(t), f) for t, f in zip(times, given, strict=True)])
+    tally.add("stuck_taxels as StuckMonitor", block, (stuck != live).any(axis=1))
+    filled = health.fill_from_neighbours(layout, given, wanted, per_area=True)
+    bad = np.isnan(filled) & ~wanted
+    finite = np.where(np.isfinite(given) & ~wanted, given, -math.inf).max(axis=1) / layout.areas.min()
+    high_fill = np.where(wanted & np.isfinite(filled), filled / layout.areas, -math.inf).max(axis=1)
+    tally.add("fill_from_neighbours", block, bad.any(axis=1) | (high_fill > finite * (1.0 + 1e-12) + 1e-300))
+    rows = np.arange(0, len(block), 25)
+    one = [_same(health.fill_from_neighbours(layout, given[i], wanted[i], per_area=True), filled[i]) for i in rows]
+    tally.add("fill_from_neighbours: batch as scalar", block, ~np.array(one), 0.0, len(rows))
+    patched = [Percept(layout, block.readings[i], fill=True) for i in rows]
+    sums = np.array([p.wrench_in_sole for p in patched])
+    tally.add(
+        "Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1), 0.0, len(rows)
+    )
+
+
+def batch_functions(block: Block, tally: Tally) -> None:
+    """The batch functions against the percepts, reading by reading."""
+    layout, percepts = block.layout, block.percepts
+    wanted, scale = _sums(block)
+    tally.add("batch.wrenches", block, _error(batch.wrenches(layout, block.force), wanted, scale), _SUM)
+    strided = np.repeat(block.force, 2, axis=0)[::2][::-1]
+    tally.add("batch.wrenches: strided", block, _error(batch.wrenches(layout, strided)[::-1], wanted, scale), _SUM)
+    sums = batch.loads(layout, block.force)
+    tally.add("batch.loads: wrench", block, _error(sums.wrench, wanted, scale), _SUM)
+    area = np.array([p.contact_area for p in percepts])
+    tally.add("batch.loads: area", block, sums.contact_area != area)
+    cops = [
+        _same(None if np.isnan(c).all() else c, p.position_cop_in_sole)
+        for c, p in zip(sums.center_of_pressure, percepts, strict=True)
+    ]
+    tally.add("batch.loads: CoP", block, ~np.array(cops))
+    hulls = batch.support_polygons(layout, block.force, vertices=True)
+    tally.add("batch.support_polygons: area", block, hulls.area != np.array([p.support_area for p in percepts]))
+    middle = [
+        _same(None if np.isnan(c).all() else c, p.centroid_in_sole)
+        for c, p in zip(hulls.centroid, percepts, strict=True)
+    ]
+    tally.add("batch.support_polygons: centroid", block, ~np.array(middle))
+    assert hulls.vertices is not None
+    ends = np.cumsum(hulls.size)
+    parts = np.split(hulls.vertices, ends[:-1])
+    same = [np.array_equal(a, p.support_polygon_in_sole) for a, p in zip(parts, percepts, strict=True)]
+    tally.add("batch.support_polygons: vertices", block, ~np.array(same))
+    bare = batch.support_polygons(layout, block.force)
+    tally.add("batch.support_polygons: without vertices", block, bare.area != hulls.area)
+
+
+def balance_points(block: Block, tally: Tally) -> None:
+    """Zero moment, pivots and the wrench of two feet, also with the soles 1e6 m away."""
+    percepts = block.percepts
+    wrenches = np.array([p.wrench_in_sole for p in percepts])
+    at = block.pose.position_in_world
+    turn = block.pose.rotation_sole_to_world
+    zero = [p.zero_moment_wrench_in_sole for p in percepts]
+    loaded = np.array([z is not None for z in zero])
+    tally.add("Percept.zero_moment_wrench_in_sole: None without load", block, loaded != (wrenches[:, 2] > 0.0))
+    back = np.array([np.zeros(6) if z is None else force.wrench_at(z[1], -z[0]) for z in zero])
+    size = np.abs(wrenches).max(axis=1, keepdims=True) + 1e-300
+    moments = np.where(loaded[:, None], np.abs(back - wrenches) / size, 0.0).max(axis=1)
+    tally.add("zero_moment_wrench, wrench_at", block, moments, 1e-12)
+    pressed = np.array([p.pressure_driven_wrench_in_sole for p in percepts])
+    area = np.array([p.contact_area for p in percepts])[:, None]
+    right = np.where(area > 0.0, wrenches * block.layout.cell_area / np.where(area > 0.0, area, 1.0), 0.0)
+    tally.add(
+        "Percept.pressure_driven_wrench_in_sole",
+        block,
+        _error(pressed, right, np.abs(right).max(axis=1, keepdims=True)),
+        1e-12,
+    )
+    frames = pressure_wrench.pressure_driven_wrench(block.layout, block.force, block.layout.cell_area)
+    tally.add(
+        "pressure_driven_wrench", block, _error(frames, right, np.abs(right).max(axis=1, keepdims=True) * 1e2), _SUM
+    )
+    world = block.pose.wrench_to_world(wrenches)
+    moved = np.cross(at, wrenches[:, :3] @ turn.T)
+    scale = np.abs(wrenches).max(axis=1, keepdims=True) * (1.0 + float(np.abs(at).max())) + 1e-300
+    truth = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T + moved])
+    tally.add("SolePose.wrench_to_world", block, _error(world, truth, scale), 1e-14)
+    other = SolePose.flat(at[0] + 0.02, at[1] + 0.2, at[2])
+    both = [sole_pose.zmp_of_soles([w, w], [block.pose, other], float(at[2])) for w in wrenches]
+    middle = [
+        None if c is None else 0.5 * (block.pose.to_world([*c, 0.0]) + other.to_world([*c, 0.0]))[:2]
+        for c in (p.position_cop_in_sole for p in percepts)
+    ]
+    flat = np.abs(block.layout.positions[:, 2]).max() == 0.0
+    gap = [
+        0.0 if z is None or m is None or not flat else float(np.abs(z - m).max())
+        for z, m in zip(both, middle, strict=True)
+    ]
+    tally.add("zmp_of_soles", block, np.array(gap) / (1.0 + float(np.abs(at).max())), 1e-9)
+    com = at + [0.0, 0.0, 0.8]
+    pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
+    lost = [p is not None and not np.isfinite(p).all() for p in pivot]
+    tally.add("centroidal_moment_pivot", block, lost)
+    dcm = zmp.divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
+    tally.add("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
+    composite = [force.zmp_of_feet([p.position_cop_in_sole, p.position_cop_in_sole], [1.0, 2.0]) for p in percepts]
+    off = [
+        0.0 if c is None or (q := p.position_cop_in_sole) is None else float(np.abs(c - q).max())
+        for c, p in zip(composite, percepts, strict=True)
+    ]
+    tally.add("zmp_of_feet", block, np.array(off) / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
+    turns = block.rng.normal(size=(6, 5))
+    torque = pressure_wrench.joint_torque(turns, turn, wrenches)
+    loads = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T])
+    tally.add("joint_torque", block, _error(torque, loads @ turns, np.abs(loads) @ np.abs(turns) + 1e-300), 1e-14)
+
+
+def two_feet(block: Block, tally: Tally) -> None:
+    """Every member of what two feet feel together."""
+    at = block.pose.position_in_world
+    poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
+    members = [n for n in dir(FeetPercept) if not n.startswith("_")]
+    rows = range(0, len(block), 4)
+    wrong = []
+    for i in rows:
+        feet = FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2]))
+        values = [getattr(feet, m) for m in members]
+        wrong.append(not all(_no_nan(v) for v in values))
+    tally.add("FeetPercept: every member", block, wrong, 0.0, len(wrong))
+
+
+def every_member(block: Block, tally: Tally) -> None:
+    """No member of a percept is NaN, but where the acceleration or the sound force says that a taxel is dead."""
+    spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole"}
+    for member in Percept.members():
+        if member not in spared:
+            wrong = [not _no_nan(getattr(p, member)) for p in block.percepts]
+            tally.add(f"Percept.{member}: no NaN", block, wrong)
+
+
+def _no_nan(value: Any) -> bool:
+    if value is None or isinstance(value, bool | int | str):
+        return True
+    if isinstance(value, float):
+        return math.isfinite(value)
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind != "f" or bool(np.isfinite(value).all())
+    if isinstance(value, tuple | list):
+        return all(_no_nan(v) for v in value)
+    return not hasattr(value, "points") or _no_nan(value.points)
+
+
+FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (
+    percept_loads,
+    percept_faults,
+    batch_functions,
+    balance_points,
+    two_feet,
+)
+"""The checks of this module, each a function of a block and a tally."""
+
+LAST_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (every_member,)
+"""Checks that run after all others, when the percepts' members are known."""

@@ -1,0 +1,177 @@
+"""Soles and readings that try to break the perception: lattices, clipped and mixed cells, faults, odd forces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.bench.soles import foot_outline, sole_of
+from plantar.cell_layout import joined_layout, layout_of_cells
+from plantar.curved_sole import laid_over
+from plantar.hex_lattice import HexLattice
+from plantar.layout import SoleLayout, mirrored
+from plantar.percept import Percept
+from plantar.reading import Reading
+from plantar.sole_pose import SolePose
+from plantar.tiling import grid_layout, hex_layout
+
+__all__ = ["Block", "blocks_of", "stress_soles"]
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_STRONG = {"force": (0.0, 1e12), "proximity": (0.0, 0.05), "temperature": (0.0, 60.0)}
+"""Ranges of a sole that 1e9 N do not saturate."""
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Readings of one sole; n taxels.
+
+    Attributes:
+        layout: The sole.
+        force: Forces (readings, n) in N.
+        proximity: Distances (readings, n) in m.
+        temperature: Temperatures (readings, n) in degC.
+        acceleration: Accelerations (readings, n, 3) in m/s^2.
+        pose: Where the sole is.
+        rng: For what a check draws at random.
+        number: Which block it is.
+    """
+
+    layout: SoleLayout
+    force: Array
+    proximity: Array
+    temperature: Array
+    acceleration: Array
+    pose: SolePose
+    rng: np.random.Generator
+    number: int
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+    @cached_property
+    def active(self) -> Mask:
+        """What should be active (readings, n), said in another way than `active_taxels` does."""
+        finite = np.isfinite(self.force)
+        known = np.where(finite, self.force, -1.0)
+        return finite & ~(known <= self.layout.force_threshold) & ~(known >= self.layout.force_limit)
+
+    @cached_property
+    def readings(self) -> list[Reading]:
+        """The readings, some without proximity, temperature or acceleration."""
+        return [
+            Reading(
+                0.001 * i,
+                self.force[i],
+                self.proximity[i] if i % 16 else None,
+                self.temperature[i] if i % 16 else None,
+                self.acceleration[i] if i % 16 else None,
+            )
+            for i in range(len(self))
+        ]
+
+    @cached_property
+    def percepts(self) -> list[Percept]:
+        """A percept a reading."""
+        return [Percept(self.layout, reading) for reading in self.readings]
+
+
+def stress_soles() -> list[SoleLayout]:
+    """The soles: small ones first, since they meet every pattern of activity.
+
+    Returns:
+        Lattices of three rows, turned ones, square grids, clipped and mixed cells, a curved sole, clockwise cells,
+        a mirrored sole, single cells, and the 51 cells of the papers.
+    """
+    box = [[-0.06, -0.04], [0.06, -0.04], [0.06, 0.04], [-0.06, 0.04]]
+    rows3 = np.array([(column - row // 2, row) for row in range(3) for column in range(3)])
+    rows4 = np.array([(column - row // 2, row) for row in range(3) for column in range(4)])
+    soles = [
+        hex_layout(box, name="3 rows of 3", cells=rows3),
+        hex_layout(box, name="3 rows of 3, turned", cells=rows3, angle=0.3, origin=(0.01, -0.003)),
+        hex_layout(box, name="3 rows of 4, far", cells=rows4, angle=math.pi / 6, origin=(40.0, -40.0)),
+        hex_layout(box, name="3 rows of 3, tiny", cell_area=1e-12, cells=rows3),
+        grid_layout(box, name="squares", pitch=(0.03, 0.02)),
+        grid_layout(box, name="squares, turned", pitch=(0.025, 0.025), angle=math.pi / 4),
+        hex_layout(foot_outline(0.14, 0.09), name="clipped", minimum_fraction=0.05, angle=0.1),
+        joined_layout(
+            [
+                hex_layout([[-0.08, -0.03], [0, -0.03], [0, 0.03], [-0.08, 0.03]], minimum_fraction=0.2),
+                grid_layout([[0, -0.03], [0.05, -0.03], [0.05, 0.03], [0, 0.03]], pitch=(0.025, 0.02)),
+            ],
+            name="mixed",
+        ),
+        layout_of_cells([HexLattice(691e-6).corners(np.array([[0, 0]]))[0]], name="one cell"),
+        sole_of(51),
+    ]
+    turned = soles[1]
+    soles.append(mirrored(soles[6]))
+    soles.append(laid_over(soles[0], lambda x, y: 1.5 * x * x - y * y))
+    clockwise = tuple((c[0], *reversed(c[1:])) if i % 2 else c for i, c in enumerate(turned.corners))
+    soles.append(replace(turned, name="clockwise cells", corners=clockwise, ranges=_STRONG))
+    soles.append(replace(soles[0], name="3 rows of 3, strong", ranges=_STRONG, thresholds={"force": 0.0}))
+    return soles
+
+
+def blocks_of(soles: list[SoleLayout], readings: int, seed: int, size: int = 500) -> Iterator[Block]:
+    """Blocks of readings, each of one sole in turn.
+
+    Args:
+        soles: The soles.
+        readings: How many readings in all.
+        seed: Of what is left to chance.
+        size: Most readings in a block.
+
+    Yields:
+        The blocks; the same ones for the same arguments.
+    """
+    # Soles with few cells meet more readings: they are faster, and their patterns are the hard ones.
+    order = [s for s in soles for _ in range(1 if len(s) > 30 else 4)]
+    done = number = 0
+    while done < readings:
+        layout = order[number % len(order)]
+        rng = np.random.default_rng([seed, number])
+        count = min(size, readings - done)
+        yield _block(layout, count, rng, number, (number // len(order)) * size)
+        done += count
+        number += 1
+
+
+def _block(layout: SoleLayout, count: int, rng: np.random.Generator, number: int, first: int) -> Block:
+    n = len(layout)
+    if n <= 12:  # every pattern in turn
+        pattern = (np.arange(first, first + count)[:, None] >> np.arange(n)) & 1 == 1
+    else:
+        pattern = rng.random((count, n)) < rng.choice([0.02, 0.1, 0.3, 0.5, 0.8, 1.0], (count, 1))
+    scale = rng.choice([1e-12, 2.0, 20.0, 200.0, 1e9], (count, 1), p=[0.05, 0.2, 0.4, 0.3, 0.05])
+    force = np.where(pattern, scale * rng.uniform(0.9, 3.0, (count, n)), 0.0)
+    kind = rng.integers(0, 16, count)
+    force[kind == 0] = 0.0
+    one = kind == 1
+    force[one] = 0.0
+    force[one, rng.integers(0, n, int(one.sum()))] = 60.0
+    force[kind == 2] += rng.normal(0.0, 1.0, (int((kind == 2).sum()), n))  # drift of both signs
+    faults = (kind == 3)[:, None] & (rng.random((count, n)) < 0.3)
+    force[faults] = rng.choice([np.nan, np.inf, -np.inf, 785.0, -5.0], int(faults.sum()))
+    force[kind == 4] = rng.choice([np.nan, np.inf, -np.inf, 1e300, -0.0], (int((kind == 4).sum()), 1))
+    plane = (
+        rng.uniform(-0.01, 0.05, (count, 1))
+        + rng.uniform(-0.5, 0.5, (count, 2)) @ (layout.positions[:, :2] - layout.positions[:, :2].mean(axis=0)).T
+    )
+    proximity = plane + rng.choice([0.0, 1e-4, 0.02], (count, 1)) * rng.normal(size=(count, n))
+    odd = rng.random((count, n)) < rng.choice([0.0, 0.1, 0.9], (count, 1))
+    proximity[odd] = rng.choice([np.nan, np.inf, -np.inf, 0.0, 1e300, 1e-300], int(odd.sum()))
+    temperature = rng.uniform(15.0, 70.0, (count, n))
+    temperature[odd] = rng.choice([np.nan, np.inf, -np.inf, 31.0, 1e300], int(odd.sum()))
+    acceleration = rng.normal(0.0, 10.0, (count, n, 3))
+    acceleration[odd[:, :, None] & (rng.random((count, n, 3)) < 0.2)] = np.nan
+    reach = 1e6 if number % 3 == 2 else 1.0
+    pose = SolePose.flat(*(reach * rng.uniform(-1.0, 1.0, 3)).tolist(), yaw=float(rng.uniform(-3.2, 3.2)))
+    return Block(layout, force, proximity, temperature, acceleration, pose, rng, number)
