@@ -36,7 +36,8 @@ cdef bint _is_straight(
     ax=double, ay=double, bx=double, by=double, cx=double, cy=double
 )
 cpdef Py_ssize_t hull_ring(
-    const double[:, :] points, Py_ssize_t[::1] order, Py_ssize_t count, double tolerance, Py_ssize_t[::1] ring
+    const double[:, :] points, Py_ssize_t[::1] way, Py_ssize_t forth, Py_ssize_t count, double tolerance,
+    Py_ssize_t[::1] ring
 ) noexcept
 
 cdef bint _ring_is_straight(

@@ -123,7 +123,7 @@ def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
     return abs(one - two) <= limit and dx * (cx - bx) + dy * (cy - by) >= 0.0
 
 
-def hull_ring(points, order, count, tolerance, ring):
+def hull_ring(points, way, forth, count, tolerance, ring):
     """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges.
 
     Each turn is decided by a filtered determinant with an exact one behind it, so the ring is exactly convex. A vertex
@@ -131,10 +131,12 @@ def hull_ring(points, order, count, tolerance, ring):
 
     Args:
         points: Points (n, 2) in m, finite.
-        order: Indices (count,) of the points, sorted by x, then y.
+        way: Indices (count,): first the points that may lie on the lower chain, sorted by x, then y, from the lowest
+            to the highest of all points; then those that may lie on the upper chain, back to the lowest.
+        forth: How many of them lie on the way forth.
         count: How many there are.
         tolerance: See `hull_tolerance`.
-        ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count + 1.
+        ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count.
 
     Returns:
         Number of corners.
@@ -142,11 +144,11 @@ def hull_ring(points, order, count, tolerance, ring):
     if count == 0:
         return 0
     size = base = 1
-    ring[0] = order[0]
-    for step in range(1, 2 * count - 1):  # forth along the lower chain, back along the upper one
-        if step == count:
+    ring[0] = way[0]
+    for step in range(1, count):
+        if step == forth:
             base = size
-        p = order[step] if step < count else order[2 * count - 2 - step]
+        p = way[step]
         q = ring[size - 1]
         cx, cy = points[p, 0], points[p, 1]
         bx, by = points[q, 0], points[q, 1]
@@ -205,9 +207,9 @@ def convex_hull(points):
         Hull (k, 2), counter-clockwise.
     """
     n = points.shape[0]
-    found = np.empty(n, dtype=np.intp)
-    ring = np.empty(n + 1, dtype=np.intp)
-    size = _hull_of_cloud(points, found, ring)
+    way = np.empty(2 * n, dtype=np.intp)
+    ring = np.empty(2 * n, dtype=np.intp)
+    size = _hull_of_cloud(points, way, ring)
     out = np.empty((size, 2))
     _gather(points, ring, size, out)
     return out
@@ -245,7 +247,9 @@ def _hull_of_cloud(points, order, ring):
     else:
         _sort_many(points, order, count)
     largest = max(max(abs(left), abs(right)), max(abs(bottom), abs(top)))
-    return hull_ring(points, order, count, hull_tolerance(largest, extent), ring)
+    for i in range(count - 1):
+        order[count + i] = order[count - 2 - i]
+    return hull_ring(points, order, count, 2 * count - 1, hull_tolerance(largest, extent), ring)
 
 
 def _sort_many(points, order, count):

@@ -4,6 +4,9 @@ from . cimport convex
 
 cdef double _NONE
 cdef double _INFINITE
+cdef int _USED
+cdef int _NOT_LOWER
+cdef int _NOT_UPPER
 
 @cython.final
 cdef class SoleKernel:
@@ -16,15 +19,14 @@ cdef class SoleKernel:
     cdef public const Py_ssize_t[::1] corner_rank
     cdef public const Py_ssize_t[::1] row_taxel
     cdef public const Py_ssize_t[::1] row_start
-    cdef public const Py_ssize_t[::1] around_taxel
-    cdef public const Py_ssize_t[::1] around_start
+    cdef public const unsigned char[::1] corner_sign
     cdef public Py_ssize_t taxels
     cdef public Py_ssize_t corners
     cdef public double tolerance
     cdef public bint flat
     cdef public double[::1] kept
     cdef unsigned char[::1] used
-    cdef Py_ssize_t[::1] order
+    cdef Py_ssize_t[::1] way
     cdef Py_ssize_t[::1] ring
     cdef public double[:, ::1] polygon
 
@@ -40,9 +42,10 @@ cdef class SoleKernel:
     cpdef hull(self, const unsigned char[:] active)
 
     @cython.locals(
-        used="unsigned char[::1]", order="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", low=Py_ssize_t,
+        used="unsigned char[::1]", way="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]",
+        sign="const unsigned char[::1]", kind=int, forth=Py_ssize_t, top=Py_ssize_t, count=Py_ssize_t, low=Py_ssize_t,
         high=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t, last=Py_ssize_t, end=int, i=Py_ssize_t, c=Py_ssize_t,
-        stop=Py_ssize_t, v=Py_ssize_t, found=Py_ssize_t, size=Py_ssize_t
+        v=Py_ssize_t, size=Py_ssize_t
     )
     cpdef Py_ssize_t find_hull(self, const unsigned char[:] active) noexcept
 

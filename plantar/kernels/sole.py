@@ -1,7 +1,7 @@
 """Kernels of one sole: loads and support polygon of its active taxels, one call each for a reading.
 
 What does not change from reading to reading is prepared once: columns to multiply the forces with, the corners of the
-cells, sorted, each with the cells that surround it, and the rows of cells that are shifted copies of each other.
+cells, sorted, on which side of its cell each lies, and the rows of cells that are shifted copies of each other.
 
 A kernel has scratch memory of its own: compiled calls hold the interpreter lock and so follow each other; interpreted
 ones must not come from two threads at once.
@@ -17,6 +17,9 @@ __all__ = ["SoleKernel"]
 
 _NONE = float("nan")
 _INFINITE = float("inf")
+_USED = 4  # bits of a corner: that it belongs to an active cell, and where that cell keeps it from being on the hull
+_NOT_LOWER = 1
+_NOT_UPPER = 2
 
 
 class SoleKernel:
@@ -58,16 +61,16 @@ class SoleKernel:
         rings = [corner_vertex[starts[i] : starts[i + 1]] for i in range(self.taxels)]
         rows = _rows_of_copies([vertices[ring] for ring in rings], self.tolerance)
         self.row_taxel = np.array([i for row in rows for i in row], dtype=np.intp)
-        around = _cells_around(vertices, rings)
-        self.around_taxel = np.array([i for v in order.tolist() for i in around[v]], dtype=np.intp)
-        self.around_start = np.cumsum([0, *(len(around[v]) for v in order.tolist())], dtype=np.intp)
         self.row_start = np.cumsum([0, *map(len, rows)], dtype=np.intp)
         self.corner_rank = np.concatenate([*(rank[ring] for ring in rings), np.empty(0, dtype=np.intp)])
+        self.corner_sign = np.concatenate(
+            [*(_signs(vertices[ring], rank[ring]) for ring in rings), np.empty(0)]
+        ).astype(np.uint8)
         self.corner_start = np.array(starts, dtype=np.intp)
         self.kept = np.zeros(self.taxels)
         self.used = np.zeros(len(order), dtype=np.uint8)
-        self.order = np.zeros(len(order), dtype=np.intp)
-        self.ring = np.zeros(len(order) + 1, dtype=np.intp)
+        self.way = np.zeros(2 * len(order), dtype=np.intp)
+        self.ring = np.zeros(2 * len(order), dtype=np.intp)
         self.polygon = np.zeros((len(order), 2))
 
     def loads(self, force, active):
@@ -112,8 +115,9 @@ class SoleKernel:
     def hull(self, active):
         """Convex hull of the active cells (T 4.24), with its area and centroid.
 
-        Only corners that are not surrounded by active cells can be its vertices; those come sorted. Reference: gift
-        wrapping in exact fractions; errors as `convex.convex_hull`, `convex.area` and `convex.area_and_centroid`.
+        Only the ends of each row of copies are looked at, and of their corners those above no active cell for the
+        lower chain, below none for the upper; they come sorted. Reference: the monotone chain over all corners of all
+        active cells in exact fractions; errors as `convex.convex_hull`, `convex.area`, `convex.area_and_centroid`.
 
         Args:
             active: Mask (n,).
@@ -136,7 +140,7 @@ class SoleKernel:
         Returns:
             Number of its corners.
         """
-        used, order, rank = self.used, self.order, self.corner_rank
+        used, way, rank, sign = self.used, self.way, self.corner_rank, self.corner_sign
         low, high = self.corners, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
@@ -150,22 +154,26 @@ class SoleKernel:
                 i = self.row_taxel[last if end else first]
                 for c in range(self.corner_start[i], self.corner_start[i + 1]):
                     v = rank[c]
-                    used[v] = 1
+                    used[v] |= sign[c]
                     low = min(low, v)
                     high = max(high, v)
-        found = 0
+        forth = 0
+        top = way.shape[0]
         for v in range(low, high + 1):
-            if used[v]:
+            kind = used[v]
+            if kind:
                 used[v] = 0
-                c, stop = self.around_start[v], self.around_start[v + 1]
-                if c < stop:  # cells surround this corner: it is a corner of the hull only where one is not active
-                    while c < stop and active[self.around_taxel[c]]:
-                        c += 1
-                    if c == stop:
-                        continue
-                order[found] = v
-                found += 1
-        size = convex.hull_ring(self.points, self.order, found, self.tolerance, self.ring)
+                if not kind & _NOT_LOWER:
+                    way[forth] = v
+                    forth += 1
+                if not kind & _NOT_UPPER:
+                    top -= 1
+                    way[top] = v
+        count = forth
+        for i in range(top + 1, way.shape[0]):  # the highest point has been visited
+            way[count] = way[i]
+            count += 1
+        size = convex.hull_ring(self.points, way, forth, count, self.tolerance, self.ring)
         for i in range(size):
             v = self.ring[i]
             self.polygon[i, 0] = self.points[v, 0]
@@ -232,32 +240,18 @@ def _rows_of_copies(cells, tolerance):
     return rows
 
 
-def _cells_around(vertices, rings):
-    """The cells that surround each vertex; none for a vertex at a rim.
+def _signs(cell, rank):
+    """Where each corner of a cell can be on a hull that holds the cell, as bits to gather (k,).
 
-    Cells surround a vertex when their edges to it pair up and their angles sum to a full turn.
+    A corner above the line from the lowest to the highest of its cell's corners is never on the lower chain of the
+    hull, one below it never on the upper. So a corner between an active cell above and one below is on neither.
 
     Args:
-        vertices: Corner points (v, 2) in m.
-        rings: Vertex indices of each cell's corners, counter-clockwise.
+        cell: Corners (k, 2) in m.
+        rank: Their ranks (k,) by x, then y.
     """
-    cells = [[] for _ in vertices]
-    ways = [set() for _ in vertices]
-    angle = [0.0] * len(vertices)
-    for i, ring in enumerate(rings):
-        after = vertices[np.roll(ring, -1)] - vertices[ring]
-        before = vertices[np.roll(ring, 1)] - vertices[ring]
-        turn = np.arctan2(after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0], (after * before).sum(axis=1))
-        for v, left, right, t in zip(
-            ring.tolist(), np.roll(ring, 1).tolist(), np.roll(ring, -1).tolist(), turn.tolist(), strict=True
-        ):
-            cells[v].append(i)
-            ways[v] |= {(1, left), (-1, right)}  # the way out of one cell is the way into the next
-            angle[v] += t if t >= 0.0 else t + 2.0 * np.pi
-    found = []
-    for v, near in enumerate(cells):
-        n = len(near)
-        paired = {a for way, a in ways[v] if way == 1} == {a for way, a in ways[v] if way == -1}
-        whole = n > 2 and len(ways[v]) == 2 * n and paired and abs(angle[v] - 2.0 * np.pi) < 1e-6
-        found.append(near if whole else [])
-    return found
+    low, high = cell[np.argmin(rank)], cell[np.argmax(rank)]
+    along, away = high - low, cell - low
+    above = along[0] * away[:, 1] - along[1] * away[:, 0]
+    sure = 1e-9 * float((along * along).sum())
+    return np.where(above > sure, _USED | _NOT_LOWER, np.where(above < -sure, _USED | _NOT_UPPER, _USED))
