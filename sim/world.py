@@ -14,6 +14,7 @@ from plantar.errors import RobotError
 from plantar.layout import Side
 from sim.inverse_kinematics import LegModel
 from sim.robots.biped import biped_mjcf
+from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
 from sim.terrain import Terrain
 
@@ -48,7 +49,7 @@ def robot_spec(robot: Robot) -> Any:
             damping=robot.damping,
         )
         return mujoco.MjSpec.from_string(text)
-    raise RobotError(f"robot '{robot.name}': model kind '{robot.kind}' cannot be simulated yet; allowed: biped")
+    return spec_from_file(robot)
 
 
 def build_leg_model(robot: Robot) -> LegModel:

@@ -68,15 +68,18 @@ class Robot:
         kind: "biped" (generated from `biped`), "mjcf" or "urdf" (read from `model_file`).
         biped: Dimensions of a generated robot, else None.
         model_file: Path of the model file, else None.
-        foot: Shape of the bare foot.
+        foot: Shape of the bare foot, where the file gives it.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
+        sole_origin: Sole frame's origin (3,) in the left foot's body frame in m; y changes sign for the right.
+        effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
         layouts: Sole layout of each side.
         legs: Names of each leg.
         torso_body: Body that is kept upright.
         imu_site: Site of the IMU.
         posture: Joint angles of each leg in rad when standing.
         com_height: CoM height above the outer soles when walking in m.
+        stance_width: Distance of the sole frames' origins when the feet stand side by side in m.
         stiffness: Servo position gain in N m/rad.
         damping: Servo velocity gain in N m s/rad.
         balance: Balance law and its gains.
@@ -88,15 +91,18 @@ class Robot:
     kind: str
     biped: BipedParameters | None
     model_file: Path | None
-    foot: FootShape
+    foot: FootShape | None
     shoe_thickness: float
     shoe_mass: float
+    sole_origin: tuple[float, float, float]
+    effort_limits: tuple[float, ...]
     layouts: Mapping[Side, SoleLayout]
     legs: Mapping[str, LegNames]
     torso_body: str
     imu_site: str
     posture: Mapping[str, tuple[float, ...]]
     com_height: float
+    stance_width: float
     stiffness: float
     damping: float
     balance: Mapping[str, Any]
@@ -178,6 +184,18 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
     return _robot_from(source, path)
 
 
+def _foot(table: Mapping[str, Any], where: str) -> FootShape:
+    where = f"{where}: [foot]"
+    center = _numbers(table, "sole_center", 2, where)
+    return FootShape(
+        _number(table, "foot_length", where),
+        _number(table, "foot_width", where),
+        (center[0], center[1]),
+        _number(table, "corner_radius", where),
+        int(_number(table, "taxels", where, 1)),
+    )
+
+
 def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
     where = str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'"
     model = _table(source, "model", where)
@@ -192,7 +210,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         model_file = path.parent / _text(model, "file", where)
         if not model_file.is_file():
             raise RobotError(f"{where}: [model] file {model_file} does not exist")
-    foot = _table(source, "foot", where)
+    foot = _table(source, "foot", where) if kind == "biped" or "foot" in source else None
     shoe = _table(source, "shoe", where)
     legs, posture, layouts = _table(source, "legs", where), _table(source, "posture", where), {}
     leg_names: dict[str, LegNames] = {}
@@ -212,28 +230,32 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
             raise RobotError(f"{where}: {error}") from None
     torso = _table(source, "torso", where)
     servo = _table(source, "servo", where)
-    center = _numbers(foot, "sole_center", 2, f"{where}: [foot]")
+    gait = _table(source, "gait", where)
+    joints_of_leg = len(leg_names["left"].joints)
+    if len(leg_names["right"].joints) != joints_of_leg:
+        raise RobotError(f"{where}: [legs] the left leg has {joints_of_leg} joints, the right another number")
+    origin = (0.0, 0.0, 0.0) if biped is not None else _numbers(shoe, "origin", 3, f"{where}: [shoe]")
+    efforts: tuple[float, ...] = ()
+    if "effort_limits" in servo:
+        efforts = _numbers(servo, "effort_limits", joints_of_leg, f"{where}: [servo]")
     return Robot(
         name=_text(source, "name", where),
         description=str(source.get("description", "")),
         kind=kind,
         biped=biped,
         model_file=model_file,
-        foot=FootShape(
-            _number(foot, "foot_length", f"{where}: [foot]"),
-            _number(foot, "foot_width", f"{where}: [foot]"),
-            (center[0], center[1]),
-            _number(foot, "corner_radius", f"{where}: [foot]"),
-            int(_number(foot, "taxels", f"{where}: [foot]", 1)),
-        ),
+        foot=None if foot is None else _foot(foot, where),
         shoe_thickness=_number(shoe, "thickness", f"{where}: [shoe]", 0.0, 0.1),
         shoe_mass=_number(shoe, "mass", f"{where}: [shoe]", 0.0, 20.0),
+        sole_origin=(origin[0], origin[1], origin[2]),
+        effort_limits=efforts,
         layouts=layouts,
         legs=leg_names,
         torso_body=_text(torso, "body", f"{where}: [torso]"),
         imu_site=_text(torso, "imu_site", f"{where}: [torso]"),
         posture=angles,
-        com_height=_number(_table(source, "gait", where), "com_height", f"{where}: [gait]", 0.05, 5.0),
+        com_height=_number(gait, "com_height", f"{where}: [gait]", 0.05, 5.0),
+        stance_width=_number(gait, "stance_width", f"{where}: [gait]", 0.01, 2.0),
         stiffness=_number(servo, "stiffness", f"{where}: [servo]"),
         damping=_number(servo, "damping", f"{where}: [servo]"),
         balance=dict(_table(source, "balance", where)),

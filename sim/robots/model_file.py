@@ -1,0 +1,140 @@
+"""A robot from a model file (MJCF or URDF): its legs kept, its upper body welded, its soles and sensors added.
+
+What walks is the same for every robot: a free base, six or more leg joints a side with position servos, a shoe on each
+foot whose contact box is the sole layout's rectangle, and an IMU. Everything else of the file (other joints, actuators,
+sensors, keyframes, contacts) does not take part.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from plantar.errors import RobotError
+from sim.robots.robot import Robot
+
+__all__ = ["spec_from_file"]
+
+_SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact face, at most
+
+
+def spec_from_file(robot: Robot) -> Any:
+    """Read a robot's model file and make it a walking robot.
+
+    Args:
+        robot: A robot with a model file.
+
+    Returns:
+        An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", one position
+        actuator a leg joint, and the sensors "imu_gyro" and "imu_accelerometer".
+
+    Raises:
+        RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
+    """
+    assert robot.model_file is not None
+    try:
+        spec = mujoco.MjSpec.from_file(str(robot.model_file))
+    except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
+        text = " ".join(str(error).split())
+        raise RobotError(f"robot '{robot.name}': model file {robot.model_file} cannot be read: {text}") from None
+    for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators"):
+        for element in list(getattr(spec, part)):
+            spec.delete(element)
+    _free_base(spec, robot)
+    _weld_upper_body(spec, robot)
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+    for light in list(spec.lights):
+        spec.delete(light)
+    for side in ("left", "right"):
+        _put_on_shoe(spec, robot, side)
+        _add_servos(spec, robot, side)
+    torso = _body(spec, robot, robot.torso_body, "[torso] body")
+    if spec.site(robot.imu_site) is None:
+        torso.add_site(name=robot.imu_site, pos=[0.0, 0.0, 0.0])
+    for name, kind in (
+        ("imu_gyro", mujoco.mjtSensor.mjSENS_GYRO),
+        ("imu_accelerometer", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
+    ):
+        spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=robot.imu_site)
+    return spec
+
+
+def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
+    found = spec.body(name)
+    if found is None:
+        known = ", ".join(b.name for b in spec.bodies if b.name and b.name != "world")
+        raise RobotError(f"robot '{robot.name}': {field} is '{name}'; the model has {known}")
+    return found
+
+
+def _free_base(spec: Any, robot: Robot) -> None:
+    """The root of the torso floats: a free joint is added where the model has none (URDF)."""
+    root = _body(spec, robot, robot.torso_body, "[torso] body")
+    while root.parent.name != "world":
+        root = root.parent
+    if not any(j.type == mujoco.mjtJoint.mjJNT_FREE for j in root.joints):
+        for joint in list(root.joints):
+            spec.delete(joint)
+        root.add_freejoint(name="plantar_root")
+    # Whatever else stands in the world (floors of ready-made scenes) is not part of the robot.
+    for body in list(spec.worldbody.bodies):
+        if body.name != root.name:
+            spec.delete(body)
+    for geom in list(spec.worldbody.geoms):
+        spec.delete(geom)
+
+
+def _weld_upper_body(spec: Any, robot: Robot) -> None:
+    legs = {name for leg in robot.legs.values() for name in leg.joints}
+    names = {j.name for j in spec.joints}
+    missing = sorted(legs - names)
+    if missing:
+        known = ", ".join(sorted(n for n in names if n))
+        raise RobotError(f"robot '{robot.name}': the model has no joint {', '.join(missing)}; it has {known}")
+    for joint in list(spec.joints):
+        if joint.name not in legs and joint.type != mujoco.mjtJoint.mjJNT_FREE:
+            spec.delete(joint)
+
+
+def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
+    """A shoe as a body of its own: mass, the sole frame's site, and the contact box below the foot."""
+    foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
+    center, half = robot.sole_rectangle(side)
+    mirror = 1.0 if side == "left" else -1.0
+    x, y, z = robot.sole_origin
+    shoe = foot.add_body(name=f"{side}_shoe", pos=[x, mirror * y, z])
+    thickness = max(robot.shoe_thickness, 1e-3)
+    mass = max(robot.shoe_mass, 1e-3)
+    lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness
+    shoe.mass = mass
+    shoe.ipos = [center[0], center[1], min(0.5 * thickness, _SHOE_HEIGHT)]
+    shoe.inertia = mass / 12.0 * np.array([ly * ly + lz * lz, lx * lx + lz * lz, lx * lx + ly * ly])
+    shoe.explicitinertial = True
+    shoe.add_site(name=robot.legs[side].sole_site, pos=[0.0, 0.0, 0.0])
+    shoe.add_geom(
+        name=f"{side}_sole_box",
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=[half[0], half[1], 0.5 * thickness],
+        pos=[center[0], center[1], 0.5 * thickness],
+        contype=1,
+        conaffinity=2,
+        mass=0.0,
+        rgba=[0.1, 0.1, 0.12, 1.0],
+    )
+
+
+def _add_servos(spec: Any, robot: Robot, side: Any) -> None:
+    for i, name in enumerate(robot.legs[side].joints):
+        limit = robot.effort_limits[i] if robot.effort_limits else 0.0
+        servo = spec.add_actuator(
+            name=f"{name}_servo", target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, biastype=mujoco.mjtBias.mjBIAS_AFFINE
+        )
+        servo.gainprm[0] = robot.stiffness
+        servo.biasprm[1], servo.biasprm[2] = -robot.stiffness, -robot.damping
+        servo.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
+        if limit > 0.0:
+            servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+            servo.forcerange = [-limit, limit]

@@ -1,0 +1,176 @@
+"""Robots from model files: the H1 written out as MJCF, with parts that a walking robot does not need, and JVRC-1."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.errors import RobotError
+from shoes import build_shoe, export_shoe, foot_from_mesh
+from sim.robots import load_robot
+from sim.runner import run_scene
+from sim.scene import load_scene
+from sim.terrain import Terrain
+from sim.world import build_world, robot_spec
+
+ROBOT = """
+name = "own"
+[model]
+kind = "mjcf"
+file = "own.xml"
+[shoe]
+layout = "layout_{side}.json"
+origin = [0.0, 0.0, -0.129]
+thickness = 0.012
+mass = 0.252
+[legs.left]
+joints = [JOINTS]
+foot_body = "left_foot"
+[legs.right]
+joints = [JOINTS]
+foot_body = "right_foot"
+[torso]
+body = "base"
+imu_site = "imu"
+[posture]
+left = [0.0, 0.0, -20.0, 40.0, -20.0, 0.0]
+right = [0.0, 0.0, -20.0, 40.0, -20.0, 0.0]
+[gait]
+com_height = 0.80
+stance_width = 0.17
+[servo]
+stiffness = 8000.0
+damping = 150.0
+effort_limits = [51.0, 71.0, 63.0, 140.0, 92.0, 71.0]
+[balance]
+law = "com_admittance"
+dcm_gain = 3.0
+zmp_gain = 0.5
+com_gain = 1.0
+"""
+NAMES = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll")
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Path:
+    """The H1 as somebody else would hand it over: motors, a floor, a moving arm, a keyframe; no shoes."""
+    h1 = load_robot("h1")
+    spec = robot_spec(h1)
+    for side in ("left", "right"):
+        spec.delete(spec.geom(f"{side}_sole_box"))
+        spec.delete(spec.site(f"{side}_sole"))
+        # The H1's foot holds its shoe; here the shoe comes as a part of its own.
+        foot = spec.body(f"{side}_foot")
+        foot.mass = foot.mass - h1.shoe_mass
+    arm = spec.body("chest").add_body(name="arm", pos=[0.0, 0.3, 0.3])
+    arm.add_joint(name="shoulder", axis=[0, 1, 0])
+    arm.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=0.5, contype=1, conaffinity=1)
+    spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1])
+    spec.compile()
+    (tmp_path / "own.xml").write_text(spec.to_xml())
+    for side in ("left", "right"):
+        shutil.copy(h1.path.parent / f"layout_{side}.json", tmp_path)
+    text = ROBOT
+    for side in ("left", "right"):
+        text = text.replace("JOINTS", ", ".join(f'"{side}_{n}"' for n in NAMES), 1)
+    (tmp_path / "robot.toml").write_text(text)
+    return tmp_path / "robot.toml"
+
+
+def test_legs_are_kept_and_the_rest_is_welded(own: Path) -> None:
+    world = build_world(load_robot(own), Terrain())
+    model = world.model
+    assert model.nv == 18
+    assert model.nu == 12
+    assert mujoco.mj_getTotalmass(model) == pytest.approx(86.5, abs=0.01)
+    colliding = {model.geom(i).name for i in range(model.ngeom) if model.geom_contype[i]}
+    assert colliding == {"ground", "left_sole_box", "right_sole_box"}
+    mujoco.mj_kinematics(model, world.data)
+    for side in ("left", "right"):
+        site, box = world.data.site(f"{side}_sole").xpos, world.data.geom(f"{side}_sole_box").xpos
+        assert box[2] - site[2] == pytest.approx(0.006)
+        assert np.sign(site[1]) == (1 if side == "left" else -1)
+
+
+def test_it_walks(own: Path) -> None:
+    summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0"], robot=str(own)))
+    assert summary["completed"], summary
+    assert summary["robot"] == "own"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"left_knee"', '"left_knie"', ("left_knie", "left_knee")),
+        ('foot_body = "left_foot"', 'foot_body = "left_hoof"', ("left_hoof", "left_foot")),
+        ('body = "base"', 'body = "trunk"', ("trunk", "base")),
+        ("origin = [0.0, 0.0, -0.129]\n", "", ("origin", "3")),
+        ("effort_limits = [51.0, ", "effort_limits = [", ("effort_limits", "6")),
+        ("com_height = 0.80", "com_height = 1.20", ("CoM at 1.200",)),
+    ],
+)
+def test_bad_files_say_what_is_wrong(own: Path, old: str, new: str, words: tuple[str, ...]) -> None:
+    text = own.read_text()
+    assert old in text
+    own.write_text(text.replace(old, new))
+    with pytest.raises(Exception) as caught:  # noqa: PT011  RobotError or SceneError, both PlantarErrors
+        run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
+    assert all(word in str(caught.value) for word in words), caught.value
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_that_is_no_model_is_one_line(own: Path) -> None:
+    (own.parent / "own.xml").write_text("<mujoco><worldbody><body></mujoco>")
+    with pytest.raises(RobotError, match=r"own\.xml") as caught:
+        build_world(load_robot(own), Terrain())
+    assert "\n" not in str(caught.value)
+
+
+JVRC1 = """
+name = "jvrc1"
+[model]
+kind = "mjcf"
+file = "{model}"
+[shoe]
+layout = "layout_{{side}}.json"
+origin = [0.0, 0.0, -0.1197]
+thickness = 0.012
+mass = 0.219
+[legs.left]
+joints = ["L_HIP_P", "L_HIP_R", "L_HIP_Y", "L_KNEE", "L_ANKLE_R", "L_ANKLE_P"]
+foot_body = "L_ANKLE_P_S"
+[legs.right]
+joints = ["R_HIP_P", "R_HIP_R", "R_HIP_Y", "R_KNEE", "R_ANKLE_R", "R_ANKLE_P"]
+foot_body = "R_ANKLE_P_S"
+[torso]
+body = "PELVIS_S"
+imu_site = "imu"
+[posture]
+left = [-25.0, 0.0, 0.0, 50.0, 0.0, -25.0]
+right = [-25.0, 0.0, 0.0, 50.0, 0.0, -25.0]
+[gait]
+com_height = 0.84
+stance_width = 0.192
+[servo]
+stiffness = 8000.0
+damping = 150.0
+[balance]
+law = "com_admittance"
+dcm_gain = 3.0
+zmp_gain = 0.5
+com_gain = 1.0
+"""
+
+
+def test_jvrc1_walks_in_a_shoe_of_its_own_foot(real_data: Path, tmp_path: Path) -> None:
+    build = build_shoe(foot_from_mesh(real_data / "feet" / "jvrc1.stl"), side="both", layout_only=True)
+    export_shoe(build, tmp_path)
+    path = tmp_path / "robot.toml"
+    path.write_text(JVRC1.format(model=real_data / "robots" / "jvrc1" / "xml" / "jvrc1.xml"))
+    summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0"], robot=str(path)))
+    assert summary["completed"], summary
+    assert summary["tilt_max_deg"] < 2.0
