@@ -19,7 +19,7 @@ from gait.estimator import (
     rotation_from_vector,
 )
 from gait.footsteps import Footstep, other_side
-from gait.lip import dcm, pendulum_frequency
+from gait.lip import pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
 from gait.swing import SwingTrajectory
@@ -30,6 +30,7 @@ from plantar.percept import Percept
 from plantar.polygon import centroid, inner_offset
 from plantar.reading import Reading
 from plantar.support import feet_support_polygon, polygon_in_world
+from plantar.zmp import divergent_component
 
 __all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
 
@@ -216,7 +217,7 @@ class WalkingController:
         if feedback:
             self._align(state)
         self._move_feet(phase, sensors.time, state)
-        xi = dcm(state.com[:2], state.com_velocity[:2], self.omega)
+        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
