@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
 import venv
 import zipfile
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 import pytest
@@ -37,13 +40,20 @@ def wheel(tmp_path_factory) -> Path:
     return built
 
 
+def ends(path: Path) -> set[str]:
+    """All endings of a file's name: {".so", ".cpython-311-x86_64-linux-gnu.so"} of an extension module."""
+    parts = path.name.split(".")
+    return {"." + ".".join(parts[i:]) for i in range(1, len(parts))}
+
+
 def tracked() -> list[Path]:
     """Files of the distribution in the checkout."""
     parts = ("plantar", "shoes", "gait", "sim", "wholebody")
-    inside = [p for part in parts for p in (ROOT / part).rglob("*") if p.is_file() and "__pycache__" not in p.parts]
+    built = {"__pycache__", *EXTENSION_SUFFIXES}
+    inside = [p for part in parts for p in (ROOT / part).rglob("*") if p.is_file() and not built & {*p.parts, *ends(p)}]
     return [
         p.relative_to(ROOT)
-        for p in [*inside, *(ROOT / n for n in ("cli.py", "pyproject.toml", "README.md", "LICENSE"))]
+        for p in [*inside, *(ROOT / n for n in ("cli.py", "setup.py", "pyproject.toml", "README.md", "LICENSE"))]
     ]
 
 
@@ -69,9 +79,15 @@ def test_the_wheel_holds_code_and_data(wheel):
         names = {n for n in archive.namelist() if ".dist-info/" not in n}
     data = {".toml", ".json", ".html", ".css", ".js", ".typed"}
     wanted = {
-        p.as_posix() for p in tracked() if len(p.parts) > 1 and (p.suffix in {".py", *data} or p.name == "py.typed")
+        p.as_posix()
+        for p in tracked()
+        if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or p.name == "py.typed")
     }
-    assert names == wanted | {"cli.py"}
+    extensions = {n for n in names if ends(Path(n)) & set(EXTENSION_SUFFIXES)}
+    assert names - extensions == wanted | {"cli.py"}
+    sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in (ROOT / "plantar" / "kernels").glob("*.pxd")}
+    compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
+    assert {n.partition(".")[0] for n in extensions} == (sources if compiles else set())
     assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "sim")} <= names
     assert any(n.startswith("sim/robots/") and n.endswith(".toml") for n in names)
     assert any(n.startswith("sim/scenes/") and n.endswith(".toml") for n in names)
@@ -92,6 +108,29 @@ def test_it_runs_from_the_environment_and_not_from_the_checkout(installed, tmp_p
     files = run(installed / "python", "-c", code, cwd=tmp_path).stdout.splitlines()
     assert len(files) == 5
     assert all(Path(f).is_relative_to(installed.parent) for f in files), files
+
+
+def test_the_installed_kernels_are_compiled_and_the_sources_do_the_same(installed, tmp_path):
+    code = "from plantar import kernels, polygon; print(polygon.area([[0, 0], [2, 0], [2, 1]]), kernels.compiled)"
+    assert run(installed / "python", "-c", code, cwd=tmp_path).stdout.startswith("1.0")
+    forced = f"import os; os.environ['PLANTAR_KERNELS'] = 'python'; {code}"
+    assert run(installed / "python", "-c", forced, cwd=tmp_path).stdout.split() == ["1.0", "False"]
+
+
+def test_without_a_compiler_it_installs_and_works(tmp_path):
+    """Built from a copy with a compiler that does not exist: the wheel holds the sources alone, and they run."""
+    source = tmp_path / "source"
+    for path in tracked():
+        (source / path).parent.mkdir(parents=True, exist_ok=True)
+        (source / path).write_bytes((ROOT / path).read_bytes())
+    build = "import os, sys; os.environ['CC'] = 'no-such-compiler'; from build.__main__ import main; main(sys.argv[1:])"
+    run(sys.executable, "-c", build, "--wheel", "--no-isolation", "--outdir", tmp_path, source, cwd=tmp_path)
+    [built] = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(built) as archive:
+        assert not [n for n in archive.namelist() if ends(Path(n)) & set(EXTENSION_SUFFIXES)]
+        archive.extractall(tmp_path / "installed")
+    code = "from plantar import kernels, polygon; print(polygon.area([[0, 0], [2, 0], [2, 1]]), kernels.compiled)"
+    assert run(sys.executable, "-c", code, cwd=tmp_path / "installed").stdout.split() == ["1.0", "False"]
 
 
 def test_help_and_lists(installed, tmp_path):
