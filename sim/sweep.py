@@ -256,7 +256,7 @@ def figures_of(points: Sequence[dict[str, Any]], scene: str) -> Any:
     Returns:
         The figure.
     """
-    figure, axis = new_figure(max(5.0, 1.0 + 0.6 * len(points)), 4.0)
+    figure, axis = new_figure(max(5.0, 1.2 + 1.05 * len(points)), 4.0)
     names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
     shares = [100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points]
     bars = axis.bar(range(len(points)), shares, color=COLOURS["polygon"])
