@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -65,6 +65,10 @@ class Result:
     def as_dict(self) -> dict[str, Any]:
         """The fields by name."""
         return asdict(self)
+
+    def without_error(self) -> Result:
+        """The same without an error, for a route that computes nothing to compare."""
+        return replace(self, error=None)
 
 
 def compare(

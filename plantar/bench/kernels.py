@@ -13,28 +13,14 @@ from plantar.bench import references as exact
 from plantar.bench import rivals
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.bench.soles import Contact, contacts
-from plantar.kernels.sole import SoleKernel
-from plantar.layout import SoleLayout
 from plantar.outline import Outline, concave_outline
 
-__all__ = ["OFFSET", "compare_shapes", "sole_kernel"]
+__all__ = ["OFFSET", "compare_shapes"]
 
 Array = NDArray[np.float64]
 
 OFFSET = 0.01
 """Distance in m of the inner offset that is measured."""
-
-
-def sole_kernel(layout: SoleLayout) -> SoleKernel:
-    """The kernel of a sole, made once and kept by the caller."""
-    return SoleKernel(
-        layout.positions,
-        layout.rotations[:, :, 2],
-        layout.areas,
-        layout.vertices[:, :2],
-        layout.corner_start,
-        layout.corner_vertex,
-    )
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
@@ -75,7 +61,7 @@ def _size(ring: Array) -> float:
 
 
 def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
-    kernel = sole_kernel(found[0].layout)
+    kernel = found[0].layout.kernel
     masks = [c.active for c in found]
     points = [c.points for c in found]
     routes = [

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "area_exact",
+    "centroid_exact",
     "circle_radius",
     "closest_point_exact",
     "hull_area_exact",
@@ -89,6 +90,18 @@ def area_exact(rings: Sequence[Array]) -> float:
         whole, scale = integers(ring)
         total += Fraction(_twice(whole), 2 * scale * scale)
     return float(total)
+
+
+def centroid_exact(polygon: Array) -> Array:
+    """Centroid (2,) in m of the area of a simple polygon (k, 2), in fractions."""
+    whole, scale = integers(polygon)
+    twice, x, y = 0, 0, 0
+    for (ax, ay), (bx, by) in pairwise([*whole, whole[0]]):
+        cross = ax * by - bx * ay
+        twice += cross
+        x += (ax + bx) * cross
+        y += (ay + by) * cross
+    return np.array([float(Fraction(x, 3 * twice * scale)), float(Fraction(y, 3 * twice * scale))])
 
 
 def closest_point_exact(polygon: Array, point: Array) -> Array:
@@ -321,7 +334,7 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-10
     def best(angles: Array) -> Array:
         slope, upper, lower, px = _chains(polygon, angles)
         place = np.sort(px, axis=1)  # between them the chord's length is linear
-        length = np.array(
+        length: Array = np.array(
             [
                 (slope * place[:, k : k + 1] + upper).min(axis=1) - (slope * place[:, k : k + 1] + lower).max(axis=1)
                 for k in range(size)

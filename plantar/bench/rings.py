@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 class Rings:
-    """Polygons (k, 2) padded to one array with their last vertex.
+    """Polygons (k, 2) padded to one array with their first vertex, so that what is padded closes them.
 
     Args:
         polygons: The polygons in m; empty ones are padded with zeros.
@@ -31,7 +31,7 @@ class Rings:
         most = max(1, int(self.size.max(initial=1)))
         flat = np.concatenate([np.zeros((1, 2)), *polygons])
         start = 1 + np.cumsum(self.size) - self.size
-        column = np.minimum(np.arange(most), np.maximum(self.size - 1, 0)[:, None])
+        column = np.where(np.arange(most) < self.size[:, None], np.arange(most), 0)
         self.points: Array = flat[np.where(self.size[:, None] > 0, start[:, None] + column, 0)]
         self.extent: Array = np.ptp(self.points, axis=1).max(axis=1)
         self.ulp: Array = 2.3e-16 * np.abs(self.points).max(axis=(1, 2))
@@ -49,27 +49,19 @@ class Rings:
 
     def not_convex(self) -> Array:
         """1.0 where a polygon is not strictly convex and counter-clockwise, else 0.0 (count,): exact orientations."""
-        edge, count = self.edge, len(self.size)
-        wrong = np.zeros(count)
-        for k in range(edge.shape[1]):
-            here, ok = k, k < self.size
-            after = np.where(k + 1 < self.size, k + 1, 0)
-            rows = np.arange(count)
-            a, b = edge[:, here], self.points[rows, np.where(after + 1 < self.size, after + 1, 0)]
-            second = b - self.points[rows, after]
-            one, two = a[:, 0] * second[:, 1], a[:, 1] * second[:, 0]
-            turn, doubt = (
-                one - two,
-                1e-15 * (np.abs(one) + np.abs(two))
-                + 4.0 * self.ulp * (np.abs(a).sum(axis=1) + np.abs(second).sum(axis=1)),
-            )
-            ok &= self.size >= 3
-            wrong[ok & (turn < -doubt)] = 1.0
-            for i in np.flatnonzero(ok & (np.abs(turn) <= doubt)).tolist():
-                ring = self.points[i, [here, after[i], (after[i] + 1) % self.size[i]]]
-                (ax, ay), (bx, by), (cx, cy) = [(Fraction(float(u)), Fraction(float(v))) for u, v in ring]
-                if (bx - ax) * (cy - by) - (by - ay) * (cx - bx) <= 0:
-                    wrong[i] = 1.0
+        index = np.arange(self.edge.shape[1])
+        real = (index < self.size[:, None]) & (self.size[:, None] >= 3)
+        after = np.where(index + 1 < self.size[:, None], index + 1, 0)
+        second = np.take_along_axis(self.edge, after[..., None], axis=1)
+        one, two = self.edge[..., 0] * second[..., 1], self.edge[..., 1] * second[..., 0]
+        lengths = np.abs(self.edge).sum(axis=2) + np.abs(second).sum(axis=2)
+        doubt = 1e-15 * (np.abs(one) + np.abs(two)) + 4.0 * self.ulp[:, None] * lengths
+        wrong: Array = (real & (one - two < -doubt)).any(axis=1).astype(float)
+        for i, k in np.argwhere(real & (np.abs(one - two) <= doubt)).tolist():
+            ring = self.points[i, [k, (k + 1) % self.size[i], (k + 2) % self.size[i]]]
+            (ax, ay), (bx, by), (cx, cy) = [(Fraction(float(u)), Fraction(float(v))) for u, v in ring]
+            if (bx - ax) * (cy - by) - (by - ay) * (cx - bx) <= 0:
+                wrong[i] = 1.0
         return wrong
 
     def depth(self, points: Array) -> Array:

@@ -178,7 +178,8 @@ def _raster(rings: Sequence[Array], pixel: float) -> NDArray[np.bool_]:
             at = np.ceil(ax + (line - ay) * (bx - ax) / (by - ay)).astype(int)
             np.add.at(crossings, (line, at), 1)
     inside = np.cumsum(crossings, axis=1)[:, :columns] % 2 == 1
-    return inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
+    whole: NDArray[np.bool_] = inside[1:, 1:] & inside[:-1, 1:] & inside[1:, :-1] & inside[:-1, :-1]
+    return whole
 
 
 def histogram_rectangle(rings: Sequence[Array], pixel: float = 1e-3) -> float:
@@ -347,7 +348,7 @@ def box_cv2(polygon: NDArray[np.float32]) -> float:
 def turned(points: Array, angle: float) -> Array:
     """Points (n, 2) turned about the origin by an angle in rad; returns them."""
     c, s = math.cos(angle), math.sin(angle)
-    return points @ np.array([[c, s], [-s, c]])
+    return np.asarray(points @ np.array([[c, s], [-s, c]]))
 
 
 def rectangle_slsqp_any_angle(polygon: Array, angles: int = 32) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,7 @@ def near_ground(block: Block, tally: Tally) -> None:
         stack = percepts[i].height_contours_in_sole
         assert stack is not None
         masks = [c.taxels for c in stack]
-        broken.append(any(bool((a & ~b).any()) for a, b in zip(masks[:-1], masks[1:], strict=True)))
+        broken.append(any(bool((a & ~b).any()) for a, b in pairwise(masks)))
     tally.add("Percept.height_contours_in_sole: nest", block, broken, 0.0, len(block))
     measure = proximity.proximity_measure(distance, reach)
     right = np.clip(reach - known, 0.0, reach)

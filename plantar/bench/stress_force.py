@@ -126,9 +126,13 @@ def percept_faults(block: Block, tally: Tally) -> None:
     tally.add("stuck_taxels as StuckMonitor", block, (stuck != live).any(axis=1))
     filled = health.fill_from_neighbours(layout, given, wanted, per_area=True)
     bad = np.isnan(filled) & ~wanted
-    finite = np.where(np.isfinite(given) & ~wanted, given, -math.inf).max(axis=1) / layout.areas.min()
+    finite = np.where(np.isfinite(given) & ~wanted, given / layout.areas, -math.inf).max(axis=1)
     high_fill = np.where(wanted & np.isfinite(filled), filled / layout.areas, -math.inf).max(axis=1)
-    tally.add("fill_from_neighbours", block, bad.any(axis=1) | (high_fill > finite * (1.0 + 1e-12) + 1e-300))
+    tally.add(
+        "fill_from_neighbours",
+        block,
+        bad.any(axis=1) | (high_fill > np.where(finite < 0.0, finite * (1.0 - 1e-12), finite * (1.0 + 1e-12))),
+    )
     rows = np.arange(0, len(block), 25)
     one = [_same(health.fill_from_neighbours(layout, given[i], wanted[i], per_area=True), filled[i]) for i in rows]
     tally.add("fill_from_neighbours: batch as scalar", block, ~np.array(one), 0.0, len(rows))
@@ -180,10 +184,19 @@ def balance_points(block: Block, tally: Tally) -> None:
     zero = [p.zero_moment_wrench_in_sole for p in percepts]
     loaded = np.array([z is not None for z in zero])
     tally.add("Percept.zero_moment_wrench_in_sole: None without load", block, loaded != (wrenches[:, 2] > 0.0))
-    back = np.array([np.zeros(6) if z is None else force.wrench_at(z[1], -z[0]) for z in zero])
+    place = np.array([np.zeros(3) if z is None else z[0] for z in zero])
+    about = np.array([np.zeros(6) if z is None else z[1] for z in zero])
+    back = about + np.hstack([np.zeros((len(block), 3)), np.cross(place, about[:, :3])])
     size = np.abs(wrenches).max(axis=1, keepdims=True) + 1e-300
     moments = np.where(loaded[:, None], np.abs(back - wrenches) / size, 0.0).max(axis=1)
-    tally.add("zero_moment_wrench, wrench_at", block, moments, 1e-12)
+    tally.add("Percept.zero_moment_wrench_in_sole", block, moments, 1e-12)
+    there = force.wrench_at(force.wrench_at(wrenches, at), -at)
+    far = size * (1.0 + float(np.abs(at).max()))
+    tally.add("wrench_at: there and back", block, _error(there, wrenches, far), 1e-14)
+    points = [zmp.zmp_in_plane(w, float(at[2])) for w in wrenches]
+    tally.add("zmp_in_plane", block, [p is not None and not np.isfinite(p).all() for p in points])
+    flat_points = [force.zmp_of_wrench(w) for w in wrenches]
+    tally.add("zmp_of_wrench", block, [p is not None and not np.isfinite(p).all() for p in flat_points])
     pressed = np.array([p.pressure_driven_wrench_in_sole for p in percepts])
     area = np.array([p.contact_area for p in percepts])[:, None]
     right = np.where(area > 0.0, wrenches * block.layout.cell_area / np.where(area > 0.0, area, 1.0), 0.0)
@@ -203,18 +216,21 @@ def balance_points(block: Block, tally: Tally) -> None:
     truth = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T + moved])
     tally.add("SolePose.wrench_to_world", block, _error(world, truth, scale), 1e-14)
     other = SolePose.flat(at[0] + 0.02, at[1] + 0.2, at[2])
-    both = [sole_pose.zmp_of_soles([w, w], [block.pose, other], float(at[2])) for w in wrenches]
+    total = sole_pose.wrench_of_feet([wrenches, wrenches], [block.pose, other])
+    tally.add("wrench_of_feet", block, _error(total, world + other.wrench_to_world(wrenches), scale), 1e-14)
+    some = wrenches[::8]
+    both = [sole_pose.zmp_of_soles([w, w], [block.pose, other], float(at[2])) for w in some]
     middle = [
         None if c is None else 0.5 * (block.pose.to_world([*c, 0.0]) + other.to_world([*c, 0.0]))[:2]
-        for c in (p.position_cop_in_sole for p in percepts)
+        for c in (p.position_cop_in_sole for p in percepts[::8])
     ]
     flat = np.abs(block.layout.positions[:, 2]).max() == 0.0
     gap = [
         0.0 if z is None or m is None or not flat else float(np.abs(z - m).max())
         for z, m in zip(both, middle, strict=True)
     ]
-    tally.add("zmp_of_soles", block, np.array(gap) / (1.0 + float(np.abs(at).max())), 1e-9)
-    com = at + [0.0, 0.0, 0.8]
+    tally.add("zmp_of_soles", block, np.array(gap) / (1.0 + float(np.abs(at).max())), 1e-9, len(some))
+    com = at + np.array([0.0, 0.0, 0.8])
     pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
     lost = [p is not None and not np.isfinite(p).all() for p in pivot]
     tally.add("centroidal_moment_pivot", block, lost)
@@ -237,34 +253,35 @@ def two_feet(block: Block, tally: Tally) -> None:
     at = block.pose.position_in_world
     poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
     members = [n for n in dir(FeetPercept) if not n.startswith("_")]
-    rows = range(0, len(block), 4)
+    rows = range(0, len(block), 8)
     wrong = []
     for i in rows:
         feet = FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2]))
         values = [getattr(feet, m) for m in members]
-        wrong.append(not all(_no_nan(v) for v in values))
+        wrong.append(not all(np.isfinite(part).all() for part in _numbers(values)))
     tally.add("FeetPercept: every member", block, wrong, 0.0, len(wrong))
 
 
 def every_member(block: Block, tally: Tally) -> None:
     """No member of a percept is NaN, but where the acceleration or the sound force says that a taxel is dead."""
-    spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole"}
+    spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole", "health", "active", "near"}
     for member in Percept.members():
         if member not in spared:
-            wrong = [not _no_nan(getattr(p, member)) for p in block.percepts]
+            values = [np.concatenate([[0.0], *_numbers(getattr(p, member))]) for p in block.percepts]
+            finite = np.isfinite(np.concatenate(values)).all()  # reading by reading only where something is wrong
+            wrong = [False] * len(values) if finite else [not np.isfinite(v).all() for v in values]
             tally.add(f"Percept.{member}: no NaN", block, wrong)
 
 
-def _no_nan(value: Any) -> bool:
-    if value is None or isinstance(value, bool | int | str):
-        return True
+def _numbers(value: Any) -> list[Array]:
+    """The floating point numbers in a result, flat."""
     if isinstance(value, float):
-        return math.isfinite(value)
+        return [np.array([value])]
     if isinstance(value, np.ndarray):
-        return value.dtype.kind != "f" or bool(np.isfinite(value).all())
+        return [value.reshape(-1)] if value.dtype.kind == "f" else []
     if isinstance(value, tuple | list):
-        return all(_no_nan(v) for v in value)
-    return not hasattr(value, "points") or _no_nan(value.points)
+        return [part for v in value for part in _numbers(v)]
+    return _numbers(value.points) if hasattr(value, "points") else []
 
 
 FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (

@@ -173,5 +173,6 @@ def _block(layout: SoleLayout, count: int, rng: np.random.Generator, number: int
     acceleration = rng.normal(0.0, 10.0, (count, n, 3))
     acceleration[odd[:, :, None] & (rng.random((count, n, 3)) < 0.2)] = np.nan
     reach = 1e6 if number % 3 == 2 else 1.0
-    pose = SolePose.flat(*(reach * rng.uniform(-1.0, 1.0, 3)).tolist(), yaw=float(rng.uniform(-3.2, 3.2)))
+    x, y, z = (reach * rng.uniform(-1.0, 1.0, 3)).tolist()
+    pose = SolePose.flat(x, y, z, yaw=float(rng.uniform(-3.2, 3.2)))
     return Block(layout, force, proximity, temperature, acceleration, pose, rng, number)

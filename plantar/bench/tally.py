@@ -70,11 +70,11 @@ class Tally:
             block: The readings.
             errors: Error of each reading or each value checked; NaN is a failure.
             bound: What it may be.
-            readings: How many readings were tried; those of the block where None.
+            readings: How many readings were tried; as many as there are errors where None.
         """
         values = np.asarray(errors, dtype=float).reshape(-1)
         tested = self.tested.setdefault(name, Tested(bound))
-        tested.readings += len(block) if readings is None else readings
+        tested.readings += len(values) if readings is None else readings
         bad = ~(values <= bound)
         if len(values):
             worst = float(np.where(np.isnan(values), np.inf, values).max())

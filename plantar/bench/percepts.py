@@ -1,0 +1,311 @@
+"""Run time of what a controller and an analyst ask for: a tick, a whole percept, wrenches and recordings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar import batch, polygon
+from plantar.bench import references as exact
+from plantar.bench.comparison import Reference, Result, Route, compare
+from plantar.bench.kernels import OFFSET
+from plantar.bench.rivals import hull_shapely
+from plantar.bench.soles import contacts, sole_of
+from plantar.feet import FeetPercept
+from plantar.force import ground_reaction_wrench
+from plantar.kernels import KERNELS, compiled, python_form
+from plantar.layout import SoleLayout
+from plantar.percept import Percept
+from plantar.reading import Reading
+from plantar.sole_pose import SolePose
+
+__all__ = ["FRAMES", "TAXELS", "compare_forms", "compare_percepts", "compare_recordings"]
+
+Array = NDArray[np.float64]
+
+FRAMES = 100_000
+"""Frames of the recording that is measured."""
+
+TAXELS = 102
+"""Taxels of a frame: two soles of 51, side by side."""
+
+_AIM = np.array([0.09, 0.06])
+"""Point in m that a tick clamps to the offset polygon."""
+
+
+def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
+    """Compare a walking tick, whole percepts and wrenches of both feet.
+
+    Args:
+        rounds: Rounds to take the median over.
+
+    Yields:
+        Name of what is measured and the results of its routes.
+    """
+    left, right = sole_of(51), sole_of(51, "right")
+    pairs = [(a.force, b.force) for a, b in zip(contacts("20", 1), contacts("20", 2), strict=True)]
+    feet = (left, right)
+    tools = tuple(_Assembled(s) for s in feet)
+    poses = [SolePose.flat(0.0, 0.1), SolePose.flat(0.05, -0.1, yaw=0.1)]
+    rng = np.random.default_rng(3)
+    full = [
+        [Reading(0.0, f, rng.uniform(0.0, 0.06, 51), rng.uniform(20.0, 40.0, 51), rng.normal(size=(51, 3))) for f in p]
+        for p in pairs
+    ]
+    ticks = [
+        Route("plantar", lambda p: [_tick(s, f) for s, f in zip(feet, p, strict=True)], pairs, _flat, ours=True),
+        Route("shapely + numpy", lambda p: [t.tick(f) for t, f in zip(tools, p, strict=True)], pairs, _flat),
+        Route(
+            "scipy + shapely + numpy", lambda p: [t.tick(f, True) for t, f in zip(tools, p, strict=True)], pairs, _flat
+        ),
+    ]
+    yield "walking tick", compare("walking tick", "both feet, 20 active", ticks, _ticks_exact(feet, pairs), rounds)
+    forces = [np.concatenate(p) for p in pairs]
+    columns = [np.asarray(exact_columns(s)) for s in feet]
+    places = [s.positions for s in feet]
+    maps = [s.wrench_map for s in feet]
+    wrenches = [
+        Route("plantar", lambda f: _wrenches(feet, f), forces, ours=True),
+        Route("numpy, M @ f", lambda f: [maps[0] @ f[:51], maps[1] @ f[51:]], forces),
+        Route("numpy, sums of z forces", lambda f: [_sums(places[0], f[:51]), _sums(places[1], f[51:])], forces),
+        Route("numpy, np.cross", lambda f: [_cross(places[0], f[:51]), _cross(places[1], f[51:])], forces),
+    ]
+    truth = [
+        np.array([exact.wrench_exact(c, f) for c, f in zip(columns, (g[:51], g[51:]), strict=True)]) for g in forces
+    ]
+    yield "wrench", compare("wrench", "2 x 51 taxels", wrenches, Reference(truth), rounds)
+    members = [
+        Route("plantar, every member", partial(_read_all, feet, poses), full, ours=True),
+        Route("plantar, members not read", partial(_read_none, feet), full, ours=True),
+        Route("plantar, readings alone", _readings_alone, full, ours=True),
+    ]
+    yield "percept", compare("percept", "both feet, 20 active", members, None, rounds)
+
+
+def _tick(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
+    """What a tick needs of one foot, from plantar."""
+    foot = Percept(layout, Reading(0.0, force))
+    safe = polygon.inner_offset(foot.support_polygon_in_sole, OFFSET)
+    return (
+        foot.active,
+        foot.position_cop_in_sole,
+        foot.wrench_in_sole,
+        foot.support_area,
+        foot.centroid_in_sole,
+        abs(polygon.area(safe)),
+        polygon.closest_point(safe, _AIM),
+    )
+
+
+class _Assembled:
+    """The same of one foot from shapely, scipy and numpy; what does not change is prepared."""
+
+    def __init__(self, layout: SoleLayout) -> None:
+        self.threshold = layout.force_threshold
+        self.map = layout.wrench_map
+        self.positions = layout.positions[:, :2]
+        self.vertices = layout.vertices[:, :2]
+        most = max(len(c) for c in layout.corners)
+        self.corners = np.array([list(c) + [c[-1]] * (most - len(c)) for c in layout.corners])
+
+    def tick(self, force: Array, qhull: bool = False) -> tuple[Any, ...]:
+        """What a tick needs, the hull from scipy's Qhull or from shapely's GEOS."""
+        import shapely
+
+        active = force > self.threshold
+        kept = np.where(active, force, 0.0)
+        points = self.vertices[np.unique(self.corners[active])]
+        if qhull:
+            from scipy.spatial import ConvexHull
+
+            hull = shapely.Polygon(points[ConvexHull(points).vertices])
+        else:
+            hull = shapely.convex_hull(shapely.multipoints(points))
+        middle = shapely.centroid(hull)
+        safe = shapely.buffer(hull, -OFFSET, join_style="mitre")
+        clamped = shapely.get_coordinates(shapely.shortest_line(safe, shapely.Point(_AIM)))[0]
+        return (
+            active,
+            kept @ self.positions / kept.sum(),
+            self.map @ kept,
+            hull.area,
+            np.array([middle.x, middle.y]),
+            safe.area,
+            clamped,
+        )
+
+
+def _flat(results: Any) -> Array:
+    return np.concatenate([np.atleast_1d(np.asarray(v, dtype=float)) for foot in results for v in foot])
+
+
+def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]]) -> Reference:
+    """The same by the references; the clamped point on the offset polygon of ours, whose area is compared too."""
+    values = []
+    for pair in pairs:
+        parts = []
+        for layout, force in zip(feet, pair, strict=True):
+            active = force > layout.force_threshold
+            used = np.unique([v for i in np.flatnonzero(active) for v in layout.corners[i]])
+            hull = polygon.convex_hull(layout.vertices[used, :2])
+            wrench = exact.wrench_exact(exact_columns(layout), np.where(active, force, 0.0))
+            safe = polygon.inner_offset(hull, OFFSET)
+            parts.append(
+                (
+                    active,
+                    [-wrench[4] / wrench[2], wrench[3] / wrench[2]],
+                    wrench,
+                    exact.hull_area_exact(layout.vertices[used, :2]),
+                    exact.centroid_exact(hull),
+                    exact.inner_offset_area(hull, OFFSET),
+                    exact.closest_point_exact(safe, _AIM) if len(safe) > 2 else safe[0],
+                )
+            )
+        values.append(_flat(parts))
+    return Reference(values)
+
+
+def exact_columns(layout: SoleLayout) -> Array:
+    """Wrench (n, 6) of 1 N on each taxel of a layout; returns it."""
+    normal = layout.rotations[:, :, 2]
+    return np.hstack([normal, np.cross(layout.positions, normal)])
+
+
+def _wrenches(feet: tuple[SoleLayout, ...], force: Array) -> list[Array]:
+    """Wrenches of both feet through the sole's kernel, every taxel active."""
+    every = _EVERY
+    return [layout.kernel.loads(part, every)[:6] for layout, part in zip(feet, (force[:51], force[51:]), strict=True)]
+
+
+_EVERY = np.ones(51, dtype=bool)
+
+
+def _sums(positions: Array, force: Array) -> Array:
+    return np.array([0.0, 0.0, force.sum(), positions[:, 1] @ force, -(positions[:, 0] @ force), 0.0])
+
+
+def _cross(positions: Array, force: Array) -> Array:
+    pushes = np.zeros((len(force), 3))
+    pushes[:, 2] = force
+    return np.concatenate([pushes.sum(axis=0), np.cross(positions, pushes).sum(axis=0)])
+
+
+def _read_all(feet: tuple[SoleLayout, ...], poses: list[SolePose], readings: list[Reading]) -> None:
+    percepts = [Percept(layout, r) for layout, r in zip(feet, readings, strict=True)]
+    for percept in percepts:
+        for member in _MEMBERS:
+            getattr(percept, member)
+    both = FeetPercept(percepts, poses)
+    for member in _MEMBERS_OF_FEET:
+        getattr(both, member)
+
+
+_MEMBERS = Percept.members()
+_MEMBERS_OF_FEET = tuple(n for n in dir(FeetPercept) if not n.startswith("_"))
+
+
+def _read_none(feet: tuple[SoleLayout, ...], readings: list[Reading]) -> None:
+    for layout, r in zip(feet, readings, strict=True):
+        Percept(layout, Reading(r.time, r.force, r.proximity, r.temperature, r.acceleration))
+
+
+def _readings_alone(readings: list[Reading]) -> None:
+    for r in readings:
+        Reading(r.time, r.force, r.proximity, r.temperature, r.acceleration)
+
+
+def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
+    """Compare wrenches and support polygons of a whole recording, beside a copy of its memory.
+
+    Args:
+        frames: Frames of the recording.
+        rounds: Rounds to take the median over.
+
+    Yields:
+        Name of what is measured and the results of its routes.
+    """
+    layout = sole_of(TAXELS)
+    rng = np.random.default_rng(4)
+    force = rng.gamma(0.6, 12.0, (frames, TAXELS))
+    target, out = np.empty_like(force), np.empty((frames, 6))
+    back = np.ascontiguousarray(layout.wrench_map.T)
+    level = layout.force_threshold
+    routes = [
+        Route("plantar", lambda f: batch.wrenches(layout, f, out=out), [force], _few, ours=True),
+        Route("np.where @", lambda f: np.where(f > level, f, 0.0) @ back, [force], _few),
+        Route("BLAS, no threshold", lambda f: f @ back, [force], _few, approximate=True),
+        Route("copy of the forces", lambda f: np.copyto(target, f), [force]),
+    ]
+    columns = exact_columns(layout)
+    truth = np.array([exact.wrench_exact(columns, np.where(row > level, row, 0.0)) for row in force[:_FEW]])
+    results = compare("wrench of a recording", f"{frames} x {TAXELS}", routes, Reference([truth]), rounds, most=2.0)
+    yield "wrench of a recording", [*results[:-1], results[-1].without_error()]
+    part = force[: min(frames, 2000)] * (rng.random((min(frames, 2000), 1)) < 0.9)
+    masks = part > level
+    points = [_points(layout, m) for m in masks]
+    hulls = [
+        Route("plantar", lambda f: batch.support_polygons(layout, f).area, [part], lambda a: a[::10], ours=True),
+        Route(
+            "shapely, a loop", lambda ps: [hull_shapely(p) if len(p) else 0.0 for p in ps], [points], lambda a: a[::10]
+        ),
+    ]
+    areas = np.array([exact.hull_area_exact(p) if len(p) else 0.0 for p in points[::10]])
+    yield (
+        "hull + area of a recording",
+        compare("hull + area of a recording", f"{len(part)} x {TAXELS}", hulls, Reference([areas]), rounds, most=2.0),
+    )
+
+
+_FEW = 50
+"""Frames whose wrench is compared with the reference."""
+
+
+def _few(wrenches: Array) -> Array:
+    return wrenches[:_FEW]
+
+
+def _points(layout: SoleLayout, active: NDArray[np.bool_]) -> Array:
+    used = np.unique(layout.corner_vertex[np.repeat(active, np.diff(layout.corner_start))])
+    return layout.vertices[used, :2]
+
+
+def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
+    """Compare the compiled form of the sole's kernel with the interpreted one; nothing where none is compiled.
+
+    Args:
+        rounds: Rounds to take the median over.
+
+    Yields:
+        Name of what is measured and the results of the two forms.
+    """
+    if not compiled or os.environ.get("PLANTAR_KERNELS") == "python" or "sole" not in KERNELS:
+        return
+    found = contacts("20")
+    layout = found[0].layout
+    slow = python_form("sole").SoleKernel(
+        layout.positions,
+        layout.rotations[:, :, 2],
+        layout.areas,
+        layout.vertices[:, :2],
+        layout.corner_start,
+        layout.corner_vertex,
+    )
+    masks = [c.active for c in found]
+    reference = Reference([exact.hull_area_exact(c.points) for c in found])
+    routes = [
+        Route("compiled", layout.kernel.hull, masks, lambda r: r[1], ours=True),
+        Route("interpreted", slow.hull, masks, lambda r: r[1], ours=True),
+    ]
+    yield "forms: hull + area", compare("forms: hull + area", "20", routes, reference, rounds)
+    loads = [(c.force, c.active) for c in found]
+    truth = [exact.wrench_exact(exact_columns(layout), c.force) for c in found]
+    routes = [
+        Route("compiled", lambda case: layout.kernel.loads(*case), loads, lambda r: r[:6], ours=True),
+        Route("interpreted", lambda case: slow.loads(*case), loads, lambda r: r[:6], ours=True),
+    ]
+    yield "forms: loads", compare("forms: loads", "20", routes, Reference(truth), rounds)
