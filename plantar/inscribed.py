@@ -114,7 +114,8 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
         angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
 
     Returns:
-        Corners (4, 2) in m from the lower left one at angle 0; its area is exact to 1e-12 of it.
+        Corners (4, 2) in m from the lower left one at angle 0; its area is exact to 1e-12 of it, and to 1e-8 where
+        edges lie within 1e-3 rad of the sides' directions without lying on them.
 
     Example:
         >>> inscribed_rectangle([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).tolist()
@@ -126,14 +127,15 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
     """Rectangle of most area in a convex polygon, at any angle.
 
-    The best angle is searched for: 24 angles and the directions of all edges, then golden sections around each local
-    maximum of these within 10 % of the best.
+    The best angle is searched for: 36 angles in a quarter turn and the directions of all edges, more angles where
+    these leave room for a summit, then golden sections around each summit that is not too far below the best.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m; its area is within 1e-6 of the largest one.
+        Corners (4, 2) in m; its area is within 1e-6 of the largest one: the search is not a proof, and held on 6,000
+        random polygons against scans of 800 angles.
 
     Example:
         >>> corners = inscribed_rectangle_any_angle([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
@@ -154,7 +156,8 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
         angle: Angle of the first side against x in rad; 0 for a rectangle along the axes.
 
     Returns:
-        Corners (4, 2) in m; its area is exact to 1e-12 of it. No corners (0, 2) for an empty outline.
+        Corners (4, 2) in m; its area is exact to 1e-12 of it, and to 1e-7 where edges lie within 1e-3 rad of the sides'
+        directions without lying on them. No corners (0, 2) for an empty outline.
 
     Example:
         >>> corner = Outline.of_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
@@ -173,7 +176,7 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
 def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
     """Rectangle of most area in a concave outline, at any angle.
 
-    Searched for as in `inscribed_rectangle_any_angle`.
+    Searched for as in `inscribed_rectangle_any_angle`, from 24 angles.
 
     Args:
         outline: Outline with islands and holes in m.
@@ -194,7 +197,7 @@ def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
     n = len(outline.points)
     out = np.zeros(8)
     starts = np.asarray(outline.starts, dtype=np.intp)
-    work = np.empty(8 * n + 14 + 2 * _SAMPLES)
+    work = np.empty(22 * n + 14 + 16 * _SAMPLES)
     points = (outline.points - base).reshape(-1)
     _any_angle.largest_rectangle_at_any_angle(points, n, starts, _SAMPLES, work, out)
     return np.asarray(out.reshape(4, 2) + base)

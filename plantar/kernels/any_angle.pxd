@@ -6,6 +6,7 @@ cdef double _QUARTER
 cdef double _NEAR
 cdef double _GOLDEN
 cdef int _SECTIONS
+cdef int _BETWEEN
 
 cpdef double largest_rectangle_at_any_angle(
     double[::1] ring, Py_ssize_t n, const Py_ssize_t[::1] starts, Py_ssize_t samples, double[::1] work,

@@ -15,9 +15,10 @@ from . import concave, rectangle
 __all__ = ["largest_rectangle_at_any_angle"]
 
 _QUARTER = 0.5 * math.pi
-_NEAR = 0.9  # a local maximum that starts below this share of the best is not followed
+_NEAR = 0.5  # a local maximum that starts below this share of the best is not followed in any case
 _GOLDEN = 0.3819660112501051
 _SECTIONS = 40
+_BETWEEN = 7
 
 
 def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
@@ -28,7 +29,7 @@ def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
         n: Number of vertices, 3 or more.
         starts: Offsets (r + 1,) of the outline's rings; empty for a convex ring.
         samples: Number of evenly spaced angles in a quarter turn, 8 or more.
-        work: Room for 8 n + 14 + 2 samples numbers.
+        work: Room for 22 n + 14 + 16 samples numbers.
         out: Receives the 4 corners, flat, counter-clockwise.
 
     Returns:
@@ -63,11 +64,41 @@ def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
         if area > best:
             best = area
             best_angle = work[at + 2 * i]
+    # Off its best angle a rectangle loses about (a + 1 / a) of its area a radian, a its sides' ratio: the slenderer
+    # the shape, the lower may a sample near the best angle lie.
+    _largest(ring, n, starts, best_angle, 0.0, work, out)
+    long = math.sqrt((out[2] - out[0]) ** 2 + (out[3] - out[1]) ** 2)
+    high = math.sqrt((out[4] - out[2]) ** 2 + (out[5] - out[3]) ** 2)
+    loss = long / high + high / long if long > 0.0 and high > 0.0 else 0.0
+    # Where a summit may stand between two samples, more of them: a finer list behind the first.
+    fine = at + 2 * count
+    more = 0
+    for i in range(count):
+        q = i + 1 if i + 1 < count else 0
+        low = work[at + 2 * i]
+        high = work[at + 2 * q] if i + 1 < count else work[at] + quarter
+        work[fine + 2 * more] = low
+        work[fine + 2 * more + 1] = work[at + 2 * i + 1]
+        more += 1
+        top = max(work[at + 2 * i + 1], work[at + 2 * q + 1])
+        if high - low < 1e-6 or top <= best * max(_NEAR, 1.0 - loss * (high - low)):
+            continue
+        for k in range(1, _BETWEEN):
+            angle = low + k * (high - low) / _BETWEEN
+            work[fine + 2 * more] = angle
+            work[fine + 2 * more + 1] = _largest(ring, n, starts, angle, _NEAR * best, work, out)
+            more += 1
+    at = fine
+    count = more
+    for i in range(count):
+        best = max(best, work[at + 2 * i + 1])
+    near = best * max(_NEAR, 1.0 - 0.5 * loss * quarter / samples / _BETWEEN - 1e-3)
+    result = 0.0
     for i in range(count):
         area = work[at + 2 * i + 1]
         p = i - 1 if i > 0 else count - 1
         q = i + 1 if i + 1 < count else 0
-        if area <= _NEAR * best or area < work[at + 2 * p + 1] or area <= work[at + 2 * q + 1]:
+        if area < near or area < work[at + 2 * p + 1] or area <= work[at + 2 * q + 1]:
             continue
         middle = work[at + 2 * i]
         low = work[at + 2 * p] if i > 0 else work[at + 2 * p] - quarter
@@ -91,8 +122,8 @@ def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
                 high = angle
             else:
                 low = angle
-        if area > best:
-            best = area
+        if area > result:
+            result = area
             best_angle = middle
     return _largest(ring, n, starts, best_angle, 0.0, work, out)
 

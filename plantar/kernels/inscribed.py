@@ -150,6 +150,9 @@ def largest_parallelogram(ring, n, out):
     best_by = 0.0
     best_dx = 0.0
     best_dy = 0.0
+    size = 0.0
+    for i in range(2 * n):
+        size = max(size, abs(ring[i]))
     for a in range(n):
         ax = ring[2 * a]
         ay = ring[2 * a + 1]
@@ -191,7 +194,7 @@ def largest_parallelogram(ring, n, out):
             dx = ring[2 * j] - ring[2 * i]
             dy = ring[2 * j + 1] - ring[2 * i + 1]
             turn = cx * dy - cy * dx
-            if c >= d or turn <= 1e-14 * (abs(cx * dy) + abs(cy * dx)):
+            if c >= d or turn <= 1e-13 * (abs(cx) + abs(cy)) * (abs(dx) + abs(dy)):
                 # The chord slides between parallel edges: C goes back or D goes on, whichever meets a vertex first.
                 if c >= d:  # the chord lies on one edge: slide along it, D to the next
                     d = c + 1
@@ -233,34 +236,62 @@ def largest_parallelogram(ring, n, out):
                     event = 3
             if end < t:
                 end = t
-            # Area AB x AD with B = B0 + t b, D = D0 + (e0 + e1 t) d: q0 + q1 t + q2 t^2.
+            # Area AB x AD with B = B0 + t b, D = D0 + (e0 + e1 t) d, but for a constant: q1 t + q2 t^2.
             px = d0x + e0 * dx
             py = d0y + e0 * dy
-            q0 = b0x * py - b0y * px
             q1 = bx * py - by * px + e1 * (b0x * dy - b0y * dx)
             q2 = e1 * (bx * dy - by * dx)
-            for trial in range(3):
-                if trial == 0:
-                    s = t
-                elif trial == 1:
-                    s = end
-                else:
+            # At both ends and at the summit; D from its edge, then C from its own: where C's and D's edges are almost
+            # parallel, rounding moves one of them off, and only what stays on the boundary counts.
+            for trial in range(6):
+                s = t
+                if trial >= 4:
                     if q2 >= 0.0:
                         break
                     s = -0.5 * q1 / q2
                     if not t < s < end:
                         break
-                value = q0 + s * (q1 + s * q2)
-                if value > best:
-                    g = g0 + g1 * s
-                    e = e0 + e1 * s
-                    if -1e-12 <= g <= 1.0 + 1e-12 and -1e-12 <= e <= 1.0 + 1e-12:
-                        best = value
-                        best_a = a
-                        best_bx = b0x + s * bx
-                        best_by = b0y + s * by
-                        best_dx = px + e1 * s * dx
-                        best_dy = py + e1 * s * dy
+                elif trial >= 2:
+                    s = end
+                ux = b0x + s * bx
+                uy = b0y + s * by
+                if trial % 2 == 0:
+                    e = min(1.0, max(0.0, e0 + e1 * s))
+                    if trial == 2 and event == 1:
+                        e = 1.0
+                    vx = d0x + e * dx
+                    vy = d0y + e * dy
+                    value = ux * vy - uy * vx
+                    if value <= best:
+                        continue
+                    wx = vx + ux - c0x
+                    wy = vy + uy - c0y
+                    off = wx * cy - wy * cx
+                    along = (wx * cx + wy * cy) / (cx * cx + cy * cy)
+                    limit = 1e-14 * size * (abs(cx) + abs(cy))
+                else:
+                    g = min(1.0, max(0.0, g0 + g1 * s))
+                    if trial == 3 and event == 2:
+                        g = 1.0
+                    elif trial == 3 and event == 3:
+                        g = 0.0
+                    vx = c0x + g * cx - ux
+                    vy = c0y + g * cy - uy
+                    value = ux * vy - uy * vx
+                    if value <= best:
+                        continue
+                    wx = vx - d0x
+                    wy = vy - d0y
+                    off = wx * dy - wy * dx
+                    along = (wx * dx + wy * dy) / (dx * dx + dy * dy)
+                    limit = 1e-14 * size * (abs(dx) + abs(dy))
+                if abs(off) <= limit and -1e-13 <= along <= 1.0 + 1e-13:
+                    best = value
+                    best_a = a
+                    best_bx = ux
+                    best_by = uy
+                    best_dx = vx
+                    best_dy = vy
             t = end
             if event == 0:
                 b += 1

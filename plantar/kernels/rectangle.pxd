@@ -8,3 +8,5 @@ cdef Py_ssize_t _chain(
     double[::1] work, Py_ssize_t n, Py_ssize_t low, Py_ssize_t high, Py_ssize_t step, double tolerance, Py_ssize_t
     at
 ) noexcept
+
+cdef double _upright(double[::1] work, Py_ssize_t i, Py_ssize_t j, double width, double tolerance) noexcept

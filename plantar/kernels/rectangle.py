@@ -227,8 +227,22 @@ def largest_rectangle(ring, n, angle, floor, work, out):
             break
     if best_w < 0.0:
         return best
-    x = best_x
-    y = best_x + best_w
+    # What the sides left out at upright edges: each side goes out to the edges' lines at the height of its corners.
+    x = work[2 * low]
+    y = work[2 * high]
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        dx = work[2 * j] - work[2 * i]
+        dy = work[2 * j + 1] - work[2 * i + 1]
+        if dy < 0.0:
+            x = max(x, work[2 * i] + (best_b - work[2 * i + 1]) * dx / dy)
+            x = max(x, work[2 * i] + (best_t - work[2 * i + 1]) * dx / dy)
+        elif dy > 0.0:
+            y = min(y, work[2 * i] + (best_b - work[2 * i + 1]) * dx / dy)
+            y = min(y, work[2 * i] + (best_t - work[2 * i + 1]) * dx / dy)
+    x = min(x, best_x)
+    y = max(y, best_x + best_w)
+    best = (y - x) * (best_t - best_b)
     out[0] = cosine * x - sine * best_b
     out[1] = sine * x + cosine * best_b
     out[2] = cosine * y - sine * best_b
@@ -243,32 +257,38 @@ def largest_rectangle(ring, n, angle, floor, work, out):
 def _chain(work, n, low, high, step, tolerance, at):
     """Lower (step 1) or upper (step -1) chain of rotated vertices from low to high: x, y, slope each, at work[at:].
 
-    Sides that stand upright, to the tolerance, are left out, so that every slope is finite.
+    Sides that stand upright, or almost, are left out, so that every slope is finite and says something.
     """
+    width = work[2 * high] - work[2 * low]
     i = low
     while True:  # up to the last vertex of an upright left side
         j = i + step
         j = j - n if j >= n else j + n if j < 0 else j
-        if work[2 * j] - work[2 * low] > tolerance or j == low:
+        if j == low or work[2 * j] - work[2 * i] > _upright(work, i, j, width, tolerance):
             break
         i = j
     count = 1
     work[at] = work[2 * i]
     work[at + 1] = work[2 * i + 1]
     work[at + 2] = 0.0
+    k = i
     while i != high:
         i = i + step
         i = i - n if i >= n else i + n if i < 0 else i
         x = work[2 * i]
         y = work[2 * i + 1]
         last = at + 3 * (count - 1)
-        if x - work[last] <= tolerance:
+        if x - work[last] <= _upright(work, k, i, width, tolerance):
             continue
         work[last + 2] = (y - work[last + 1]) / (x - work[last])
         work[last + 3] = x
         work[last + 4] = y
         work[last + 5] = 0.0
         count += 1
-        if work[2 * high] - x <= tolerance:
-            break
+        k = i
     return count
+
+
+def _upright(work, i, j, width, tolerance):
+    """Width up to which the edge between two rotated vertices counts as upright: its slope would drown in rounding."""
+    return max(tolerance, min(1e-8 * abs(work[2 * j + 1] - work[2 * i + 1]), 1e-7 * width))

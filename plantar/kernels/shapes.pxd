@@ -35,7 +35,14 @@ cdef class ConvexShapes:
 
     @cython.locals(radius=double)
     cpdef circle(self, const double[:, :] polygon)
+
+    @cython.locals(size=double, after=double, x=double, y=double, i=Py_ssize_t)
     cpdef rectangle(self, const double[:, :] polygon, double angle)
+
+    @cython.locals(
+        c=double, s=double, i=Py_ssize_t, j=Py_ssize_t, dx=double, dy=double, along=double, across=double
+    )
+    cdef bint _leans(self, double angle) noexcept
     cpdef rectangle_at_any_angle(self, const double[:, :] polygon)
     cpdef box(self, const double[:, :] polygon)
     cpdef parallelogram_around(self, const double[:, :] polygon)

@@ -16,7 +16,7 @@ from . import any_angle, enclosing, inscribed, rectangle
 
 __all__ = ["ConvexShapes"]
 
-_SAMPLES = 24
+_SAMPLES = 36
 _LARGEST = 1e100
 
 
@@ -32,7 +32,7 @@ class ConvexShapes:
     def __init__(self, lists):
         self.lists = lists
         self.ring = self._room(64)
-        self.work = self._room(512)
+        self.work = self._room(1400)
         self.out = self._room(8)
         self.starts = np.empty(0, dtype=np.intp)
         self.n = 0
@@ -47,7 +47,7 @@ class ConvexShapes:
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = self._room(4 * k + 2)
-            self.work = self._room(32 * k + 512)
+            self.work = self._room(48 * k + 1400)
         # First finite vertex, about which the others are taken.
         i = 0
         while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):
@@ -116,8 +116,33 @@ class ConvexShapes:
         """Corners of the largest rectangle inside, its first side at an angle."""
         if self._clean(polygon) < 3:
             return self._middle(4)
-        rectangle.largest_rectangle(self.ring, self.n, angle, 0.0, self.work, self.out)
+        size = rectangle.largest_rectangle(self.ring, self.n, angle, 0.0, self.work, self.out)
+        if size <= 0.0:
+            return self._middle(4)
+        if self._leans(angle):  # an edge almost upright: better conditioned with x and y exchanged
+            after = rectangle.largest_rectangle(self.ring, self.n, angle + 0.5 * math.pi, size, self.work, self.out)
+            if after > size:  # the first corner of the turned rectangle is the lower right one
+                x = self.out[6]
+                y = self.out[7]
+                for i in range(7, 1, -1):
+                    self.out[i] = self.out[i - 2]
+                self.out[0] = x
+                self.out[1] = y
         return self._corners(4)
+
+    def _leans(self, angle):
+        """Whether an edge stands almost, not quite, at a right angle to a direction."""
+        c = math.cos(angle)
+        s = math.sin(angle)
+        for i in range(self.n):
+            j = i + 1 if i + 1 < self.n else 0
+            dx = self.ring[2 * j] - self.ring[2 * i]
+            dy = self.ring[2 * j + 1] - self.ring[2 * i + 1]
+            along = abs(c * dx + s * dy)
+            across = abs(c * dy - s * dx)
+            if 1e-15 * across < along < 1e-3 * across:
+                return True
+        return False
 
     def rectangle_at_any_angle(self, polygon):
         """Corners of the largest rectangle inside, at any angle."""
