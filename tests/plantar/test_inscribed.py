@@ -21,6 +21,7 @@ from plantar import (
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
 )
+from plantar.kernels import is_compiled
 from plantar.polygon import area, convex_hull
 
 seeds = st.integers(0, 2**32 - 1)
@@ -223,7 +224,7 @@ def test_rectangle_of_the_transposed_polygon_is_the_same(seed):
     assert area(inscribed_rectangle(flipped)) == pytest.approx(area(inscribed_rectangle(hull)), rel=1e-12)
 
 
-@settings(max_examples=25)
+@settings(max_examples=25 if is_compiled("any_angle") else 3)
 @given(seeds)
 def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
     hull = random_hull(seed)
@@ -261,6 +262,7 @@ def test_circle_of_degenerate_polygons():
     assert (center.tolist(), radius) == ([0.5, 0.0], 0.0)
 
 
+@settings(max_examples=100 if is_compiled("any_angle") else 10)
 @given(seeds, st.integers(-12, 9))
 def test_direction_repeats_nan_offset_and_scale_change_nothing(seed, power):
     hull = random_hull(seed)
@@ -377,7 +379,7 @@ def test_rectangle_in_outline_of_the_transposed_outline_is_the_same(seed):
     assert area(rectangle_in_outline(flipped)) == pytest.approx(expected, rel=1e-12)
 
 
-@settings(max_examples=4)
+@settings(max_examples=4 if is_compiled("any_angle") else 1)
 @given(seeds)
 def test_rectangle_in_outline_at_any_angle_is_the_best_of_a_scan(seed):
     outline = random_contact(seed)
