@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,20 @@ from plantar.reading import Reading
 from plantar.zmp import zero_moment_wrench
 
 __all__ = ["Percept"]
+
+if TYPE_CHECKING:
+    lazy = cached_property
+else:
+
+    class lazy(cached_property):
+        """`cached_property` without the lock that Python 3.11 takes at each first use, half of a cheap member."""
+
+        def __get__(self, instance: Any, owner: Any = None) -> Any:
+            """Compute the member and keep it in the instance, which is where Python looks first from then on."""
+            if instance is None:
+                return self
+            value = instance.__dict__[self.attrname] = self.func(instance)
+            return value
 
 
 class Percept(ShapeMembers, VirtualMembers):
@@ -87,14 +102,14 @@ class Percept(ShapeMembers, VirtualMembers):
         own = (vars(base).items() for base in cls.__mro__)
         return tuple(name for items in own for name, value in items if isinstance(value, cached_property))
 
-    @cached_property
+    @lazy
     def health(self) -> TaxelHealth:
         """Dead, saturated and stuck taxels; they are left out of every sum."""
         force = self.reading.force
         stuck = np.zeros(len(force), dtype=bool) if self._stuck is None else self._stuck
         return TaxelHealth(dead_taxels(force), saturated_taxels(force, self.layout.force_limit), stuck)
 
-    @cached_property
+    @lazy
     def sound_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) in N; a faulty taxel holds NaN or, with `fill`, what its neighbours' pressure makes it."""
         faulty = self.health.faulty
@@ -102,16 +117,17 @@ class Percept(ShapeMembers, VirtualMembers):
             return fill_from_neighbours(self.layout, self.reading.force, faulty, per_area=True)
         return np.where(faulty, np.nan, self.reading.force)
 
-    @cached_property
+    @lazy
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
         plain = self._stuck is None and not self.fill  # what the comparison leaves out without a look at each fault
         force = self.reading.force if plain else self.sound_force
         if self._given_active is None:
-            return active_taxels(force, self.force_threshold, self.layout.force_limit)
+            mask: NDArray[np.bool_] = self.layout.kernel.active(force, self.force_threshold, self.layout.force_limit)
+            return mask
         return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
 
-    @cached_property
+    @lazy
     def active_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
         return np.where(self.active, self.sound_force if self.fill else self.reading.force, 0.0)
@@ -124,33 +140,33 @@ class Percept(ShapeMembers, VirtualMembers):
             loads = self.__dict__["_loads_summed"] = self.layout.kernel.loads(force, self.active)
         return loads
 
-    @cached_property
+    @lazy
     def vertical_force(self) -> float:
         """Vertical force on the sole in N."""
         return float(self._loads()[2])
 
-    @cached_property
+    @lazy
     def contact_area(self) -> float:
         """Area in m^2 of the active cells (T 4.22, with each cell's own area)."""
         return float(self._loads()[6])
 
-    @cached_property
+    @lazy
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Centre of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
         loads = self._loads()
         return loads[7:] if 0.0 < loads[2] < np.inf else None
 
-    @cached_property
+    @lazy
     def wrench_in_sole(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
         return self._loads()[:6]
 
-    @cached_property
+    @lazy
     def zero_moment_wrench_in_sole(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
         """ZMP (3,) in the sole plane in m and the wrench (6,) about it, or None without load (T 4.2.4)."""
         return zero_moment_wrench(self.wrench_in_sole, minimum_force=0.0)
 
-    @cached_property
+    @lazy
     def pressure_driven_wrench_in_sole(self) -> NDArray[np.float64]:
         """The wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
         return scaled_by_area(self.wrench_in_sole, self.contact_area, self.reference_area)
@@ -162,22 +178,22 @@ class Percept(ShapeMembers, VirtualMembers):
             hull = self.__dict__["_hull_found"] = self.layout.kernel.hull(self.active)
         return hull
 
-    @cached_property
+    @lazy
     def support_polygon_in_sole(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) in the sole frame in m, counter-clockwise (T 4.24)."""
         return self._hull()[0]
 
-    @cached_property
+    @lazy
     def support_area(self) -> float:
         """Area A_p of the support polygon in m^2."""
         return float(self._hull()[1])
 
-    @cached_property
+    @lazy
     def area_ratio(self) -> float:
         """A_p / A_s: area of the support polygon against the sole's outline (T 4.3.2 rule b)."""
         return self.support_area / self.layout.sole_area
 
-    @cached_property
+    @lazy
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
         polygon, _area, x, y = self._hull()

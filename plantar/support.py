@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels import convex as _kernel
 from plantar.polygon import convex_hull
 
 __all__ = ["feet_support_polygon", "polygon_in_world"]
@@ -27,7 +28,12 @@ def polygon_in_world(
     Returns:
         Polygon (k, 2) in m in the world's x-y plane.
     """
-    return np.asarray(polygon_in_sole @ rotation_sole_to_world[:2, :2].T + position_sole_in_world[:2])
+    seen: NDArray[np.float64] = _kernel.seen_from_above(
+        np.asarray(polygon_in_sole, dtype=float),
+        np.asarray(rotation_sole_to_world, dtype=float),
+        np.asarray(position_sole_in_world, dtype=float),
+    )
+    return seen
 
 
 def feet_support_polygon(polygons_in_world: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
@@ -45,4 +51,4 @@ def feet_support_polygon(polygons_in_world: Sequence[NDArray[np.float64]]) -> ND
         [[0.0, -0.2], [0.2, -0.2], [0.2, 0.2], [0.0, 0.2]]
     """
     parts = [p for p in polygons_in_world if len(p)]
-    return convex_hull(np.concatenate(parts)) if parts else np.empty((0, 2))
+    return convex_hull(np.concatenate(parts) if len(parts) != 1 else parts[0]) if parts else np.empty((0, 2))

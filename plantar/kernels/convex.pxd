@@ -44,7 +44,7 @@ cdef bint _ring_is_straight(
     const double[:, :] points, Py_ssize_t a, Py_ssize_t b, Py_ssize_t c, double tolerance
 ) noexcept
 
-@cython.locals(n=Py_ssize_t, size=Py_ssize_t)
+@cython.locals(n=Py_ssize_t, size=Py_ssize_t, work="Py_ssize_t[::1]", ring="Py_ssize_t[::1]")
 cpdef convex_hull(const double[:, :] points)
 
 @cython.locals(
@@ -81,6 +81,13 @@ cdef void _pair(double[::1] out, double x, double y) noexcept
 
 @cython.locals(margin=double, _qx=double, _qy=double)
 cpdef double signed_margin(const double[:, :] polygon, double x, double y) noexcept
+
+cpdef seen_from_above(const double[:, :] polygon, const double[:, :] rotation, const double[:] position)
+
+@cython.locals(i=Py_ssize_t, x=double, y=double)
+cdef void _place(
+    const double[:, :] polygon, const double[:, :] rotation, const double[:] position, double[:, ::1] out
+) noexcept
 
 @cython.locals(k=Py_ssize_t, room=Py_ssize_t, size=Py_ssize_t, rings=double[:, :, ::1], lines=double[:, ::1])
 cpdef inner_offset(const double[:, :] polygon, double distance)

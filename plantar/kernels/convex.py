@@ -19,6 +19,7 @@ __all__ = [
     "hull_ring",
     "hull_tolerance",
     "inner_offset",
+    "seen_from_above",
     "signed_margin",
     "turn_is_left",
 ]
@@ -207,9 +208,9 @@ def convex_hull(points):
         Hull (k, 2), counter-clockwise.
     """
     n = points.shape[0]
-    way = np.empty(2 * n, dtype=np.intp)
-    ring = np.empty(2 * n, dtype=np.intp)
-    size = _hull_of_cloud(points, way, ring)
+    work = np.empty(4 * n, dtype=np.intp)
+    ring = work[2 * n :]
+    size = _hull_of_cloud(points, work, ring)
     out = np.empty((size, 2))
     _gather(points, ring, size, out)
     return out
@@ -398,6 +399,30 @@ def signed_margin(polygon, x, y):
     """
     margin, _qx, _qy = _nearest(polygon, x, y)
     return margin
+
+
+def seen_from_above(polygon, rotation, position):
+    """A polygon of one frame's x-y plane, turned, shifted and seen along the other frame's z axis.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        rotation: Rotation (3, 3) from its frame to the other.
+        position: Position (3,) of its frame's origin in the other in m.
+
+    Returns:
+        Polygon (k, 2) in the other frame in m.
+    """
+    out = np.empty((polygon.shape[0], 2))
+    _place(polygon, rotation, position, out)
+    return out
+
+
+def _place(polygon, rotation, position, out):
+    """`seen_from_above` into an array."""
+    for i in range(polygon.shape[0]):
+        x, y = polygon[i, 0], polygon[i, 1]
+        out[i, 0] = rotation[0, 0] * x + rotation[0, 1] * y + position[0]
+        out[i, 1] = rotation[1, 0] * x + rotation[1, 1] * y + position[1]
 
 
 def inner_offset(polygon, distance):

@@ -30,6 +30,13 @@ cdef class SoleKernel:
     cdef Py_ssize_t[::1] ring
     cdef public double[:, ::1] polygon
 
+    cpdef active(self, const double[:] force, double threshold, double saturation)
+
+    @cython.locals(i=Py_ssize_t)
+    cdef void _activate(
+        self, const double[:] force, double threshold, double saturation, unsigned char[::1] out
+    ) noexcept
+
     cpdef loads(self, const double[:] force, const unsigned char[:] active)
 
     @cython.locals(

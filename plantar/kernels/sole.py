@@ -73,6 +73,26 @@ class SoleKernel:
         self.ring = np.zeros(2 * len(order), dtype=np.intp)
         self.polygon = np.zeros((len(order), 2))
 
+    def active(self, force, threshold, saturation):
+        """Active taxels (T 4.22), as `plantar.activation.active_taxels`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            Mask (n,).
+        """
+        out = np.empty(self.taxels, dtype=bool)
+        self._activate(force, threshold, saturation, out)
+        return out
+
+    def _activate(self, force, threshold, saturation, out):
+        """`active` into an array."""
+        for i in range(self.taxels):
+            out[i] = threshold < force[i] < saturation
+
     def loads(self, force, active):
         """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
 
