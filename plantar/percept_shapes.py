@@ -89,6 +89,11 @@ class ShapeMembers:
         """Largest axis-aligned rectangle (4, 2) in the concave outline: all of it is contact."""
         return _inscribed.rectangle_in_outline(self.concave_outline_in_sole)
 
+    @cached_property
+    def outline_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
+        """Largest rectangle (4, 2) in the concave outline, at any angle: a search that takes a millisecond or two."""
+        return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
+
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:
         """Largest axis-aligned rectangle (4, 2) in the support polygon, its sides moved inwards (T 4.4.4).
 
