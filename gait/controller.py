@@ -67,7 +67,7 @@ class ControllerSettings:
     swing_height: float = 0.05
     contact_force: float = 70.0
     landing_force: float = 200.0
-    landing_depth: float = 0.0003
+    landing_depth: float = 0.0004
     landing_speed: float = 0.03
     landing_acceleration: float = 1.0
     landing_reach: float = 0.03
@@ -208,10 +208,16 @@ class WalkingController:
         s = self.settings
         percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
         reference = self.plan.at(sensors.time)
-        state = self.estimator.update(
-            sensors.joint_positions, sensors.gyro, sensors.accelerometer, percepts, reference.com_acceleration
-        )
         phase = self.schedule.at(sensors.time)
+        share = (sensors.time - phase.start) / (phase.end - phase.start) if phase.swing is not None else 0.0
+        state = self.estimator.update(
+            sensors.joint_positions,
+            sensors.gyro,
+            sensors.accelerometer,
+            percepts,
+            reference.com_acceleration,
+            phase.swing if 0.2 < share < 0.5 else None,
+        )
         self._ticks += 1
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:

@@ -72,6 +72,7 @@ class EstimatorGains:
         averaging: Time in s for which the robot holds still at the start and gravity is averaged.
         yaw: Heading correction by the loaded feet in 1/s.
         observer: Bandwidth of the CoM velocity observer in rad/s.
+        tare: Time constant in s with which a foot in the air finds its zero.
         minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
             taxels add up to. Feet weigh in with what they carry beyond it.
     """
@@ -80,6 +81,7 @@ class EstimatorGains:
     averaging: float = 0.5
     yaw: float = 2.0
     observer: float = 20.0
+    tare: float = 0.05
     minimum_load: float = 70.0
 
 
@@ -93,7 +95,7 @@ class BaseState:
         com: CoM (3,) in m.
         com_velocity: CoM velocity (3,) in m/s.
         zmp: Composite ZMP (2,) in m from the taxels, or None without load.
-        loads: Vertical force on each foot in N.
+        loads: Vertical force on each foot in N, less its tare.
         positions_sole: Sole frame origin (3,) of each foot in m.
         rotations_sole: Rotation (3, 3) from each sole frame to the world frame.
     """
@@ -156,6 +158,7 @@ class FloatingBaseEstimator:
         self._velocity = np.zeros(3)
         self._last: Posture | None = None
         self._samples = 0
+        self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self._last_rotation = np.eye(3)
         self._heading: dict[Side, float | None] = {"left": None, "right": None}
 
@@ -166,6 +169,7 @@ class FloatingBaseEstimator:
         accelerometer: NDArray[np.float64],
         percepts: Mapping[Side, Percept],
         planned_acceleration: NDArray[np.float64] | None = None,
+        airborne: Side | None = None,
     ) -> BaseState:
         """One control tick.
 
@@ -175,12 +179,16 @@ class FloatingBaseEstimator:
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
             percepts: What each sole feels.
             planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
+            airborne: Foot that is high in the air by plan: what its taxels' noise adds up to becomes its tare.
 
         Returns:
             The estimated state.
         """
         posture = self.kinematics.posture(joint_positions)
-        loads = {s: percepts[s].vertical_force for s in _SIDES}
+        if airborne is not None:
+            share = min(1.0, self.period / self.gains.tare)
+            self._tare[airborne] += share * (percepts[airborne].vertical_force - self._tare[airborne])
+        loads = {s: max(0.0, percepts[s].vertical_force - self._tare[s]) for s in _SIDES}
         cops = {s: percepts[s].position_cop_in_sole for s in _SIDES}
         if self._rotation is None or self._last is None:
             self._start(posture, accelerometer)

@@ -107,6 +107,25 @@ def test_noise_and_gyro_bias_stay_bounded() -> None:
     assert com < 0.02
 
 
+def test_a_foot_in_the_air_finds_its_zero() -> None:
+    robot = Swaying(0.0, 0.0)
+    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
+    rng = np.random.default_rng(0)
+    up = np.array([0.0, 0.0, 9.81])
+    loads = []
+    for k in range(400):
+        noise = np.clip(rng.normal(0.0, 5.0, len(SOLE)), 0.0, None)  # taxels report no pull: their noise has a mean
+        feet: dict[Side, Percept] = {
+            "left": Percept(SOLE, Reading(0.0, np.full(len(SOLE), 800.0 / len(SOLE)))),
+            "right": Percept(SOLE, Reading(0.0, noise)),
+        }
+        state = estimator.update(np.zeros(1), np.zeros(3), up, feet, airborne="right" if k > 100 else None)
+        loads.append(state.loads["right"])
+    assert np.mean(loads[:100]) > 60.0
+    assert np.mean(loads[200:]) < 10.0
+    assert state.loads["left"] == pytest.approx(800.0)
+
+
 def test_an_airborne_robot_keeps_finite_answers() -> None:
     robot = Swaying(0.0, 0.0)
     estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
