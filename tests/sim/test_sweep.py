@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import csv
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -73,6 +76,23 @@ def test_a_cluster_runs_the_same_rows(tmp_path: Path) -> None:
     ) as cluster:
         result = run_sweep(standing(1), tmp_path, scheduler=cluster.scheduler_address)
     assert [p["completed"] for p in result["points"]] == [1, 1]
+
+
+def test_a_killed_sweep_takes_its_workers_along(tmp_path: Path) -> None:
+    psutil = pytest.importorskip("psutil")
+    command = [sys.executable, "-c", "from cli import main; main()", "sweep", "flat", "--seeds", "50", "--workers", "1"]
+    sweep = subprocess.Popen([*command, "-o", str(tmp_path)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    results = tmp_path / "results.csv"
+    deadline = time.monotonic() + 120.0
+    while time.monotonic() < deadline and not (results.exists() and len(rows(tmp_path)) >= 1):
+        time.sleep(0.2)
+    workers = psutil.Process(sweep.pid).children(recursive=True)
+    assert workers
+    sweep.kill()
+    sweep.wait()
+    _, alive = psutil.wait_procs(workers, timeout=20.0)
+    assert not alive
+    assert run_sweep(Sweep("flat", (), 1), tmp_path)["resumed"] >= 1
 
 
 def test_no_scheduler_is_one_line(tmp_path: Path) -> None:
