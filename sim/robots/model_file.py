@@ -39,6 +39,7 @@ def spec_from_file(robot: Robot) -> Any:
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         text = " ".join(str(error).split())
         raise RobotError(f"robot '{robot.name}': model file {robot.model_file} cannot be read: {text}") from None
+    spec.compiler.fusestatic = False  # URDF's default would melt shoes into feet
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators"):
         for element in list(getattr(spec, part)):
             spec.delete(element)

@@ -130,6 +130,42 @@ def test_a_file_that_is_no_model_is_one_line(own: Path) -> None:
     assert "\n" not in str(caught.value)
 
 
+def h1_urdf() -> str:
+    """The H1's legs as URDF: links with mass, revolute joints, no floating base."""
+    links = ['<link name="base">' + urdf_inertial(63.5, "0 0 0.08", 1.5) + "</link>"]
+    joints = []
+    axes = ("0 0 1", "1 0 0", "0 1 0", "0 1 0", "0 1 0", "1 0 0")
+    drops = ("-0.1435", "0", "0", "-0.3", "-0.3", "0")
+    for side, y in (("left", 0.075), ("right", -0.075)):
+        parent = "base"
+        for i, name in enumerate(NAMES):
+            link = f"{side}_foot" if i == 5 else f"{side}_{name}_link"
+            links.append(f'<link name="{link}">' + urdf_inertial(1.9, "0 0 -0.05", 0.01) + "</link>")
+            joints.append(
+                f'<joint name="{side}_{name}" type="revolute"><parent link="{parent}"/><child link="{link}"/>'
+                f'<origin xyz="0 {y if i == 0 else 0} {drops[i]}"/><axis xyz="{axes[i]}"/>'
+                '<limit lower="-2.4" upper="2.4" effort="100" velocity="6"/></joint>'
+            )
+            parent = link
+    return f'<robot name="own">{"".join(links)}{"".join(joints)}</robot>'
+
+
+def urdf_inertial(mass: float, place: str, inertia: float) -> str:
+    moments = f'ixx="{inertia}" iyy="{inertia}" izz="{inertia}" ixy="0" ixz="0" iyz="0"'
+    return f'<inertial><origin xyz="{place}"/><mass value="{mass}"/><inertia {moments}/></inertial>'
+
+
+def test_a_urdf_gets_a_floating_base_and_walks(own: Path) -> None:
+    (own.parent / "own.urdf").write_text(h1_urdf())
+    text = own.read_text().replace('kind = "mjcf"', 'kind = "urdf"').replace("own.xml", "own.urdf")
+    own.write_text(text.replace("com_height = 0.80", "com_height = 0.76"))
+    world = build_world(load_robot(own), Terrain())
+    assert (world.model.nv, world.model.nu) == (18, 12)
+    assert mujoco.mj_getTotalmass(world.model) == pytest.approx(63.5 + 12 * 1.9 + 2 * 0.252)
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "length=0.1"], robot=str(own)))
+    assert summary["completed"], summary
+
+
 JVRC1 = """
 name = "jvrc1"
 [model]
