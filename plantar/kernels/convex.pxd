@@ -68,9 +68,9 @@ cpdef double area(const double[:, :] polygon) noexcept
 cpdef (double, double, double) area_and_centroid(const double[:, :] polygon) noexcept
 
 @cython.locals(
-    k=Py_ssize_t, i=Py_ssize_t, turn=double, inside=bint, best=double, deepest=double, qx=double, qy=double, ax=double,
-    ay=double, bx=double, by=double, lx=double, ly=double, dx=double, dy=double, length2=double, across=double,
-    along=double, px=double, py=double, t=double, distance2=double
+    k=Py_ssize_t, i=Py_ssize_t, total=double, turn=double, inside=bint, best=double, deepest=double, span=double,
+    qx=double, qy=double, ax=double, ay=double, bx=double, by=double, lx=double, ly=double, length2=double,
+    across=double, along=double, px=double, py=double, t=double, distance2=double
 )
 cdef (double, double, double) _nearest(const double[:, :] polygon, double x, double y) noexcept
 

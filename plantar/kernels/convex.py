@@ -327,36 +327,46 @@ def _nearest(polygon, x, y):
     k = polygon.shape[0]
     if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
         return _NONE, _NONE, _NONE
-    turn = -1.0 if area(polygon) < 0.0 else 1.0
+    total = area(polygon)
+    turn = -1.0 if total < 0.0 else 1.0
     inside = k > 2
-    best = deepest = _INFINITE
+    deepest = best = _INFINITE
+    span = 0.0
+    ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
+    for i in range(k):
+        bx, by = polygon[i, 0], polygon[i, 1]
+        lx, ly = bx - ax, by - ay
+        length2 = lx * lx + ly * ly
+        across = turn * ((x - ax) * ly - (y - ay) * lx)  # (d x l)_z, above 0 outside
+        if across > 0.0:
+            inside = False
+            break
+        span += length2
+        if length2 > 0.0:
+            deepest = min(deepest, -across / math.sqrt(length2))
+        ax, ay = bx, by
+    if inside and abs(total) > 1e-14 * span:  # in a polygon without area nothing is inside
+        return deepest, x, y
+    # Every edge counts: where several are on one line, rounding decides which of them a point lies outside of.
     qx, qy = polygon[0, 0], polygon[0, 1]
     ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
     for i in range(k):
         bx, by = polygon[i, 0], polygon[i, 1]
         lx, ly = bx - ax, by - ay
-        dx, dy = x - ax, y - ay
+        along = (x - ax) * lx + (y - ay) * ly
         length2 = lx * lx + ly * ly
-        across = turn * (dx * ly - dy * lx)  # (d x l)_z, above 0 outside
-        if across > 0.0 or k <= 2:
-            inside = False
-            along = dx * lx + dy * ly
-            if along <= 0.0:
-                px, py = ax, ay
-            elif along >= length2:
-                px, py = bx, by
-            else:
-                t = along / length2
-                px, py = ax + t * lx, ay + t * ly
-            distance2 = (x - px) * (x - px) + (y - py) * (y - py)
-            if distance2 < best:
-                best = distance2
-                qx, qy = px, py
-        elif inside and length2 > 0.0:
-            deepest = min(deepest, -across / math.sqrt(length2))
+        if along <= 0.0:
+            px, py = ax, ay
+        elif along >= length2:
+            px, py = bx, by
+        else:
+            t = along / length2
+            px, py = ax + t * lx, ay + t * ly
+        distance2 = (x - px) * (x - px) + (y - py) * (y - py)
+        if distance2 < best:
+            best = distance2
+            qx, qy = px, py
         ax, ay = bx, by
-    if inside:
-        return deepest, x, y
     return -math.sqrt((x - qx) * (x - qx) + (y - qy) * (y - qy)), qx, qy
 
 
