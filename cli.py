@@ -464,38 +464,114 @@ def _described(pattern: str, name: Callable[[Path], str]) -> dict[str, str]:
 
 @app.command()
 def bench(
-    what: Annotated[str, typer.Argument(help="contact or all.")] = "all",
+    what: Annotated[str, typer.Argument(help="kernels, contact or all.")] = "all",
     layout: Annotated[
         Path | None,
-        typer.Option(help="Layout file of the sole to measure. Default: 250 x 155 mm with taxels of 691 mm^2."),
+        typer.Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2."),
     ] = None,
+    stress: Annotated[
+        bool, typer.Option("--stress", help="kernels: throw readings at every function and check what comes back.")
+    ] = False,
+    readings: Annotated[int, typer.Option(help="--stress: how many readings.")] = 1_000_000,
+    seed: Annotated[int, typer.Option(help="--stress: seed of what is left to chance.")] = 0,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/bench"),
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
 ) -> None:
     """Measure run time against error, and write tables, figures and bench.json.
 
+    kernels: the perception's kernels beside scipy, shapely, cv2 and approximations, with the error against exact
+    references; under 2 minutes. With --stress instead a million odd readings for every function of the perception:
+    exit code 1 if one raises, hangs, gives NaN or leaves its bound.
+
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
     chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
 
-    Example: plantar bench contact -o out/bench
+    Example: plantar bench kernels -o out/bench
+
+    Example: plantar bench kernels --stress --readings 20000 --json
     """
     from plantar.atomic import output_folder, write_text
 
-    if what not in ("contact", "all"):
-        raise InputError(f"cannot measure '{what}'; allowed: contact, all")
+    if what not in ("kernels", "contact", "all"):
+        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, all")
+    if stress:
+        if what != "kernels":
+            raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
+        _bench_stress(readings, seed, as_json)
+        return
+    result: dict[str, Any] = {}
     with output_folder(output) as folder, _progress() as tell:
-        result: dict[str, Any] = {"contact": _bench_contact(folder, layout, tell)}
-        result["files"] = [str(output / name) for name in result["contact"].pop("files")]
+        share = 0.5 if what == "all" else 1.0
+        if what in ("kernels", "all"):
+            result["kernels"] = _bench_kernels(folder, lambda f, text: tell(share * f, text))
+        if what in ("contact", "all"):
+            result["contact"] = _bench_contact(folder, layout, lambda f, text: tell(1.0 - share + share * f, text))
+        result["files"] = [str(output / name) for part in list(result.values()) for name in part.pop("files")]
         result["files"].append(str(output / "bench.json"))
         write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")
     if as_json:
         print(json.dumps(result))
     else:
-        _print_contact(result["contact"])
+        if "kernels" in result:
+            _print_kernels(result["kernels"])
+        if "contact" in result:
+            _print_contact(result["contact"])
         for name in result["files"]:
             print(f"  {name}")
-    if not result["contact"]["holds"]:
+    if "contact" in result and not result["contact"]["holds"]:
         print("plantar: the chosen contact model is not as right as it must be", file=sys.stderr)
+        raise typer.Exit(1)
+
+
+def _bench_kernels(folder: Path, tell: Callable[[float, str], None]) -> dict[str, Any]:
+    """Compare the perception's kernels with other routes; gives results, targets and the names of the files."""
+    from plantar.bench.report import compare_kernels, targets, write_kernel_report
+
+    _need("scipy", "sim")
+    _need("cv2", "sim")
+    results = compare_kernels(progress=tell)
+    return {
+        "results": [r.as_dict() for r in results],
+        "targets": [t.as_dict() for t in targets(results)],
+        "files": write_kernel_report(folder, results),
+    }
+
+
+def _print_kernels(result: dict[str, Any]) -> None:
+    """The kernels' medians and errors, and what of the wanted is met, for people."""
+    kernel = ""
+    for row in result["results"]:
+        if row["kernel"] != kernel:
+            kernel = row["kernel"]
+            print(f"{kernel:58}{'median us':>12}{'spread':>8}{'ratio':>9}{'error':>10}")
+        error = "-" if row["error"] is None else f"{row['error']:.1e}"
+        route = f"  {row['size']}: {row['route']}"
+        print(f"{route:58}{row['median_us']:>12.2f}{row['spread']:>8.0%}{row['ratio']:>9.1f}{error:>10}")
+    print("wanted and reached, at the worst size:")
+    for target in result["targets"]:
+        sign = ">=" if target["at_least"] else "<="
+        line = f"{target['what']}: {target['figure']:.3g} {target['unit']}".rstrip()
+        wanted = f"wanted {sign} {target['wanted']:g}; {target['where']}"
+        print(f"  {'met    ' if target['met'] else 'NOT MET'} {line} ({wanted})")
+
+
+def _bench_stress(readings: int, seed: int, as_json: bool) -> None:
+    """Run the stress run, print what it saw, and exit with 1 if something failed."""
+    from plantar.bench.stress import stress
+
+    with _progress() as tell:
+        result = stress(readings, seed, progress=tell)
+    if as_json:
+        print(json.dumps(result.as_dict()))
+    else:
+        print(f"{'function':66}{'readings':>10}{'worst':>10}{'bound':>10}{'failures':>10}")
+        for name, tested in sorted(result.functions.items()):
+            print(f"{name:66}{tested.readings:>10}{tested.worst:>10.1e}{tested.bound:>10.1e}{tested.failures:>10}")
+            for example in tested.examples:
+                print(f"    {example}")
+        print(f"{result.readings} readings in {result.seconds:.0f} s: {result.failures} failures")
+    if result.failures:
+        print(f"plantar: {result.failures} failures in {result.readings} readings", file=sys.stderr)
         raise typer.Exit(1)
 
 

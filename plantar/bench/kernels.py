@@ -64,11 +64,14 @@ def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
     kernel = found[0].layout.kernel
     masks = [c.active for c in found]
     points = [c.points for c in found]
+    corners = rivals.Corners(found[0].layout)
     routes = [
         Route("plantar, from active taxels", kernel.hull, masks, lambda r: r[1], ours=True),
         Route("plantar, from points", lambda p: polygon.area(polygon.convex_hull(p)), points, ours=True),
-        Route("scipy ConvexHull", rivals.hull_scipy, points),
-        Route("shapely convex_hull", rivals.hull_shapely, points),
+        Route("scipy ConvexHull, from active taxels", lambda m: rivals.hull_scipy(corners.of(m)), masks),
+        Route("scipy ConvexHull, points ready", rivals.hull_scipy, points),
+        Route("shapely convex_hull, from active taxels", lambda m: rivals.hull_shapely(corners.of(m)), masks),
+        Route("shapely convex_hull, points ready", rivals.hull_shapely, points),
         Route("cv2 convexHull (float32)", rivals.hull_cv2, [p.astype(np.float32) for p in points]),
         Route("plain Python loops", rivals.hull_in_loops, [[tuple(q) for q in p.tolist()] for p in points]),
     ]
@@ -76,6 +79,8 @@ def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
 
 
 def _outline(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
+    import shapely
+
     layout = found[0].layout
     cells = [c.cells for c in found]
     points = [c.points for c in found]
@@ -88,6 +93,9 @@ def _outline(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
             ours=True,
         ),
         Route("shapely coverage_union_all", rivals.outline_coverage, cells),
+        Route(
+            "shapely coverage_union_all, polygons ready", rivals.coverage_ready, [shapely.polygons(c) for c in cells]
+        ),
         Route("shapely union_all", rivals.outline_union, cells),
         Route("shapely concave_hull", rivals.concave_hull_area, points, approximate=True),
         Route("alpha shape (scipy Delaunay)", lambda p: rivals.alpha_shape_area(p, radius), points, approximate=True),

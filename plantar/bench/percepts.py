@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from functools import partial
 from typing import Any
@@ -14,11 +13,10 @@ from plantar import batch, polygon
 from plantar.bench import references as exact
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.bench.kernels import OFFSET
-from plantar.bench.rivals import hull_shapely
+from plantar.bench.rivals import Corners, hull_shapely
 from plantar.bench.soles import contacts, sole_of
 from plantar.feet import FeetPercept
-from plantar.force import ground_reaction_wrench
-from plantar.kernels import KERNELS, compiled, python_form
+from plantar.kernels import is_compiled, python_form
 from plantar.layout import SoleLayout
 from plantar.percept import Percept
 from plantar.reading import Reading
@@ -66,7 +64,7 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
     ]
     yield "walking tick", compare("walking tick", "both feet, 20 active", ticks, _ticks_exact(feet, pairs), rounds)
     forces = [np.concatenate(p) for p in pairs]
-    columns = [np.asarray(exact_columns(s)) for s in feet]
+    columns = [_columns(s) for s in feet]
     places = [s.positions for s in feet]
     maps = [s.wrench_map for s in feet]
     wrenches = [
@@ -109,9 +107,7 @@ class _Assembled:
         self.threshold = layout.force_threshold
         self.map = layout.wrench_map
         self.positions = layout.positions[:, :2]
-        self.vertices = layout.vertices[:, :2]
-        most = max(len(c) for c in layout.corners)
-        self.corners = np.array([list(c) + [c[-1]] * (most - len(c)) for c in layout.corners])
+        self.corners = Corners(layout)
 
     def tick(self, force: Array, qhull: bool = False) -> tuple[Any, ...]:
         """What a tick needs, the hull from scipy's Qhull or from shapely's GEOS."""
@@ -119,7 +115,7 @@ class _Assembled:
 
         active = force > self.threshold
         kept = np.where(active, force, 0.0)
-        points = self.vertices[np.unique(self.corners[active])]
+        points = self.corners.of(active)
         if qhull:
             from scipy.spatial import ConvexHull
 
@@ -141,7 +137,18 @@ class _Assembled:
 
 
 def _flat(results: Any) -> Array:
-    return np.concatenate([np.atleast_1d(np.asarray(v, dtype=float)) for foot in results for v in foot])
+    """All results in one row, each over the size that it has on a foot."""
+    return np.concatenate(
+        [
+            np.atleast_1d(np.asarray(v, dtype=float)) / size
+            for foot in results
+            for v, size in zip(foot, _SIZES, strict=True)
+        ]
+    )
+
+
+_SIZES = (1.0, 0.1, 1e3, 1e-2, 0.1, 1e-2, 0.1)
+"""Sizes that errors of a tick's results are measured by: mask, CoP in m, wrench in N and N m, areas in m^2, points."""
 
 
 def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]]) -> Reference:
@@ -153,7 +160,7 @@ def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]])
             active = force > layout.force_threshold
             used = np.unique([v for i in np.flatnonzero(active) for v in layout.corners[i]])
             hull = polygon.convex_hull(layout.vertices[used, :2])
-            wrench = exact.wrench_exact(exact_columns(layout), np.where(active, force, 0.0))
+            wrench = exact.wrench_exact(_columns(layout), np.where(active, force, 0.0))
             safe = polygon.inner_offset(hull, OFFSET)
             parts.append(
                 (
@@ -167,10 +174,10 @@ def _ticks_exact(feet: tuple[SoleLayout, ...], pairs: list[tuple[Array, Array]])
                 )
             )
         values.append(_flat(parts))
-    return Reference(values)
+    return Reference(values, [1.0] * len(values))
 
 
-def exact_columns(layout: SoleLayout) -> Array:
+def _columns(layout: SoleLayout) -> Array:
     """Wrench (n, 6) of 1 N on each taxel of a layout; returns it."""
     normal = layout.rotations[:, :, 2]
     return np.hstack([normal, np.cross(layout.positions, normal)])
@@ -241,18 +248,18 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
         Route("BLAS, no threshold", lambda f: f @ back, [force], _few, approximate=True),
         Route("copy of the forces", lambda f: np.copyto(target, f), [force]),
     ]
-    columns = exact_columns(layout)
+    columns = _columns(layout)
     truth = np.array([exact.wrench_exact(columns, np.where(row > level, row, 0.0)) for row in force[:_FEW]])
     results = compare("wrench of a recording", f"{frames} x {TAXELS}", routes, Reference([truth]), rounds, most=2.0)
     yield "wrench of a recording", [*results[:-1], results[-1].without_error()]
     part = force[: min(frames, 2000)] * (rng.random((min(frames, 2000), 1)) < 0.9)
     masks = part > level
-    points = [_points(layout, m) for m in masks]
+    corners = Corners(layout)
+    points = [corners.of(m) for m in masks]
     hulls = [
         Route("plantar", lambda f: batch.support_polygons(layout, f).area, [part], lambda a: a[::10], ours=True),
-        Route(
-            "shapely, a loop", lambda ps: [hull_shapely(p) if len(p) else 0.0 for p in ps], [points], lambda a: a[::10]
-        ),
+        Route("shapely, a loop", lambda f: [_area(corners.of(row > level)) for row in f], [part], lambda a: a[::10]),
+        Route("shapely, a loop, points ready", lambda ps: [_area(p) for p in ps], [points], lambda a: a[::10]),
     ]
     areas = np.array([exact.hull_area_exact(p) if len(p) else 0.0 for p in points[::10]])
     yield (
@@ -269,9 +276,8 @@ def _few(wrenches: Array) -> Array:
     return wrenches[:_FEW]
 
 
-def _points(layout: SoleLayout, active: NDArray[np.bool_]) -> Array:
-    used = np.unique(layout.corner_vertex[np.repeat(active, np.diff(layout.corner_start))])
-    return layout.vertices[used, :2]
+def _area(points: Array) -> float:
+    return hull_shapely(points) if len(points) else 0.0
 
 
 def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
@@ -283,7 +289,7 @@ def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
     Yields:
         Name of what is measured and the results of the two forms.
     """
-    if not compiled or os.environ.get("PLANTAR_KERNELS") == "python" or "sole" not in KERNELS:
+    if not is_compiled("sole"):
         return
     found = contacts("20")
     layout = found[0].layout
@@ -303,7 +309,7 @@ def compare_forms(rounds: int = 5) -> Iterator[tuple[str, list[Result]]]:
     ]
     yield "forms: hull + area", compare("forms: hull + area", "20", routes, reference, rounds)
     loads = [(c.force, c.active) for c in found]
-    truth = [exact.wrench_exact(exact_columns(layout), c.force) for c in found]
+    truth = [exact.wrench_exact(_columns(layout), c.force) for c in found]
     routes = [
         Route("compiled", lambda case: layout.kernel.loads(*case), loads, lambda r: r[:6], ours=True),
         Route("interpreted", lambda case: slow.loads(*case), loads, lambda r: r[:6], ours=True),

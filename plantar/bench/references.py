@@ -289,9 +289,9 @@ def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
 def _search(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
     """Largest value over a period: samples, then ever finer ones around the best of them."""
     step = period / samples
-    angles = np.arange(samples) * step
+    angles: Array = np.arange(samples) * np.float64(step)
     found = values(angles)
-    centres = angles[np.argsort(found)[-4:]]
+    centres = np.asarray(angles[np.argsort(found)[-4:]], dtype=float)
     best = float(found.max())
     while step > finest:
         step *= 0.25
@@ -315,7 +315,7 @@ def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
     return _search(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
 
 
-def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-10) -> float:
+def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13) -> float:
     """Area in m^2 of the largest parallelogram in a convex counter-clockwise polygon.
 
     With two sides in one direction, both as long as some length, the best is that length times the distance of the two
@@ -377,11 +377,14 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
     left, right = np.where(turn[:, None], head, tail), np.where(turn[:, None], tail, head)
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = (right[:, 1] - left[:, 1]) / (right[:, 0] - left[:, 0])
+    rise = np.where(left[:, 0] < right[:, 0], slope, 0.0)
 
     def areas(x0: Array, x1: Array) -> Array:
         low, high = np.maximum(left[:, 0], x0[:, None]), np.minimum(right[:, 0], x1[:, None])
-        crossing = low < high
-        ends = [np.where(crossing, left[:, 1] + slope * (x - left[:, 0]), np.inf) for x in (low, high)]
+        upright = (low == high) & (x0[:, None] < low) & (high < x1[:, None])
+        crossing = (low < high) | upright
+        ends = [np.where(crossing, left[:, 1] + rise * (x - left[:, 0]), np.inf) for x in (low, high)]
+        ends[1] = np.where(upright, right[:, 1], ends[1])
         bottom, top = np.minimum(*ends), np.maximum(*ends)
         order = np.argsort(bottom, axis=1)
         bottom = np.take_along_axis(bottom, order, axis=1)
@@ -407,11 +410,13 @@ def outline_rectangle_area(rings: Sequence[Array]) -> float:
     most = 0.0
     for k in best.tolist():
         at, value, reach = np.array([xs[i[k]], xs[j[k]]]), float(found[k]), step
-        while reach > 1e-16:
+        for _ in range(400):
+            if reach < 1e-16:
+                break
             tried = at + reach * grid
             values = areas(tried[:, 0], tried[:, 1])
             index = int(values.argmax())
-            if values[index] > value:
+            if values[index] > value * (1.0 + 1e-15):
                 at, value = tried[index], float(values[index])
             else:
                 reach *= 0.3

@@ -13,7 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.layout import SoleLayout
+
 __all__ = [
+    "Corners",
     "alpha_shape_area",
     "box_cv2",
     "box_shapely",
@@ -23,6 +26,7 @@ __all__ = [
     "closest_shapely",
     "closest_shapely_ready",
     "concave_hull_area",
+    "coverage_ready",
     "histogram_any_angle",
     "histogram_rectangle",
     "hull_cv2",
@@ -41,6 +45,23 @@ __all__ = [
 ]
 
 Array = NDArray[np.float64]
+
+
+class Corners:
+    """Corners of the active cells of a sole, the way numpy finds them fast: the table of corners is made once.
+
+    Args:
+        layout: The sole, n taxels.
+    """
+
+    def __init__(self, layout: SoleLayout) -> None:
+        most = max(len(c) for c in layout.corners)
+        self.table = np.array([[*c, *[c[-1]] * (most - len(c))] for c in layout.corners])
+        self.vertices = layout.vertices[:, :2]
+
+    def of(self, active: NDArray[np.bool_]) -> Array:
+        """Corners (v, 2) in m, each once, of the active cells (n,)."""
+        return np.asarray(self.vertices[np.unique(self.table[active])])
 
 
 def hull_scipy(points: Array) -> float:
@@ -80,6 +101,13 @@ def hull_in_loops(points: Sequence[tuple[float, float]]) -> float:
         chains.append(chain[:-1])
     ring = chains[0] + chains[1]
     return 0.5 * sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:] + ring[:1], strict=True))
+
+
+def coverage_ready(polygons: Any) -> float:
+    """Area in m^2 of the union of GEOS polygons with shared corners."""
+    import shapely
+
+    return float(shapely.area(shapely.coverage_union_all(polygons)))
 
 
 def outline_coverage(cells: Sequence[Array]) -> float:

@@ -126,7 +126,8 @@ def percept_faults(block: Block, tally: Tally) -> None:
     tally.add("stuck_taxels as StuckMonitor", block, (stuck != live).any(axis=1))
     filled = health.fill_from_neighbours(layout, given, wanted, per_area=True)
     bad = np.isnan(filled) & ~wanted
-    finite = np.where(np.isfinite(given) & ~wanted, given / layout.areas, -math.inf).max(axis=1)
+    with np.errstate(over="ignore"):  # 1e300 N on a tiny cell
+        finite = np.where(np.isfinite(given) & ~wanted, given / layout.areas, -math.inf).max(axis=1)
     high_fill = np.where(wanted & np.isfinite(filled), filled / layout.areas, -math.inf).max(axis=1)
     tally.add(
         "fill_from_neighbours",

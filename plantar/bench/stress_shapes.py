@@ -140,7 +140,7 @@ def percept_shapes(block: Block, tally: Tally) -> None:
     free = _areas(_shapes([p.inscribed_rectangle_any_angle_in_sole for p in percepts], 4))
     hull = np.array([p.support_area for p in percepts])
     less = np.maximum(axis - free, 0.0) / np.maximum(hull, 1e-300)
-    tally.add("rectangle at any angle: not less than along the axes", block, less, 1e-12)
+    tally.add("rectangle at any angle: not less than along the axes", block, less, 1e-6)
     half = np.maximum(0.5 * hull - free, 0.0) / np.maximum(hull, 1e-300)  # Radziszewski: half of any convex polygon
     tally.add("rectangle at any angle: half of the polygon", block, half, 1e-6)
 
@@ -160,7 +160,7 @@ def percept_outline_shapes(block: Block, tally: Tally) -> None:
     if len(free):
         wide = _areas(_shapes(free, 4))
         less = np.maximum(got[list(rare)] - wide, 0.0) / np.maximum(got[list(rare)], 1e-300)
-        tally.add("Percept.outline_rectangle_any_angle_in_sole: not less", block, less, 1e-12, len(free))
+        tally.add("Percept.outline_rectangle_any_angle_in_sole: not less", block, less, 1e-6, len(free))
 
 
 def _in_outline(block: Block, tally: Tally, name: str, corners: Sequence[Array], which: Sequence[int]) -> None:

@@ -1,0 +1,285 @@
+"""The kernels' comparison as tables, a figure and a list of what was wanted and what was reached."""
+
+from __future__ import annotations
+
+import csv
+import io
+import platform
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from plantar.atomic import write_text
+from plantar.bench.comparison import Result
+from plantar.bench.kernels import compare_shapes
+from plantar.bench.percepts import TAXELS, compare_forms, compare_percepts, compare_recordings
+from plantar.bench.soles import SIZES
+from plantar.kernels import compiled
+from plantar.plotting import COLOURS, new_figure, save_figure
+
+__all__ = ["Target", "compare_kernels", "targets", "write_kernel_report"]
+
+
+@dataclass(frozen=True)
+class Target:
+    """Something wanted of the kernels, and what a run gave.
+
+    Attributes:
+        what: What is wanted.
+        wanted: The limit.
+        figure: What the run gave; the worst of all sizes.
+        unit: Unit of both.
+        at_least: Whether more is better.
+        where: Where the worst was.
+    """
+
+    what: str
+    wanted: float
+    figure: float
+    unit: str
+    at_least: bool
+    where: str
+
+    @property
+    def met(self) -> bool:
+        """Whether the run kept the limit."""
+        return self.figure >= self.wanted if self.at_least else self.figure <= self.wanted
+
+    def as_dict(self) -> dict[str, Any]:
+        """The fields by name, and whether it is met."""
+        return asdict(self) | {"met": self.met}
+
+
+def compare_kernels(
+    rounds: int = 9,
+    progress: Callable[[float, str], None] | None = None,
+    sizes: Sequence[str] = tuple(SIZES),
+) -> list[Result]:
+    """Run the whole comparison.
+
+    Args:
+        rounds: Rounds to take the medians over.
+        progress: Called with the fraction done and a text.
+        sizes: Which of `plantar.bench.soles.SIZES` to measure.
+
+    Returns:
+        The results, one a route, kernel and size.
+    """
+    parts: list[Iterator[tuple[str, list[Result]]]] = [compare_shapes(size, rounds) for size in sizes]
+    parts += [compare_percepts(rounds), compare_recordings(rounds=max(3, rounds // 2)), compare_forms(rounds)]
+    results: list[Result] = []
+    total = 13 * len(sizes) + 7
+    done = 0
+    for part in parts:
+        for name, found in part:
+            results += found
+            done += 1
+            if progress is not None:
+                progress(min(1.0, done / total), f"{name}, {found[0].size}")
+    return results
+
+
+def _of(results: Sequence[Result], kernel: str, route: str = "plantar") -> list[Result]:
+    return [r for r in results if r.kernel == kernel and r.route.startswith(route)]
+
+
+def _ratio(results: Sequence[Result], what: str, kernel: str, rival: str, wanted: float) -> Iterator[Target]:
+    """A target of how many times faster we are, at the size where it is least."""
+    found = [r for r in results if r.kernel == kernel and r.route == rival]
+    if found:
+        worst = min(found, key=lambda r: r.ratio)
+        yield Target(f"{what} against {rival}", wanted, worst.ratio, "times", True, worst.size)
+
+
+def targets(results: Sequence[Result]) -> list[Target]:
+    """What is wanted of the kernels beside what a run gave.
+
+    Args:
+        results: Results of `compare_kernels`.
+
+    Returns:
+        The targets whose kernels were measured.
+    """
+    out: list[Target] = []
+    for what, kernel, rival, wanted in (
+        ("hull + area", "hull + area", "scipy ConvexHull, from active taxels", 30.0),
+        ("hull + area", "hull + area", "shapely convex_hull, from active taxels", 30.0),
+        ("outline", "concave outline", "shapely coverage_union_all", 20.0),
+        ("axis-aligned rectangle", "rectangle inside, axis-aligned", "scipy SLSQP", 500.0),
+        ("rectangle in the outline", "rectangle in the outline", "largestinteriorrectangle's method, 1 mm", 100.0),
+        ("closest point", "closest point", "shapely nearest_points, with construction", 10.0),
+        ("inner offset", "inner offset", "shapely buffer, mitred", 10.0),
+        ("walking tick, both feet", "walking tick", "scipy + shapely + numpy", 20.0),
+        ("hull + area of a recording", "hull + area of a recording", "shapely, a loop", 100.0),
+    ):
+        out += _ratio(results, what, kernel, rival, wanted)
+    for r in _of(results, "walking tick"):
+        out.append(Target("walking tick, both feet", 40.0, r.median_us, "us", False, r.size))
+    for r in _of(results, "percept", "plantar, every member"):
+        out.append(Target("every member of both feet", 1000.0, r.median_us, "us", False, r.size))
+    share = copy_share(results)
+    if share is not None:
+        out.append(
+            Target("wrench of a recording, of the copy bandwidth", 40.0, 100.0 * share, "%", True, "100000 x 102")
+        )
+    ours = [r for r in results if r.ours and r.error is not None]
+    for text, bound, kept in (
+        (
+            "relative error of the exact kernels",
+            1e-12,
+            [r for r in ours if "any angle" not in r.kernel or "box" in r.kernel],
+        ),
+        ("relative error at any angle", 1e-6, [r for r in ours if "any angle" in r.kernel and "box" not in r.kernel]),
+    ):
+        if kept:
+            worst = max(kept, key=lambda r: r.error or 0.0)
+            out.append(Target(text, bound, worst.error or 0.0, "", False, f"{worst.kernel}, {worst.size}"))
+    return out
+
+
+def copy_share(results: Sequence[Result]) -> float | None:
+    """Bytes a second that the wrench of a recording moves, over those of a copy; None where it was not measured.
+
+    A copy reads and writes every byte; the wrench reads every byte and writes 6 numbers a frame.
+    """
+    ours = _of(results, "wrench of a recording")
+    copy = _of(results, "wrench of a recording", "copy of the forces")
+    if not ours or not copy:
+        return None
+    return (1.0 + 6.0 / TAXELS) / 2.0 * copy[0].median_us / ours[0].median_us
+
+
+def write_kernel_report(folder: Path, results: Sequence[Result]) -> list[str]:
+    """Write kernels.md, kernels.csv and the figure kernels.png.
+
+    Args:
+        folder: Where to; exists.
+        results: Results of `compare_kernels`.
+
+    Returns:
+        Names of the files.
+    """
+    write_text(folder / "kernels.csv", _csv(results))
+    write_text(folder / "kernels.md", _markdown(results))
+    _figure(folder / "kernels.png", results)
+    return ["kernels.md", "kernels.csv", "kernels.png"]
+
+
+def _csv(results: Sequence[Result]) -> str:
+    text = io.StringIO()
+    writer = csv.DictWriter(text, list(results[0].as_dict()), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(r.as_dict() for r in results)
+    return text.getvalue()
+
+
+def _number(value: float) -> str:
+    return f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
+
+
+def _markdown(results: Sequence[Result]) -> str:
+    lines = [
+        "# Perception kernels: run time against error",
+        "",
+        f"Written by `plantar bench kernels -o DIR`; one run of {time.strftime('%Y-%m-%d')} on {platform.machine()}, "
+        f"Python {platform.python_version()}, numpy {np.__version__}, kernels "
+        f"{'compiled' if compiled else 'interpreted'}. Times depend on the machine: trust the ratios.",
+        "",
+        "Each time is the median of a call over several rounds in which all routes take turns, with the interquartile",
+        "range beside it. The error is the largest over the cases, relative, against an independent reference in exact",
+        "integers or fractions, or a nested search where the result is not rational (`plantar/bench/references.py`).",
+        "Cases: 51 hexagons of 691 mm^2 with 5, 20 or all active, and 1,000 small ones with holes (dense). Rivals get",
+        "what suits them: cells, points or polygons as arrays ready in memory, unless the name says otherwise. The",
+        "rectangle in the outline is compared with the best one known, of ours once shapely finds it inside and of a",
+        "search over pairs of abscissae. The share of the copy bandwidth counts bytes read and written, of both.",
+        "",
+        "## Wanted and reached",
+        "",
+        "| what | wanted | reached, at the worst size | at | met |",
+        "|---|---:|---:|---|---|",
+    ]
+    for t in targets(results):
+        sign = ">=" if t.at_least else "<="
+        unit = f" {t.unit}" if t.unit else ""
+        lines.append(
+            f"| {t.what} | {sign} {_number(t.wanted)}{unit} | {_number(t.figure)}{unit} | {t.where} "
+            f"| {'yes' if t.met else '**no**'} |"
+        )
+    lines += ["", "![run time against error](kernels.png)", ""]
+    for kernel in dict.fromkeys(r.kernel for r in results):
+        lines += [
+            f"## {kernel[0].upper()}{kernel[1:]}",
+            "",
+            "| size | route | median us | spread | ratio | relative error |",
+            "|---|---|---:|---:|---:|---:|",
+        ]
+        for r in results:
+            if r.kernel == kernel:
+                error = "-" if r.error is None else f"{r.error:.1e}"
+                note = " (approximate)" if r.approximate else ""
+                lines.append(
+                    f"| {r.size} | {r.route}{note} | {_number(r.median_us)} | {100 * r.spread:.0f} % | "
+                    f"{_number(r.ratio)} | {error} |"
+                )
+        lines.append("")
+    return "\n".join(lines)
+
+
+_PANELS = (
+    "hull + area",
+    "concave outline",
+    "closest point",
+    "inner offset",
+    "rectangle inside, axis-aligned",
+    "rectangle inside, any angle",
+    "rectangle in the outline",
+    "parallelogram inside",
+    "circle inside",
+)
+_MARKERS = {"5": "o", "20": "s", "51": "^", "dense": "D"}
+_RIVALS = ("#4c78a8", "#f2a541", "#59a14f", "#b279a2", "#9d755d", "#2f4b7c", "#76b7b2", "#e377c2", "#8c8c8c")
+_FLOOR = 1e-17
+"""Where an error of 0 is drawn."""
+
+
+def _figure(path: Path, results: Sequence[Result]) -> None:
+    """Run time against error, a panel a kernel; ours in colour, approximations hollow."""
+    figure, axes = new_figure(13.0, 12.0, 3, 3, squeeze=False)
+    for axis, kernel in zip(axes.reshape(-1), _PANELS, strict=True):
+        found = [r for r in results if r.kernel == kernel and r.error is not None]
+        rivals = list(dict.fromkeys(r.route for r in found if not r.ours))
+        paint = {name: _RIVALS[i % len(_RIVALS)] for i, name in enumerate(rivals)}
+        named: set[str] = set()
+        for r in found:
+            colour = COLOURS["cop"] if r.ours else paint[r.route]
+            name = "plantar" if r.ours else r.route
+            axis.plot(
+                r.median_us,
+                max(r.error or 0.0, _FLOOR),
+                marker=_MARKERS.get(r.size, "o"),
+                color=colour,
+                markerfacecolor="none" if r.approximate else colour,
+                linestyle="none",
+                markersize=7,
+                label=None if name in named else name,
+            )
+            named.add(name)
+        axis.set(xscale="log", yscale="log", ylim=(3e-18, 1e12), title=kernel)
+        axis.set_xlabel("median time of a call [us]")
+        axis.set_ylabel("relative error [-]")
+        axis.xaxis.set_minor_formatter("")
+        axis.set_yticks([1e-16, 1e-12, 1e-8, 1e-4, 1.0])
+        axis.grid(True, which="major", color="#e5e5e5", linewidth=0.6)
+        if found:
+            axis.legend(fontsize=7, loc="upper left", framealpha=0.85)
+    for size, marker in _MARKERS.items():
+        label = f"{size} active" if size != "dense" else "1,000 cells"
+        axes[0, 0].plot([], [], marker=marker, linestyle="none", color="#444444", label=label)
+    axes[0, 0].plot([], [], marker="o", linestyle="none", color="#444444", markerfacecolor="none", label="approximate")
+    figure.legend(handles=axes[0, 0].get_lines()[-len(_MARKERS) - 1 :], loc="outside lower center", ncols=5)
+    figure.suptitle("Perception kernels: run time against error (lower left is better; 0 is drawn at 1e-17)")
+    save_figure(figure, path)
