@@ -21,7 +21,7 @@ from plantar.bench.soles import SIZES
 from plantar.kernels import compiled
 from plantar.plotting import COLOURS, new_figure, save_figure
 
-__all__ = ["Target", "compare_kernels", "targets", "write_kernel_report"]
+__all__ = ["Target", "compare_kernels", "copy_share", "targets", "write_kernel_report"]
 
 
 @dataclass(frozen=True)

@@ -374,7 +374,7 @@ def box_cv2(polygon: NDArray[np.float32]) -> float:
 
 
 def turned(points: Array, angle: float) -> Array:
-    """Points (n, 2) turned about the origin by an angle in rad; returns them."""
+    """Turn points (n, 2) about the origin by an angle in rad; returns them."""
     c, s = math.cos(angle), math.sin(angle)
     return np.asarray(points @ np.array([[c, s], [-s, c]]))
 

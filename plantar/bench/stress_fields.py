@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 _GAIN = 50.0
 
 
-def near_ground(block: Block, tally: Tally) -> None:
+def _near_ground(block: Block, tally: Tally) -> None:
     """Near taxels, their polygons, contours that nest, and the virtual wrench."""
     layout, distance, percepts = block.layout, block.proximity, block.percepts
     reach = layout.proximity_range
@@ -63,7 +63,7 @@ def near_ground(block: Block, tally: Tally) -> None:
     )
 
 
-def plane_of_ground(block: Block, tally: Tally) -> None:
+def _plane_of_ground(block: Block, tally: Tally) -> None:
     """Planes are finite, as flat as their points allow, and found again where every taxel sees one plane."""
     layout = block.layout
     wrong = []
@@ -90,7 +90,7 @@ def plane_of_ground(block: Block, tally: Tally) -> None:
     tally.add("ground_points", block, lost.any(axis=1))
 
 
-def switches(block: Block, tally: Tally) -> None:
+def _switches(block: Block, tally: Tally) -> None:
     """The sole wrench's switch reading by reading as over frames, and the early stop."""
     contact = np.array([p.wrench_in_sole for p in block.percepts])
     contact[:: max(1, len(block) // 7)] = np.nan
@@ -106,7 +106,7 @@ def switches(block: Block, tally: Tally) -> None:
     tally.add("early_stop", block, clear & (np.asarray(stop) != (length > 1.0)))
 
 
-def heat(block: Block, tally: Tally) -> None:
+def _heat(block: Block, tally: Tally) -> None:
     """Warm taxels, their footprint and the wrench away from heat."""
     layout, readings, percepts = block.layout, block.temperature, block.percepts
     level, highest = layout.temperature_threshold, 60.0
@@ -149,7 +149,7 @@ def heat(block: Block, tally: Tally) -> None:
     tally.add("Percept.acceleration_in_sole", block, error.max(axis=(1, 2)), 1e-12, len(block))
 
 
-def skin(block: Block, tally: Tally) -> None:
+def _skin(block: Block, tally: Tally) -> None:
     """Pseudo-forces, patch signals and wrenches of skin cells."""
     layout = block.layout
     felt = np.clip(block.force, -1e12, 1e12)
@@ -172,5 +172,5 @@ def skin(block: Block, tally: Tally) -> None:
     tally.add("skin_wrench", block, (np.abs(wrenches - one @ columns) / scale).max(axis=1), 1e-14)
 
 
-FIELD_CHECKS = (near_ground, plane_of_ground, switches, heat, skin)
+FIELD_CHECKS = (_near_ground, _plane_of_ground, _switches, _heat, _skin)
 """The checks of this module, each a function of a block and a tally."""

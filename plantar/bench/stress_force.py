@@ -51,7 +51,7 @@ def _same(one: Any, other: Any) -> bool:
     return np.array_equal(np.asarray(one), np.asarray(other), equal_nan=np.asarray(one).dtype.kind == "f")
 
 
-def percept_loads(block: Block, tally: Tally) -> None:
+def _percept_loads(block: Block, tally: Tally) -> None:
     """Active taxels, wrench, area and CoP of each percept against sums in extended precision and `math.fsum`."""
     percepts = block.percepts
     active = np.array([p.active for p in percepts])
@@ -98,7 +98,7 @@ def percept_loads(block: Block, tally: Tally) -> None:
     )
 
 
-def percept_faults(block: Block, tally: Tally) -> None:
+def _percept_faults(block: Block, tally: Tally) -> None:
     """Faults, filling, and activation with and without memory."""
     percepts, layout, given = block.percepts, block.layout, block.force
     faulty = np.array([p.health.faulty for p in percepts])
@@ -144,7 +144,7 @@ def percept_faults(block: Block, tally: Tally) -> None:
     )
 
 
-def batch_functions(block: Block, tally: Tally) -> None:
+def _batch_functions(block: Block, tally: Tally) -> None:
     """The batch functions against the percepts, reading by reading."""
     layout, percepts = block.layout, block.percepts
     wanted, scale = _sums(block)
@@ -176,7 +176,7 @@ def batch_functions(block: Block, tally: Tally) -> None:
     tally.add("batch.support_polygons: without vertices", block, bare.area != hulls.area)
 
 
-def balance_points(block: Block, tally: Tally) -> None:
+def _balance_points(block: Block, tally: Tally) -> None:
     """Zero moment, pivots and the wrench of two feet, also with the soles 1e6 m away."""
     percepts = block.percepts
     wrenches = np.array([p.wrench_in_sole for p in percepts])
@@ -249,7 +249,7 @@ def balance_points(block: Block, tally: Tally) -> None:
     tally.add("joint_torque", block, _error(torque, loads @ turns, np.abs(loads) @ np.abs(turns) + 1e-300), 1e-14)
 
 
-def two_feet(block: Block, tally: Tally) -> None:
+def _two_feet(block: Block, tally: Tally) -> None:
     """Every member of what two feet feel together."""
     at = block.pose.position_in_world
     poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
@@ -263,7 +263,7 @@ def two_feet(block: Block, tally: Tally) -> None:
     tally.add("FeetPercept: every member", block, wrong, 0.0, len(wrong))
 
 
-def every_member(block: Block, tally: Tally) -> None:
+def _every_member(block: Block, tally: Tally) -> None:
     """No member of a percept is NaN, but where the acceleration or the sound force says that a taxel is dead."""
     spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole", "health", "active", "near"}
     for member in Percept.members():
@@ -286,13 +286,13 @@ def _numbers(value: Any) -> list[Array]:
 
 
 FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (
-    percept_loads,
-    percept_faults,
-    batch_functions,
-    balance_points,
-    two_feet,
+    _percept_loads,
+    _percept_faults,
+    _batch_functions,
+    _balance_points,
+    _two_feet,
 )
 """The checks of this module, each a function of a block and a tally."""
 
-LAST_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (every_member,)
+LAST_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (_every_member,)
 """Checks that run after all others, when the percepts' members are known."""

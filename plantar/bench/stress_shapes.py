@@ -44,7 +44,7 @@ def _areas(corners: Array) -> Array:
     return np.asarray(0.5 * (local[..., 0] * following[..., 1] - local[..., 1] * following[..., 0]).sum(axis=1))
 
 
-def percept_support(block: Block, tally: Tally) -> None:
+def _percept_support(block: Block, tally: Tally) -> None:
     """Support polygon of each percept: convex exactly, around all corners, its area and centroid."""
     layout, percepts = block.layout, block.percepts
     hulls = [p.support_polygon_in_sole for p in percepts]
@@ -85,7 +85,7 @@ def percept_support(block: Block, tally: Tally) -> None:
     )
 
 
-def percept_outline(block: Block, tally: Tally) -> None:
+def _percept_outline(block: Block, tally: Tally) -> None:
     """Concave outline: its area is that of the cells, no more than that of the hull; moved and joined outlines."""
     layout = block.layout
     outlines = [p.concave_outline_in_sole for p in block.percepts]
@@ -122,7 +122,7 @@ def percept_outline(block: Block, tally: Tally) -> None:
     tally.add("concave_outline", block, _relative(np.array(direct), wanted[::16], wanted[::16]), _EXACT, len(direct))
 
 
-def percept_shapes(block: Block, tally: Tally) -> None:
+def _percept_shapes(block: Block, tally: Tally) -> None:
     """The members that are shapes, on the sole as it is."""
     percepts = block.percepts
     hulls = [p.support_polygon_in_sole for p in percepts]
@@ -145,7 +145,7 @@ def percept_shapes(block: Block, tally: Tally) -> None:
     tally.add("rectangle at any angle: half of the polygon", block, half, 1e-6)
 
 
-def percept_outline_shapes(block: Block, tally: Tally) -> None:
+def _percept_outline_shapes(block: Block, tally: Tally) -> None:
     """Rectangles in the concave outline: inside, no more than in the hull, no less than in one cell."""
     percepts = block.percepts
     corners = [p.outline_rectangle_in_sole for p in percepts]
@@ -290,7 +290,7 @@ def _variant(points: Array, kind: int, rng: np.random.Generator) -> Array:
     return points[: int(rng.integers(0, 4))] if kind == 9 else points
 
 
-def plane_polygons(block: Block, tally: Tally) -> None:
+def _plane_polygons(block: Block, tally: Tally) -> None:
     """The functions of convex polygons on polygons far away, clockwise, repeated, on a line, tiny and huge."""
     rng = block.rng
     cloud = [_variant(p.support_polygon_in_sole, i % 12, rng) for i, p in enumerate(block.percepts)]
@@ -431,5 +431,5 @@ def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Seque
     tally.add("rectangle_in_outline: as in the polygon", block, np.abs(got - right) / size, 1.0, len(whole))
 
 
-SHAPE_CHECKS = (percept_support, percept_outline, percept_shapes, percept_outline_shapes, plane_polygons)
+SHAPE_CHECKS = (_percept_support, _percept_outline, _percept_shapes, _percept_outline_shapes, _plane_polygons)
 """The checks of this module, each a function of a block and a tally."""

@@ -101,7 +101,7 @@ class Tally:
             with _patience():
                 check(block, self)
         except Exception as error:
-            tested = self.tested.setdefault(f"{check.__name__} raises", Tested(0.0))
+            tested = self.tested.setdefault(f"{check.__name__.lstrip('_')} raises", Tested(0.0))
             tested.readings += len(block)
             tested.failures += 1
             if len(tested.examples) < _KEPT:
