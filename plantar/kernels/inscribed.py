@@ -400,6 +400,11 @@ def _vanish(work, alive, i):
         return
     x = (ac * by - ay * bc) / turn
     y = (ax * bc - ac * bx) / turn
+    # Once more for what rounding left: between almost parallel edges the first solution is not halfway.
+    ex = ac - (ax * x + ay * y)
+    ey = bc - (bx * x + by * y)
+    x += (ex * by - ay * ey) / turn
+    y += (ax * ey - ex * bx) / turn
     work[6 * i + 3] = x
     work[6 * i + 4] = y
     work[6 * i + 5] = nx * x + ny * y - work[6 * i + 2]
