@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceGains, DcmBalance
+from gait.command_frame import CommandFrame
 from gait.estimator import (
     BaseState,
     EstimatorGains,
@@ -18,11 +19,11 @@ from gait.estimator import (
     heading,
     rotation_from_vector,
 )
+from gait.foot_motion import FootMotion, Landing
 from gait.footsteps import Footstep, other_side
 from gait.lip import pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
-from gait.swing import SwingTrajectory
 from gait.vrp_plan import LipReference
 from gait.walk_plan import plan_vrps
 from plantar.layout import Side, SoleLayout
@@ -47,13 +48,7 @@ class ControllerSettings:
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
-        contact_force: Vertical force in N on the swing foot that counts as touchdown (the papers' 70 N).
-        landing_force: Vertical force in N up to which a foot that has touched is pressed down.
-        landing_depth: Depth in m below the expected ground that the swing aims for, so that the foot rests on it
-            with some tens of newtons and does not hover.
-        landing_speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
-        landing_acceleration: Its acceleration in m/s^2.
-        landing_reach: Distance in m that it goes down at most.
+        landing: How a foot lands.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
@@ -65,12 +60,7 @@ class ControllerSettings:
     period: float = 0.005
     timing: Timing = field(default_factory=Timing)
     swing_height: float = 0.05
-    contact_force: float = 70.0
-    landing_force: float = 200.0
-    landing_depth: float = 0.0004
-    landing_speed: float = 0.03
-    landing_acceleration: float = 1.0
-    landing_reach: float = 0.03
+    landing: Landing = field(default_factory=Landing)
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
@@ -181,19 +171,11 @@ class WalkingController:
             {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in _SIDES},
             settings.estimator,
         )
-        self._foothold: dict[Side, tuple[NDArray[np.float64], float]] = {
-            s: (feet[s].position.copy(), feet[s].yaw) for s in _SIDES
-        }
-        self._swing: SwingTrajectory | None = None
-        self._swing_step = -1
+        self.motion = FootMotion(feet, self.schedule, settings.period, settings.swing_height, settings.landing)
+        self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
         self._ticks = 0
         self.replans = 0
         self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
-        self._landed = True
-        self._lowered = self._lowering = 0.0
-        self._anchor = feet["left"].position
-        self._offset = np.zeros(3)
-        self._turn = 0.0
         self._region_of: list[tuple[Side, float, float, float]] = []
         self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
@@ -222,7 +204,8 @@ class WalkingController:
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:
             self._align(state)
-        self._move_feet(phase, sensors.time, state)
+        if self.motion.update(phase, sensors.time, state.loads, self._frame):
+            self._compensation.start()
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
@@ -230,11 +213,11 @@ class WalkingController:
         else:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
         height = self._com_height(phase, sensors.time)
-        yaws = [self._foothold[side][1] for side in _SIDES]
-        target = np.array([*self._to_command(com), height])
+        yaws = [self.motion.footholds[side][1] for side in _SIDES]
+        target = np.array([*self._frame.to_command(com), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
-        feet = self._foot_targets(phase, self._to_command(zmp), acceleration)
-        if feedback and self._swing is not None:
+        feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
+        if feedback:
             self._compensate(feet, phase, target, torso, state)
         return Command(
             com=target,
@@ -252,15 +235,15 @@ class WalkingController:
         self, feet: dict[Side, FootTarget], phase: Phase, com: NDArray[np.float64], torso: float, state: BaseState
     ) -> None:
         """Correct the target of the foot that swings, or has just landed, for the body's lean."""
-        side = self.schedule.steps[self._swing_step].side
+        side = self.motion.last_side
+        if side is None:
+            return
         foot = feet[side]
-        dx, dy, dz = (foot.position - self._anchor).tolist()
-        c, s = math.cos(self._turn), math.sin(self._turn)
-        place = self._anchor + self._offset + np.array([c * dx - s * dy, s * dx + c * dy, dz])
+        place = self._frame.to_world(foot.position)
         command = Footstep(side, 0.0, 0.0, torso).rotation_sole_to_world
         back = Footstep(side, 0.0, 0.0, torso - heading(state.rotation_base_to_world)).rotation_sole_to_world
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-        aligned = Footstep(side, 0.0, 0.0, -self._turn).rotation_sole_to_world
+        aligned = Footstep(side, 0.0, 0.0, -self._frame.turn).rotation_sole_to_world
         shift, turn = self._compensation.update(
             phase.swing == side,
             foot.position,
@@ -274,76 +257,28 @@ class WalkingController:
         feet[side] = replace(foot, position=foot.position + shift, rotation=rotation)
 
     def _align(self, state: BaseState) -> None:
-        """Follow where the loaded foot really stands: servos give a little, so a commanded foothold and the real one
-        drift apart by a millimetre or two a step. World and command frame differ by this (filtered) offset."""
-        s = self.settings
+        """Let the command frame follow where the carrying foot really stands."""
         side: Side = "left" if state.loads["left"] >= state.loads["right"] else "right"
-        position, yaw = self._foothold[side]
-        if state.loads[side] <= s.estimator.minimum_load:
+        if state.loads[side] <= self.settings.estimator.minimum_load:
             return
-        share = min(1.0, s.period / s.alignment_time)
-        # The anchor moves as slowly: a jump from foot to foot would turn the CoM reference about another point.
-        self._anchor = self._anchor + share * (position - self._anchor)
-        self._offset += share * (state.positions_sole[side] - position - self._offset)
+        position, yaw = self.motion.footholds[side]
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
-        self._turn += share * (turn - self._turn)
-
-    def _to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A horizontal point (2,) of the world in the frame of the commanded footholds."""
-        dx, dy = (point - self._anchor[:2] - self._offset[:2]).tolist()
-        c, s = math.cos(self._turn), math.sin(self._turn)
-        return np.array([self._anchor[0] + c * dx + s * dy, self._anchor[1] - s * dx + c * dy])
-
-    def _move_feet(self, phase: Phase, time: float, state: BaseState) -> None:
-        """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off."""
-        s = self.settings
-        if phase.swing is not None and self._swing_step != phase.step:
-            step = self.schedule.steps[phase.step]
-            position, yaw = self._foothold[phase.swing]
-            ground = self._foothold[other_side(phase.swing)][0][2]
-            target = np.array([*self._to_command(step.position[:2]), ground - s.landing_depth])
-            self._swing = SwingTrajectory(
-                position.copy(), target, yaw, step.yaw - self._turn, s.swing_height, phase.end - phase.start
-            )
-            self._swing_step = phase.step
-            self._compensation.start()
-            self._landed = False
-            self._lowered = self._lowering = 0.0
-        if self._swing is None:
-            return
-        side = self.schedule.steps[self._swing_step].side
-        position, yaw = self._foothold[side]
-        if phase.swing is not None:
-            elapsed = time - phase.start
-            if elapsed > 0.5 * self._swing.duration and state.loads[side] > s.contact_force:
-                self._landed = True
-            if not self._landed:
-                self._foothold[side] = self._swing.at(elapsed)
-                return
-        self._landed = True  # it touched, or the plan puts weight on it now
-        # Press down the more gently the more it carries; a switch at one force would make the foot tap.
-        missing = 1.0 - state.loads[side] / s.landing_force
-        wanted = s.landing_speed * missing if missing > 0.0 and self._lowered < s.landing_reach else 0.0
-        self._lowering = min(wanted, self._lowering + s.landing_acceleration * s.period)
-        if self._lowering > 0.0:
-            drop = self._lowering * s.period
-            self._lowered += drop
-            self._foothold[side] = (position - np.array([0.0, 0.0, drop]), yaw)
+        self._frame.follow(position, state.positions_sole[side], turn)
 
     def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, at their commanded
         places, moved inwards by the offset. It is made anew only when a foot comes, goes or moves."""
-        standing = [s for s in _SIDES if self._landed or phase.swing != s]
+        standing = [s for s in _SIDES if self.motion.landed or phase.swing != s]
         places = []
         for side in standing:
-            position, yaw = self._foothold[side]
+            position, yaw = self.motion.footholds[side]
             places.append((side, float(position[0]), float(position[1]), yaw))
         if places != self._region_of:
             parts = [
                 polygon_in_world(
                     self._outline[side],
                     Footstep(side, x, y, yaw).rotation_sole_to_world,
-                    np.array([x, y, 0.0]) + self._offset,
+                    np.array([x, y, 0.0]) + self._frame.offset,
                 )
                 for side, x, y, yaw in places
             ]
@@ -353,7 +288,7 @@ class WalkingController:
 
     def _com_height(self, phase: Phase, time: float) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
-        heights = {side: float(self._foothold[side][0][2]) for side in _SIDES}
+        heights = {side: float(self.motion.footholds[side][0][2]) for side in _SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
         rate = min(1.0, 5.0 * self.settings.period)
         self._ground += rate * (target - self._ground)
@@ -368,7 +303,7 @@ class WalkingController:
         centers: dict[Side, NDArray[np.float64]] = {}
         rotations: dict[Side, NDArray[np.float64]] = {}
         for side in _SIDES:
-            position, yaw = self._foothold[side]
+            position, yaw = self.motion.footholds[side]
             rotations[side] = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
             centers[side] = position[:2] + rotations[side][:2, :2] @ self._vrp_in_sole[side]
         if phase.stance is not None:
@@ -381,6 +316,6 @@ class WalkingController:
         # What is left of the desired ZMP after sharing is realised by each foot's own centre of pressure.
         rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
         return {
-            side: FootTarget(self._foothold[side][0], rotations[side], share[side] * force, centers[side] + rest)
+            side: FootTarget(self.motion.footholds[side][0], rotations[side], share[side] * force, centers[side] + rest)
             for side in _SIDES
         }

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -169,6 +169,11 @@ class SoleLayout:
         for name, value in self.thresholds.items():
             if not (math.isfinite(value) and value >= 0.0):
                 raise LayoutError(f"layout field 'thresholds.{name}' is {value}; allowed: finite, 0 or more")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles carry the fields; what was computed from them, compiled kernels too, is made anew.
+        values = (getattr(self, item.name) for item in fields(self))
+        return type(self), tuple(dict(v) if isinstance(v, Mapping) else v for v in values)
 
     def __len__(self) -> int:
         return len(self.corners)

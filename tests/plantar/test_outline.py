@@ -210,8 +210,11 @@ def test_a_layout_that_has_been_outlined_can_be_copied(sole):
     import pickle
 
     concave_outline(sole, np.ones(len(sole), dtype=bool))
+    assert sole.kernel is not None  # compiled objects do not pickle; they are made anew
     for twin in (pickle.loads(pickle.dumps(sole)), copy.deepcopy(sole)):
         assert concave_outline(twin, np.ones(len(sole), dtype=bool)).area == pytest.approx(sole.areas.sum(), rel=1e-12)
+        assert all(np.array_equal(getattr(twin, k), getattr(sole, k)) for k in ("positions", "vertices", "outline"))
+        assert not twin.positions.flags.writeable
 
 
 @given(st.floats(-math.pi, math.pi), st.floats(-1e6, 1e6))

@@ -1,0 +1,74 @@
+"""The frame that joints are solved in, and how it follows the real footholds.
+
+Servos give a little, so a commanded foothold and the real one drift apart by a millimetre or two a step. Commands stay
+in a frame of their own, in which the commanded footholds stand still; it follows the world through the foot that
+carries, slowly enough that nothing jumps when the other foot takes over.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["CommandFrame"]
+
+
+class CommandFrame:
+    """Offset and turn between the command frame and the world.
+
+    Args:
+        anchor: Position (3,) of a foot in the command frame in m, where the walk begins.
+        period: Control period in s.
+        time_constant: Time constant in s with which the frame follows.
+    """
+
+    def __init__(self, anchor: NDArray[np.float64], period: float, time_constant: float) -> None:
+        self.anchor = anchor
+        self.offset = np.zeros(3)
+        self.turn = 0.0
+        self._share = min(1.0, period / time_constant)
+
+    def follow(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
+        """Follow the carrying foot for one tick.
+
+        Args:
+            commanded: Its commanded position (3,) in m.
+            real: Where it stands in the world (3,) in m, as estimated.
+            turn: Its heading in the world less the commanded one in rad.
+        """
+        # The anchor moves as slowly as the rest: a jump from foot to foot would turn the CoM about another point.
+        self.anchor = self.anchor + self._share * (commanded - self.anchor)
+        self.offset += self._share * (real - commanded - self.offset)
+        self.turn += self._share * (turn - self.turn)
+
+    def to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A horizontal point of the world in the command frame.
+
+        Args:
+            point: Point (2,) in the world in m.
+
+        Returns:
+            The same point (2,) in the command frame in m.
+
+        Example:
+            >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
+            [1.0, 2.0]
+        """
+        dx, dy = (point - self.anchor[:2] - self.offset[:2]).tolist()
+        c, s = math.cos(self.turn), math.sin(self.turn)
+        return np.array([self.anchor[0] + c * dx + s * dy, self.anchor[1] - s * dx + c * dy])
+
+    def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A point of the command frame in the world.
+
+        Args:
+            point: Point (3,) in the command frame in m.
+
+        Returns:
+            The same point (3,) in the world in m.
+        """
+        dx, dy, dz = (point - self.anchor).tolist()
+        c, s = math.cos(self.turn), math.sin(self.turn)
+        return np.asarray(self.anchor + self.offset + np.array([c * dx - s * dy, s * dx + c * dy, dz]))
