@@ -212,7 +212,7 @@ class WalkingController:
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
         else:
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
-        height = self._com_height(phase, sensors.time)
+        height = self._com_height(phase)
         yaws = [self.motion.footholds[side][1] for side in _SIDES]
         target = np.array([*self._frame.to_command(com), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
@@ -286,7 +286,7 @@ class WalkingController:
             self._region_of = places
         return self._region
 
-    def _com_height(self, phase: Phase, time: float) -> float:
+    def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: float(self.motion.footholds[side][0][2]) for side in _SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
@@ -303,8 +303,8 @@ class WalkingController:
         centers: dict[Side, NDArray[np.float64]] = {}
         rotations: dict[Side, NDArray[np.float64]] = {}
         for side in _SIDES:
-            position, yaw = self.motion.footholds[side]
-            rotations[side] = Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world
+            position = self.motion.footholds[side][0]
+            rotations[side] = self.motion.rotation(side)
             centers[side] = position[:2] + rotations[side][:2, :2] @ self._vrp_in_sole[side]
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}

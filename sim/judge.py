@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,8 +64,6 @@ class Judge:
         self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         self._adr = tuple(self.world.touch[s] for s in _SIDES)
-        self.truth: GroundTruth | None = None
-        self.wrenches: dict[Side, Any] = {}
 
     def watch(self) -> None:
         """After each physics step: landings and their impacts."""
@@ -113,5 +110,4 @@ class Judge:
         ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
         if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
             self.fell = True
-        self.truth = truth
         return truth

@@ -37,7 +37,6 @@ class LegServos:
         self._last: NDArray[np.float64] | None = None
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
-        self.largest_error = 0.0
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
         """Hold a posture.
@@ -55,13 +54,12 @@ class LegServos:
         """Solve a command for the joints; returns the joint reference (k,) in rad."""
         c, s = math.cos(command.heading), math.sin(command.heading)
         feet = command.feet
-        joints, error = self._legs.solve(
+        joints, _ = self._legs.solve(
             command.com,
             np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]),
             {side: feet[side].position for side in _SIDES},
             {side: feet[side].rotation for side in _SIDES},
         )
-        self.largest_error = max(self.largest_error, error)
         torques = self._legs.static_torques(
             {side: feet[side].force for side in _SIDES},
             {side: np.array([*feet[side].center_of_pressure, feet[side].position[2]]) for side in _SIDES},
