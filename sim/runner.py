@@ -16,7 +16,7 @@ import numpy as np
 
 from gait.balance import BalanceGains
 from gait.controller import Command, ControllerSettings, WalkingController
-from gait.footsteps import straight_plan
+from gait.footsteps import Footstep, straight_plan
 from gait.phases import Timing
 from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
@@ -31,6 +31,7 @@ from sim.scene import Scene
 from sim.sensors import SensorSuite
 from sim.servos import LegServos
 from sim.standing import stand
+from sim.terrain import Footprint, PlannedFeet
 from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world
 
 __all__ = ["Simulation", "run_scene"]
@@ -75,7 +76,6 @@ class Simulation:
         if layouts is not None:
             robot = replace(robot, layouts=dict(layouts))
         self.robot: Robot = robot
-        self.world: World = build_world(robot, scene.terrain)
         self.legs = build_leg_model(robot)
         walk = scene.walk
         self.feet, self.steps = straight_plan(
@@ -90,7 +90,13 @@ class Simulation:
             com_height=robot.com_height,
             mass=self.legs.mass,
             period=CONTROL_PERIOD,
-            timing=Timing(walk.single_support, walk.double_support, walk.start, walk.end, walk.settle),
+            timing=Timing(
+                walk.single_support or robot.single_support,
+                walk.double_support or robot.double_support,
+                walk.start,
+                walk.end,
+                walk.settle,
+            ),
             swing_height=walk.swing_height,
             gains=BalanceGains.from_table(robot.balance),
             feedback=scene.control.feedback,
@@ -98,6 +104,9 @@ class Simulation:
         self.controller = WalkingController(
             self.settings, self.feet, self.steps, robot.layouts, self.legs, begin=walk.begin
         )
+        ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
+        self.facts = ground.facts
+        self.world: World = build_world(robot, ground)
         self.sensors = SensorSuite(self.world, scene.sensing, seed)
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
@@ -108,6 +117,23 @@ class Simulation:
             centers[side] = vrp_of_step(self.feet[side], middle)
         stand(self.world, self.legs, self.servos, self.feet, centers, robot.com_height)
         self.judge = Judge(self.world, robot.com_height)
+
+    def _planned_feet(self) -> PlannedFeet:
+        """The plan's footprints with their times, which the ground is laid out by."""
+        swings = {p.step: p for p in self.controller.schedule.phases if p.swing is not None}
+
+        def footprint(foot: Footstep, step: int | None) -> Footprint:
+            center, half = self.robot.sole_rectangle(foot.side)
+            place = vrp_of_step(foot, center)
+            if step is None:
+                return Footprint(foot.side, place, foot.yaw, half, foot.position[:2])
+            swing = swings[step]
+            return Footprint(foot.side, place, foot.yaw, half, foot.position[:2], swing.start, swing.end)
+
+        return PlannedFeet(
+            {side: footprint(self.feet[side], None) for side in _SIDES},
+            tuple(footprint(foot, k) for k, foot in enumerate(self.steps)),
+        )
 
     def run(
         self,
@@ -171,6 +197,8 @@ class Simulation:
                     skipped["rendered_frames"] += 1
             servos.drive()
             self.pusher.apply(world)
+            if world.moving_ground:
+                world.move_ground()
             mujoco.mj_step(model, data)
             judge.watch()
         return _Result(ticks, clock.perf_counter() - began, skipped)
@@ -229,6 +257,8 @@ class Simulation:
                 else None,
             },
         }
+        if self.facts:
+            summary["terrain"] = dict(self.facts)
         if self.pusher.step is not None:
             summary["push"] = {
                 "impulse_Ns": self.scene.push.impulse,

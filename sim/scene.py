@@ -14,7 +14,7 @@ from typing import Any
 
 from plantar.errors import SceneError
 from sim.table import from_table, limits
-from sim.terrain import Terrain
+from sim.terrain import TERRAIN_KINDS, Flat, Terrain
 
 __all__ = ["Control", "Push", "Scene", "Sensing", "Walk", "builtin_scenes", "load_scene", "override"]
 
@@ -31,8 +31,8 @@ class Walk:
         sideways: Lateral distance by which each opening step leads, positive to the left.
         width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
         first: Foot that moves first.
-        single_support: t_ss.
-        double_support: t_ds.
+        single_support: t_ss; 0 takes the robot's own.
+        double_support: t_ds; 0 takes the robot's own.
         swing_height: Clearance of the swing foot.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
@@ -45,8 +45,8 @@ class Walk:
     sideways: float = field(default=0.0, metadata=limits(-0.3, 0.3))
     width: float = field(default=0.0, metadata=limits(0.0, 0.6))
     first: str = field(default="left", metadata={"choices": ("left", "right")})
-    single_support: float = field(default=0.9, metadata=limits(0.2, 10.0))
-    double_support: float = field(default=0.3, metadata=limits(0.02, 10.0))
+    single_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
+    double_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     swing_height: float = field(default=0.05, metadata=limits(0.005, 0.25))
     start: float = field(default=1.2, metadata=limits(0.2, 60.0))
     end: float = field(default=1.0, metadata=limits(0.2, 60.0))
@@ -107,8 +107,8 @@ class Control:
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
 
-_SECTIONS: Mapping[str, type] = {
-    "terrain": Terrain,
+_SECTIONS: dict[str, type] = {
+    "terrain": Flat,  # or another of TERRAIN_KINDS, by its field `kind`
     "walk": Walk,
     "sensing": Sensing,
     "push": Push,
@@ -171,12 +171,20 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
         {'walk': {'steps': 4}, 'control': {'feedback': False}}
     """
     result = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}
-    keys = {name: [f.name for f in fields(kind)] for name, kind in _SECTIONS.items()}
+    pairs: list[tuple[str, str]] = []
     for setting in settings:
         key, equals, text = setting.partition("=")
         key = _ALIASES.get(key.strip(), key.strip())
         if not equals or not key:
             raise SceneError(f"setting {setting!r} is not of the form key=value")
+        if key in ("kind", "terrain.kind"):  # first: it decides which other keys there are
+            terrain = result.setdefault("terrain", {})
+            if isinstance(terrain, dict):
+                terrain["kind"] = text.strip()
+        else:
+            pairs.append((key, text))
+    keys = {name: [f.name for f in fields(kind)] for name, kind in (_SECTIONS | _terrain_kind(result)).items()}
+    for key, text in pairs:
         if key == "robot":
             result["robot"] = text.strip()
             continue
@@ -184,12 +192,21 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
         owners = [s for s, names in keys.items() if name in names and (not dot or s == section)]
         if len(owners) != 1:
             allowed = ", ".join(f"{s}.{n}" for s, names in keys.items() for n in names)
-            raise SceneError(f"setting {setting!r}: no such key; allowed: robot, {allowed}")
+            raise SceneError(f"setting '{key}={text}': no such key; allowed: robot, {allowed}")
         table = result.setdefault(owners[0], {})
         if not isinstance(table, dict):
             raise SceneError(f"scene section '{owners[0]}' is not a table")
         table[name] = _value(text.strip())
     return result
+
+
+def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type]:
+    """The dataclass of a scene's terrain, as its section."""
+    table = source.get("terrain", {})
+    kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
+    if kind not in TERRAIN_KINDS:
+        raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
+    return {"terrain": TERRAIN_KINDS[kind]}
 
 
 def _value(text: str) -> Any:
@@ -241,7 +258,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
             raise SceneError(f"{where}: '{key}' is not a text")
     parts: dict[str, Any] = {
         section: from_table(kind, source.get(section, {}), f"{where}: [{section}]")
-        for section, kind in _SECTIONS.items()
+        for section, kind in (_SECTIONS | _terrain_kind(source)).items()
     }
     return Scene(
         name=source.get("name", path.stem),

@@ -30,7 +30,8 @@ def limits(low: float, high: float) -> dict[str, Any]:
 def from_table(kind: type[T], table: Any, where: str) -> T:
     """Make a dataclass from a table, checking names, types, ranges and choices.
 
-    A field's type is that of its default. Its metadata may hold `low` and `high` (numbers) or `choices` (texts).
+    A field's type is that of its default; a tuple stands for a list that the dataclass checks itself. Metadata may hold
+    `low` and `high` (numbers) or `choices` (texts).
 
     Args:
         kind: The dataclass; every field has a default.
@@ -61,6 +62,10 @@ def _checked(item: Field[Any], value: Any, where: str) -> Any:
         if not isinstance(value, bool):
             raise SceneError(f"{name} is {value!r}; allowed: true, false")
         return value
+    if isinstance(default, tuple):
+        if not isinstance(value, list):
+            raise SceneError(f"{name} is {value!r}; allowed: a list")
+        return tuple(value)
     if isinstance(default, str):
         choices = meta.get("choices")
         if not isinstance(value, str) or (choices and value not in choices):

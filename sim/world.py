@@ -16,7 +16,7 @@ from sim.inverse_kinematics import LegModel
 from sim.robots.biped import biped_mjcf
 from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
-from sim.terrain import Terrain
+from sim.terrain import Ground, Solid
 
 __all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "robot_spec"]
 
@@ -130,6 +130,7 @@ class World:
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
+        moving_ground: Pieces of ground that move, with their number among the mocap bodies.
     """
 
     model: Any
@@ -146,14 +147,20 @@ class World:
     gyro: int
     accelerometer: int
     touch: dict[Side, int]
+    moving_ground: tuple[tuple[int, Solid], ...] = ()
+
+    def move_ground(self) -> None:
+        """Put what moves of the ground where it is now."""
+        for i, solid in self.moving_ground:
+            self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
 
-def build_world(robot: Robot, terrain: Terrain) -> World:
+def build_world(robot: Robot, ground: Ground) -> World:
     """Build and compile the world.
 
     Args:
         robot: The robot.
-        terrain: The ground.
+        ground: The ground.
 
     Returns:
         The world in its reference configuration; the runner puts the robot on its feet.
@@ -165,13 +172,13 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
     spec.option.impratio = 10.0
     spec.option.iterations = 20
     _add_looks(spec, robot.torso_body)
-    terrain.add_to(spec)
+    ground.add_to(spec)
     for side in _SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     for geom in spec.geoms:
         if geom.contype:
             geom.condim = 3
-            geom.friction[0] = terrain.friction
+            geom.friction[0] = ground.friction
             geom.solref = [0.005, 1.0]
             geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
             geom.gap = 0.001  # corners that hover by micrometres stay in the contact list
@@ -199,4 +206,5 @@ def build_world(robot: Robot, terrain: Terrain) -> World:
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
         touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in _SIDES},
+        moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
     )

@@ -10,7 +10,7 @@ import pytest
 from sim.robots import Robot, load_robot
 from sim.runner import run_scene
 from sim.scene import Scene, load_scene
-from sim.terrain import Terrain
+from sim.terrain import Ground
 from sim.world import World, build_world
 
 
@@ -21,7 +21,7 @@ def h1() -> Robot:
 
 @pytest.fixture
 def world(h1: Robot) -> World:
-    return build_world(h1, Terrain())
+    return build_world(h1, Ground((), 0.0, 0.8))
 
 
 @pytest.fixture(scope="session")

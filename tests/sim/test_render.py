@@ -11,10 +11,10 @@ SCRIPT = """
 import sys
 from sim.render import Camera, Film, save_picture
 from sim.robots import load_robot
-from sim.terrain import Terrain
+from sim.terrain import Ground
 from sim.world import build_world
 import mujoco
-world = build_world(load_robot("h1"), Terrain())
+world = build_world(load_robot("h1"), Ground((), 0.0, 0.8))
 mujoco.mj_forward(world.model, world.data)
 camera = Camera(world.model, world.torso, 320, 180)
 picture = camera.picture(world.data)

@@ -14,7 +14,7 @@ from shoes import build_shoe, export_shoe, foot_from_mesh
 from sim.robots import load_robot
 from sim.runner import run_scene
 from sim.scene import load_scene
-from sim.terrain import Terrain
+from sim.terrain import Ground
 from sim.world import build_world, robot_spec
 
 ROBOT = """
@@ -82,7 +82,7 @@ def own(tmp_path: Path) -> Path:
 
 
 def test_legs_are_kept_and_the_rest_is_welded(own: Path) -> None:
-    world = build_world(load_robot(own), Terrain())
+    world = build_world(load_robot(own), Ground((), 0.0, 0.8))
     model = world.model
     assert model.nv == 18
     assert model.nu == 12
@@ -126,7 +126,7 @@ def test_bad_files_say_what_is_wrong(own: Path, old: str, new: str, words: tuple
 def test_a_file_that_is_no_model_is_one_line(own: Path) -> None:
     (own.parent / "own.xml").write_text("<mujoco><worldbody><body></mujoco>")
     with pytest.raises(RobotError, match=r"own\.xml") as caught:
-        build_world(load_robot(own), Terrain())
+        build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert "\n" not in str(caught.value)
 
 
@@ -159,7 +159,7 @@ def test_a_urdf_gets_a_floating_base_and_walks(own: Path) -> None:
     (own.parent / "own.urdf").write_text(h1_urdf())
     text = own.read_text().replace('kind = "mjcf"', 'kind = "urdf"').replace("own.xml", "own.urdf")
     own.write_text(text.replace("com_height = 0.80", "com_height = 0.76"))
-    world = build_world(load_robot(own), Terrain())
+    world = build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert (world.model.nv, world.model.nu) == (18, 12)
     assert mujoco.mj_getTotalmass(world.model) == pytest.approx(63.5 + 12 * 1.9 + 2 * 0.252)
     summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0", "length=0.1"], robot=str(own)))

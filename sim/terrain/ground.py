@@ -1,0 +1,224 @@
+"""What all kinds of ground share: solids, how they move, and the footprints that they are placed by.
+
+A kind of ground is a frozen dataclass of a scene's `[terrain]` table. It turns the planned footprints and a source of
+chance into a `Ground`, which is plain geometry; only `Ground.add_to` knows the simulator.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import Side
+from sim.table import limits
+
+__all__ = ["Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain", "rotation_of"]
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """Where a sole is planned to be put down.
+
+    Attributes:
+        side: Which foot.
+        center: Centre (2,) of the sole's rectangle in the world in m.
+        yaw: Heading in rad.
+        half: Half length and half width of the sole in m.
+        ankle: The sole frame's origin (2,) in the world in m, below the ankle.
+        lift_off: Time in s at which the swing to this place begins; -inf for a foot that stands at the start.
+        touchdown: Time in s at which the swing is planned to end.
+    """
+
+    side: Side
+    center: NDArray[np.float64]
+    yaw: float
+    half: tuple[float, float]
+    ankle: NDArray[np.float64]
+    lift_off: float = -math.inf
+    touchdown: float = -math.inf
+
+    def place(self, along: float, across: float) -> NDArray[np.float64]:
+        """World point (2,) in m at a place of the footprint, from its centre along (forward) and across (left)."""
+        c, s = math.cos(self.yaw), math.sin(self.yaw)
+        return np.asarray(self.center + np.array([c * along - s * across, s * along + c * across]))
+
+
+@dataclass(frozen=True)
+class PlannedFeet:
+    """The plan that a ground is laid out by.
+
+    Attributes:
+        standing: Footprint of each foot at the start.
+        steps: Footprints of the steps in order.
+    """
+
+    standing: Mapping[Side, Footprint]
+    steps: tuple[Footprint, ...]
+
+    def middle(self, last: bool = False) -> NDArray[np.float64]:
+        """Middle (2,) between the soles' centres at the start or, `last`, at the end of the walk, in m."""
+        feet = dict(self.standing)
+        if last:
+            for step in self.steps:
+                feet[step.side] = step
+        return np.asarray(0.5 * (feet["left"].center + feet["right"].center))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A move of a solid to another place, at even speed.
+
+    Attributes:
+        start: Time in s at which it begins.
+        duration: How long it takes in s; 0 jumps.
+        position: Where the solid's centre is at the end (3,) in m.
+    """
+
+    start: float
+    duration: float
+    position: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A piece of ground.
+
+    Attributes:
+        shape: "box", "sphere", "ellipsoid" or "cylinder" (its axis is z).
+        size: Half sizes (3,) in m; a sphere's radius; a cylinder's radius and half height first.
+        position: Centre (3,) in the world in m.
+        rotation: Rotation (3, 3) to the world.
+        motions: How it moves, in order of time; a solid without motions stands still.
+    """
+
+    shape: str
+    size: tuple[float, float, float]
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
+    motions: tuple[Motion, ...] = ()
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        """Its centre (3,) in m at a time in s."""
+        position = self.position
+        for motion in self.motions:
+            if time < motion.start:
+                break
+            share = 1.0 if motion.duration <= 0.0 else min(1.0, (time - motion.start) / motion.duration)
+            position = position + share * (motion.position - position)
+        return position
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Geometry of a ground.
+
+    Attributes:
+        solids: Its pieces.
+        floor: Height in m of the endless plane under them.
+        friction: Sliding friction coefficient of sole on ground.
+        facts: What chance chose, for the summary.
+    """
+
+    solids: tuple[Solid, ...]
+    floor: float
+    friction: float
+    facts: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def moving(self) -> tuple[tuple[int, Solid], ...]:
+        """Solids that move, with their number."""
+        return tuple((i, s) for i, s in enumerate(self.solids) if s.motions)
+
+    def add_to(self, spec: Any) -> None:
+        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
+        import mujoco
+
+        kinds = {
+            "box": mujoco.mjtGeom.mjGEOM_BOX,
+            "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
+            "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+            "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+        }
+        common = {"contype": 2, "conaffinity": 1, "friction": [self.friction, 0.005, 0.0001]}
+        spec.worldbody.add_geom(
+            name="ground",
+            type=mujoco.mjtGeom.mjGEOM_PLANE,
+            size=[0.0, 0.0, 1.0],
+            pos=[0.0, 0.0, self.floor],
+            material="ground",
+            **common,
+        )
+        for i, solid in enumerate(self.solids):
+            quaternion = np.empty(4)
+            mujoco.mju_mat2Quat(quaternion, solid.rotation.ravel())
+            place = {"pos": solid.position.tolist(), "quat": quaternion.tolist()}
+            body = spec.worldbody
+            if solid.motions:
+                body = spec.worldbody.add_body(name=f"ground_{i}", mocap=True, **place)
+                place = {}
+            body.add_geom(
+                name=f"ground_{i}",
+                type=kinds[solid.shape],
+                size=list(solid.size),
+                rgba=[0.72, 0.66, 0.55, 1.0] if i % 2 else [0.62, 0.68, 0.60, 1.0],
+                **place,
+                **common,
+            )
+
+
+@dataclass(frozen=True)
+class Terrain:
+    """What every kind of ground has.
+
+    Attributes:
+        kind: Name of the kind.
+        friction: Sliding friction coefficient of sole on ground.
+        height: Height in m of the ground that the robot stands on at the start, and that the plan expects.
+    """
+
+    kind: str = "flat"
+    friction: float = field(default=0.8, metadata=limits(0.05, 5.0))
+    height: float = field(default=0.0, metadata=limits(-10.0, 10.0))
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out.
+
+        Args:
+            feet: The planned footprints.
+            rng: Source of what the scene leaves to chance.
+
+        Returns:
+            The ground.
+        """
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Flat(Terrain):
+    """An endless level plane."""
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out (see `Terrain.ground`)."""
+        return Ground((), self.height, self.friction)
+
+
+def rotation_of(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:
+    """Rotation (3, 3) by roll, then pitch, then yaw, in rad.
+
+    Example:
+        >>> rotation_of(0.0, pitch=0.1)[2, 0] < 0.0
+        True
+    """
+    cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )

@@ -1,0 +1,229 @@
+"""Ground made of stones, one under each planned footprint: partial, uneven or bumpy footholds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from plantar.errors import SceneError
+from plantar.layout import Side
+from sim.table import limits
+from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain, rotation_of
+
+__all__ = ["Partial", "Pebbles", "Stones", "Uneven"]
+
+_MARGIN = 0.05  # m that a whole stone is larger than the sole, on each end
+_GAP = 0.002  # m between the stones of two lanes
+_SIDES: tuple[Side, Side] = ("left", "right")
+_PARTS = ("rear", "front", "inner", "outer")
+
+
+@dataclass(frozen=True)
+class Partial(Terrain):
+    """Stones of which one carries only a part of the sole.
+
+    Attributes:
+        step: The step (from 0) whose foothold is partial.
+        share: Share of the sole's rectangle that it carries.
+        part: Which part of the sole it carries.
+        rise: Height in m of that foothold above the others.
+        depth: How deep in m the floor lies below.
+    """
+
+    step: int = field(default=2, metadata=limits(0, 100000))
+    share: float = field(default=0.5, metadata=limits(0.02, 1.0))
+    part: str = field(default="rear", metadata={"choices": _PARTS})
+    rise: float = field(default=0.0, metadata=limits(-0.1, 0.1))
+    depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out (see `Terrain.ground`)."""
+        if self.step >= len(feet.steps):
+            raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
+        prints = _distinct(feet)
+        partial = feet.steps[self.step]
+        solids = [_stone(foot, feet, self.height, self.depth) for foot in prints if not _same_place(foot, partial)]
+        solids.append(_stone(partial, feet, self.height + self.rise, self.depth + self.rise, self.share, self.part))
+        return Ground(tuple(solids), self.height - self.depth, self.friction)
+
+
+@dataclass(frozen=True)
+class Stones(Terrain):
+    """Stones that each carry a random part of the sole; the first and the last two carry all of it.
+
+    Attributes:
+        share_min: Smallest share of the sole's rectangle that a stone carries.
+        share_max: Largest share.
+        depth: How deep in m the floor lies below.
+    """
+
+    share_min: float = field(default=0.3, metadata=limits(0.02, 1.0))
+    share_max: float = field(default=1.0, metadata=limits(0.02, 1.0))
+    depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out (see `Terrain.ground`)."""
+        if self.share_min > self.share_max:
+            raise SceneError(f"terrain.share_min is {self.share_min:g}; allowed: up to share_max, {self.share_max:g}")
+        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
+        for k, foot in enumerate(feet.steps):
+            share = float(rng.uniform(self.share_min, self.share_max))
+            part = _PARTS[int(rng.integers(len(_PARTS)))]
+            if k >= len(feet.steps) - 2:
+                share = 1.0
+            if any(_same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
+                continue
+            solids.append(_stone(foot, feet, self.height, self.depth, share, part))
+        return Ground(tuple(solids), self.height - self.depth, self.friction)
+
+
+@dataclass(frozen=True)
+class Uneven(Terrain):
+    """Stones whose height under each step is up to chance; where steps are taken in place, the stone moves in the air.
+
+    Attributes:
+        height_range: Largest difference in m to the ground that the plan expects.
+        slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
+        depth: How deep in m the floor lies below.
+    """
+
+    height_range: float = field(default=0.015, metadata=limits(0.0, 0.1))
+    slope_range: float = field(default=0.0, metadata=limits(0.0, 20.0))
+    depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out (see `Terrain.ground`)."""
+        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth)] for side in _SIDES}
+        place = dict(feet.standing)
+        for foot in feet.steps:
+            rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
+            pitch, roll = _slope(rng, self.slope_range)
+            if _same_place(foot, place[foot.side]):
+                stone = solids[foot.side][-1]
+                now = stone.position.copy()
+                now[2] = self.height + rise - stone.size[2]
+                middle = foot.lift_off + 0.45 * (foot.touchdown - foot.lift_off)
+                solids[foot.side][-1] = replace(stone, motions=(*stone.motions, Motion(middle, 0.0, now)))
+            else:
+                solids[foot.side].append(
+                    _stone(foot, feet, self.height + rise, self.depth + rise, pitch=pitch, roll=roll)
+                )
+            place[foot.side] = foot
+        return Ground((*solids["left"], *solids["right"]), self.height - self.depth, self.friction)
+
+
+@dataclass(frozen=True)
+class Pebbles(Terrain):
+    """Sloping stones with bumps on them; the standing feet and the last two steps have level ones.
+
+    Attributes:
+        bump_min: Smallest height in m of a bump.
+        bump_max: Largest height.
+        bump_radius: Radius in m of the sphere that a bump is a cap of.
+        bumps: Number of bumps on a stone.
+        slope_range: Largest slope in degrees, in any direction.
+        depth: How deep in m the floor lies below.
+    """
+
+    bump_min: float = field(default=0.005, metadata=limits(0.0, 0.05))
+    bump_max: float = field(default=0.015, metadata=limits(0.0, 0.05))
+    bump_radius: float = field(default=0.03, metadata=limits(0.005, 0.2))
+    bumps: int = field(default=8, metadata=limits(0, 200))
+    slope_range: float = field(default=8.0, metadata=limits(0.0, 20.0))
+    depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
+
+    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
+        """Lay the ground out (see `Terrain.ground`)."""
+        if self.bump_min > self.bump_max:
+            raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
+        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
+        for k, foot in enumerate(feet.steps):
+            pitch, roll = _slope(rng, self.slope_range)
+            places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
+            heights = rng.uniform(self.bump_min, self.bump_max, self.bumps)
+            if any(_same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
+                continue
+            if k >= len(feet.steps) - 2:
+                solids.append(_stone(foot, feet, self.height, self.depth))
+                continue
+            stone = _stone(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
+            solids.append(stone)
+            normal = stone.rotation[:, 2]
+            for (along, across), height in zip(places.tolist(), heights.tolist(), strict=True):
+                x, y = foot.place(along, across)
+                face = stone.position + stone.size[2] * normal
+                z = face[2] - (normal[0] * (x - face[0]) + normal[1] * (y - face[1])) / normal[2]
+                center = np.array([x, y, z]) + (height - self.bump_radius) * normal
+                solids.append(Solid("sphere", (self.bump_radius, 0.0, 0.0), center))
+        return Ground(tuple(solids), self.height - self.depth, self.friction)
+
+
+def _slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
+    """Pitch and roll in rad of a slope of up to `largest` degrees in a random direction."""
+    size, way = math.radians(largest) * float(rng.uniform()), float(rng.uniform(0.0, 2.0 * math.pi))
+    return size * math.cos(way), size * math.sin(way)
+
+
+def _same_place(foot: Footprint, other: Footprint) -> bool:
+    return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
+
+
+def _distinct(feet: PlannedFeet) -> list[Footprint]:
+    """Standing and stepped footprints, places that are used again only once."""
+    found: list[Footprint] = []
+    for foot in [*feet.standing.values(), *feet.steps]:
+        if not any(_same_place(foot, other) for other in found):
+            found.append(foot)
+    return found
+
+
+def _lane(foot: Footprint, feet: PlannedFeet) -> float:
+    """Distance in m from a footprint's centre, inward, to the edge of its lane: half way to the other foot's."""
+    inward = -1.0 if foot.side == "left" else 1.0
+    gaps = []
+    others: Sequence[Footprint] = [*feet.standing.values(), *feet.steps]
+    c, s = math.cos(foot.yaw), math.sin(foot.yaw)
+    for other in others:
+        if other.side != foot.side:
+            dx, dy = (other.center - foot.center).tolist()
+            if abs(c * dx + s * dy) < foot.half[0] + other.half[0] + 2.0 * _MARGIN:
+                gaps.append(inward * (-s * dx + c * dy))
+    return 0.5 * min(gaps) - 0.5 * _GAP if gaps else foot.half[1] + _MARGIN
+
+
+def _stone(
+    foot: Footprint,
+    feet: PlannedFeet,
+    height: float,
+    depth: float,
+    share: float = 1.0,
+    part: str = "rear",
+    *,
+    pitch: float = 0.0,
+    roll: float = 0.0,
+) -> Solid:
+    """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part."""
+    outward = 1.0 if foot.side == "left" else -1.0
+    half_length, half_width = foot.half
+    rear, front = -half_length - _MARGIN, half_length + _MARGIN
+    inner, outer = -min(_lane(foot, feet), half_width + _MARGIN), half_width + _MARGIN
+    if share < 1.0:
+        if part == "rear":
+            front = -half_length + 2.0 * half_length * share
+        elif part == "front":
+            rear = half_length - 2.0 * half_length * share
+        elif part == "inner":
+            outer = -half_width + 2.0 * half_width * share
+        else:
+            inner = half_width - 2.0 * half_width * share
+    center = foot.place(0.5 * (rear + front), outward * 0.5 * (inner + outer))
+    rotation = rotation_of(foot.yaw, pitch, roll)
+    half = 0.5 * max(depth, 0.02)
+    # A slope turns about the middle of the footprint, which keeps its height there.
+    level = np.array([*center, height])
+    pivot = np.array([*foot.center, height])
+    upper = pivot + rotation @ rotation_of(foot.yaw).T @ (level - pivot)
+    return Solid("box", (0.5 * (front - rear), 0.5 * (outer - inner), half), upper - half * rotation[:, 2], rotation)

@@ -1,0 +1,77 @@
+"""The built-in robots against the published figures (ROBOTS facts), and what a robot file may leave out."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.errors import RobotError
+from sim.robots import load_robot
+from sim.world import robot_spec
+
+
+def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:
+    robot = load_robot("hrp2kai")
+    model = robot_spec(robot).compile()
+    assert mujoco.mj_getTotalmass(model) == pytest.approx(65.0, abs=1e-9)
+    for name, low, high in (
+        ("hip_yaw", -30, 45),
+        ("hip_roll", -20, 35),
+        ("hip_pitch", -125, 42),
+        ("knee", -2, 150),
+        ("ankle_pitch", -75, 42),
+        ("ankle_roll", -35, 20),
+    ):
+        left, right = model.joint(f"left_{name}"), model.joint(f"right_{name}")
+        assert np.degrees(left.range) == pytest.approx([low, high])
+        mirrored = name in ("hip_yaw", "hip_roll", "ankle_roll")
+        assert np.degrees(right.range) == pytest.approx([-high, -low] if mirrored else [low, high])
+        # Not published: the H1's effort scaled by mass.
+        h1 = load_robot("h1")
+        assert h1.biped is not None
+        i = robot.legs["left"].joints.index(f"left_{name}")
+        assert model.actuator(f"left_{name}").forcerange[1] == pytest.approx(
+            h1.biped.effort_limits[i] * 65 / 86, abs=0.1
+        )
+    data = mujoco.MjData(model)
+    data.qpos[7:] = [*robot.posture["left"], *robot.posture["right"]]
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    sole = data.site("left_sole").xpos
+    bare_sole = sole[2] + robot.shoe_thickness
+    assert data.body("base").xpos[2] - bare_sole == pytest.approx(0.649, abs=1e-3)
+    assert data.subtree_com[0][2] - sole[2] == pytest.approx(0.87, abs=1e-6)
+    assert data.body("left_ankle").xpos[2] - bare_sole == pytest.approx(0.105)
+    assert data.body("left_hip_yaw_link").xpos[1] == pytest.approx(0.060)
+    assert data.body("left_ankle").xpos[1] == pytest.approx(0.095)
+
+
+def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot() -> None:
+    robot = load_robot("hrp2kai")
+    assert robot.foot is not None
+    for side in ("left", "right"):
+        layout = robot.layouts[side]
+        assert len(layout) == robot.foot.taxels == 51
+        assert layout.areas.sum() == pytest.approx(35241e-6, rel=1e-3)
+        size = np.ptp(layout.vertices[:, :2], axis=0)
+        assert ((size - [robot.foot.length, robot.foot.width]) / 2 < 0.010).all()
+        (x, y), _ = robot.sole_rectangle(side)
+        assert (x, y) == pytest.approx(robot.foot.center, abs=2e-3)
+
+
+def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path: Path) -> None:
+    assert (load_robot("h1").single_support, load_robot("h1").double_support) == (0.9, 0.3)
+    kai = load_robot("hrp2kai")
+    assert (kai.single_support, kai.double_support) == (1.4, 0.5)
+    folder = tmp_path / "kai"
+    folder.mkdir()
+    for path in kai.path.parent.iterdir():
+        (folder / path.name).write_bytes(path.read_bytes())
+    file = folder / "robot.toml"
+    text = file.read_text()
+    file.write_text(text.replace("single_support = 1.4", "").replace("double_support = 0.5", ""))
+    assert (load_robot(file).single_support, load_robot(file).double_support) == (0.9, 0.3)
+    file.write_text(text.replace("single_support = 1.4", "single_support = 0"))
+    with pytest.raises(RobotError, match="single_support"):
+        load_robot(file)
