@@ -82,8 +82,8 @@ def inscribed_parallelogram(polygon: ArrayLike) -> NDArray[np.float64]:
 def inscribed_circle(polygon: ArrayLike) -> Circle | None:
     """Largest circle in a convex polygon.
 
-    The edges move inwards at one speed, and the one that vanishes first leaves, until the rest cannot close: the point
-    that is left is equally far from three edges.
+    The least distance to an edge is concave in x and y; cuts (tangents) of its maximum over y, and of that over x, end
+    on the deepest point after a few.
 
     Args:
         polygon: Convex polygon (k, 2) in m.

@@ -8,4 +8,6 @@ cpdef Py_ssize_t clean_ring(double[::1] ring, Py_ssize_t n) noexcept
 cpdef double largest_triangle(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept
 cpdef double largest_parallelogram(double[::1] ring, Py_ssize_t n, double[::1] out) noexcept
 cpdef double largest_circle(double[::1] ring, Py_ssize_t n, double[::1] work, double[::1] out) noexcept
-cdef void _vanish(double[::1] work, Py_ssize_t alive, Py_ssize_t i) noexcept
+cdef double _deepest(
+    double[::1] work, Py_ssize_t n, double x, double start, double low, double high, double tolerance
+) noexcept

@@ -316,95 +316,127 @@ def largest_parallelogram(ring, n, out):
 
 
 def largest_circle(ring, n, work, out):
-    """Largest circle in a clean ring: its edges move inwards, the one that vanishes first leaves, until none can.
+    """Largest circle in a clean ring.
+
+    The depth, the least distance to an edge's line, is concave. So is the greatest depth over y at an x; both maxima
+    are found with cuts (tangents), which end on the exact optimum after a few. Two cuts meet at slopes of opposite
+    sign: where they are almost parallel they are almost level, and the depth is as exact as elsewhere.
 
     Args:
         ring: Clean ring of n vertices.
         n: Number of vertices, 3 or more.
-        work: Room for 6 n numbers.
+        work: Room for 3 n + 2 numbers.
         out: Receives the centre x, y.
 
     Returns:
         The radius: the least distance of the centre to an edge line.
     """
-    # Of edge i: unit normal inwards, level of its line, then the point where it vanishes, and when.
-    alive = 0
-    for i in range(n):
-        j = (i + 1) % n
+    x_low = ring[0]
+    x_high = x_low
+    y_low = ring[1]
+    y_high = y_low
+    for i in range(n):  # of edge i: unit normal inwards, level of its line
+        j = i + 1 if i + 1 < n else 0
         dx = ring[2 * j] - ring[2 * i]
         dy = ring[2 * j + 1] - ring[2 * i + 1]
         length = math.sqrt(dx * dx + dy * dy)
-        nx = -dy / length
-        ny = dx / length
-        # An edge in line with the one before it (or the last with the first) says nothing new.
-        if alive > 0 and work[6 * alive - 6] * ny - work[6 * alive - 5] * nx <= 1e-13:
-            continue
-        if i == n - 1 and nx * work[1] - ny * work[0] <= 1e-13:
-            continue
-        work[6 * alive] = nx
-        work[6 * alive + 1] = ny
-        work[6 * alive + 2] = nx * ring[2 * i] + ny * ring[2 * i + 1]
-        alive += 1
-    for i in range(alive):
-        _vanish(work, alive, i)
-    x = 0.0
-    y = 0.0
-    while True:
-        first = 0
-        for i in range(1, alive):
-            if work[6 * i + 5] < work[6 * first + 5]:
-                first = i
-        x = work[6 * first + 3]
-        y = work[6 * first + 4]
-        p = first - 1 if first > 0 else alive - 1
-        q = first + 1 if first + 1 < alive else 0
-        # Without this edge its neighbours would no longer close: nothing is left inside.
-        if alive <= 3 or work[6 * p] * work[6 * q + 1] - work[6 * p + 1] * work[6 * q] <= 0.0:
+        work[3 * i] = -dy / length
+        work[3 * i + 1] = dx / length
+        work[3 * i + 2] = (dx * ring[2 * i + 1] - dy * ring[2 * i]) / length
+        x_low = min(x_low, ring[2 * i])
+        x_high = max(x_high, ring[2 * i])
+        y_low = min(y_low, ring[2 * i + 1])
+        y_high = max(y_high, ring[2 * i + 1])
+    size = x_high - x_low + y_high - y_low
+    best = -1.0
+    best_x = 0.5 * (x_low + x_high)
+    best_y = 0.5 * (y_low + y_high)
+    left = x_low  # where the cuts touch, how deep, and how they rise; from the ends, where nothing is deep
+    left_depth = 0.0
+    left_slope = 1.0
+    right = x_high
+    right_depth = 0.0
+    right_slope = -1.0
+    x = best_x
+    y = best_y
+    for step in range(2 * n + 40):
+        depth = _deepest(work, n, x, y, y_low, y_high, 1e-16 * size)
+        y = work[3 * n]
+        slope = work[3 * n + 1]
+        if depth > best:
+            best = depth
+            best_x = x
+            best_y = y
+        expected = left_depth + left_slope * (x - left)
+        if slope == 0.0 or (step > 0 and depth >= expected - 1e-16 * size):
             break
-        for i in range(6 * first, 6 * (alive - 1)):
-            work[i] = work[i + 6]
-        alive -= 1
-        _vanish(work, alive, first - 1 if first > 0 else alive - 1)
-        _vanish(work, alive, first if first < alive else 0)
+        if slope > 0.0:
+            left = x
+            left_depth = depth
+            left_slope = slope
+        else:
+            right = x
+            right_depth = depth
+            right_slope = slope
+        x = left + (right_depth - left_depth + right_slope * (left - right)) / (left_slope - right_slope)
+        if not left < x < right:
+            break
     radius = -1.0
     for i in range(n):
-        j = (i + 1) % n
+        j = i + 1 if i + 1 < n else 0
         dx = ring[2 * j] - ring[2 * i]
         dy = ring[2 * j + 1] - ring[2 * i + 1]
-        gap = (dx * (y - ring[2 * i + 1]) - dy * (x - ring[2 * i])) / math.sqrt(dx * dx + dy * dy)
+        gap = (dx * (best_y - ring[2 * i + 1]) - dy * (best_x - ring[2 * i])) / math.sqrt(dx * dx + dy * dy)
         if radius < 0.0 or gap < radius:
             radius = gap if gap > 0.0 else 0.0
-    out[0] = x
-    out[1] = y
+    out[0] = best_x
+    out[1] = best_y
     return radius
 
 
-def _vanish(work, alive, i):
-    """Where and when edge i vanishes between its neighbours, all moving inwards at unit speed."""
-    p = i - 1 if i > 0 else alive - 1
-    q = i + 1 if i + 1 < alive else 0
-    nx = work[6 * i]
-    ny = work[6 * i + 1]
-    # n . z - level = r for the three lines; differences with the edge's own line leave two equations for z.
-    ax = work[6 * p] - nx
-    ay = work[6 * p + 1] - ny
-    ac = work[6 * p + 2] - work[6 * i + 2]
-    bx = work[6 * q] - nx
-    by = work[6 * q + 1] - ny
-    bc = work[6 * q + 2] - work[6 * i + 2]
-    turn = ax * by - ay * bx
-    if turn >= 0.0:
-        work[6 * i + 3] = 0.0
-        work[6 * i + 4] = 0.0
-        work[6 * i + 5] = 1e300
-        return
-    x = (ac * by - ay * bc) / turn
-    y = (ax * bc - ac * bx) / turn
-    # Once more for what rounding left: between almost parallel edges the first solution is not halfway.
-    ex = ac - (ax * x + ay * y)
-    ey = bc - (bx * x + by * y)
-    x += (ex * by - ay * ey) / turn
-    y += (ax * ey - ex * bx) / turn
-    work[6 * i + 3] = x
-    work[6 * i + 4] = y
-    work[6 * i + 5] = nx * x + ny * y - work[6 * i + 2]
+def _deepest(work, n, x, start, low, high, tolerance):
+    """Greatest depth over y at an x; leaves y, and how the depth rises with x, behind the lines."""
+    rising = -1  # the lines that bound the depth: one that rises with y, one that falls
+    falling = -1
+    y = start
+    expected = 0.0
+    depth = 0.0
+    slope = 0.0
+    for _ in range(n + 8):
+        lowest = 0
+        depth = work[0] * x + work[1] * y - work[2]
+        for i in range(1, n):
+            gap = work[3 * i] * x + work[3 * i + 1] * y - work[3 * i + 2]
+            if gap < depth:
+                depth = gap
+                lowest = i
+        slope = work[3 * lowest]
+        steep = work[3 * lowest + 1]
+        if rising >= 0 and falling >= 0:
+            share = work[3 * falling + 1] / (work[3 * falling + 1] - work[3 * rising + 1])
+            slope = share * work[3 * rising] + (1.0 - share) * work[3 * falling]
+            if lowest == rising or lowest == falling or depth >= expected - tolerance:
+                break
+        if steep > 0.0:
+            rising = lowest
+            if falling < 0:
+                if y >= high:
+                    break
+                y = high
+                continue
+        elif steep < 0.0:
+            falling = lowest
+            if rising < 0:
+                if y <= low:
+                    break
+                y = low
+                continue
+        else:
+            slope = work[3 * lowest]
+            break
+        a = work[3 * rising] * x - work[3 * rising + 2]
+        y = (work[3 * falling] * x - work[3 * falling + 2] - a) / (work[3 * rising + 1] - work[3 * falling + 1])
+        expected = a + work[3 * rising + 1] * y
+    work[3 * n] = y
+    work[3 * n + 1] = slope
+    return depth

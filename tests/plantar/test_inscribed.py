@@ -163,6 +163,19 @@ def test_circle_is_that_of_the_linear_programme(seed):
     assert (normal @ circle.center - level).min() == pytest.approx(circle.radius, rel=1e-12)
 
 
+@given(seeds, st.floats(0.1, 1e3), st.integers(1, 4))
+def test_circle_of_edges_almost_in_line_is_as_deep(seed, offset, parts):
+    # Points on the edges, off the line by what coordinates far from the origin resolve.
+    hull = random_hull(seed)
+    share = np.linspace(0.0, 1.0, parts + 1)[:-1, None]
+    between = [a + share * (b - a) for a, b in zip(hull, np.roll(hull, -1, axis=0), strict=True)]
+    far = np.concatenate(between) + [offset, -offset]
+    resolved = 4.0 * float(np.spacing(offset))
+    circle = inscribed_circle(far)
+    assert circle.radius == pytest.approx(inscribed_circle(hull).radius, rel=1e-12, abs=16.0 * resolved)
+    assert gap_outside(hull, circle.center - [offset, -offset]) <= resolved
+
+
 @given(seeds)
 def test_three_edges_prove_the_circle(seed):
     """At the optimum the normals of the touching edges hold each other in balance: exact, without a solver."""
