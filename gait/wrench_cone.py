@@ -1,0 +1,87 @@
+"""The wrenches that a rectangular contact can take without slipping, tipping or twisting (T 4.32-4.41, corrected)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+
+__all__ = ["Rectangle", "wrench_cone"]
+
+
+class Rectangle(NamedTuple):
+    """Axis-aligned rectangle in the contact frame, signed coordinates in m.
+
+    Attributes:
+        x_min: Xmin, the rear edge.
+        x_max: Xmax, the front edge.
+        y_min: Ymin, the right edge.
+        y_max: Ymax, the left edge.
+    """
+
+    x_min: float
+    x_max: float
+    y_min: float
+    y_max: float
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """Its middle (x, y) in m."""
+        return 0.5 * (self.x_min + self.x_max), 0.5 * (self.y_min + self.y_max)
+
+
+def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:
+    """Facets of the contact wrench cone of a rectangle (T 4.32-4.41, corrected).
+
+    The wrench w = [fx, fy, fz, tx, ty, tz] is exerted by the world on the robot, about the origin of the contact frame.
+    The cone is the span of a friction pyramid at each of the four corners; its 16 facets are |fx| <= mu fz and
+    |fy| <= mu fz, the centre of pressure inside the rectangle, and eight limits of the yaw moment, in which the
+    coordinates of the edges are signed. (The printed 4.40-4.41 and the split form mix the signs.)
+
+    Args:
+        rectangle: The contact; it may lie anywhere, and may have shrunk to a line or a point.
+        friction: Coefficient mu of each corner's friction pyramid, above 0.
+
+    Returns:
+        Matrix (16, 6); w is in the cone where C w <= 0 in every row. Rows: fx, fy, tx, ty (two each), tz (eight).
+
+    Raises:
+        InputError: If a number is not finite, the rectangle's edges have changed sides, or mu is not above 0.
+
+    Example:
+        >>> cone = wrench_cone(Rectangle(-0.1, 0.1, -0.05, 0.05), 0.6)
+        >>> bool((cone @ [0.0, 0.0, 100.0, 4.0, -9.0, 0.0] <= 0.0).all())
+        True
+        >>> bool((cone @ [0.0, 0.0, 100.0, 6.0, 0.0, 0.0] <= 0.0).all())
+        False
+    """
+    x0, x1, y0, y1 = rectangle
+    if not (all(map(math.isfinite, rectangle)) and x0 <= x1 and y0 <= y1):
+        raise InputError(f"contact rectangle is {tuple(rectangle)}; allowed: finite, x_min <= x_max, y_min <= y_max")
+    mu = friction
+    if not 0.0 < mu < math.inf:
+        raise InputError(f"friction coefficient is {mu}; allowed: a finite value above 0")
+    return np.array(
+        [
+            [1.0, 0.0, -mu, 0.0, 0.0, 0.0],
+            [-1.0, 0.0, -mu, 0.0, 0.0, 0.0],
+            [0.0, 1.0, -mu, 0.0, 0.0, 0.0],
+            [0.0, -1.0, -mu, 0.0, 0.0, 0.0],
+            [0.0, 0.0, -y1, 1.0, 0.0, 0.0],
+            [0.0, 0.0, y0, -1.0, 0.0, 0.0],
+            [0.0, 0.0, x0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, -x1, 0.0, -1.0, 0.0],
+            [-y1, x0, -mu * (y1 - x0), mu, mu, -1.0],
+            [-y1, x1, -mu * (y1 + x1), mu, -mu, -1.0],
+            [-y0, x0, mu * (y0 + x0), -mu, mu, -1.0],
+            [-y0, x1, -mu * (x1 - y0), -mu, -mu, -1.0],
+            [y0, -x1, -mu * (x1 - y0), -mu, -mu, 1.0],
+            [y0, -x0, mu * (x0 + y0), -mu, mu, 1.0],
+            [y1, -x1, -mu * (x1 + y1), mu, -mu, 1.0],
+            [y1, -x0, -mu * (y1 - x0), mu, mu, 1.0],
+        ]
+    )
