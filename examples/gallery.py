@@ -19,7 +19,7 @@ from plantar.inscribed import inscribed_rectangle
 from plantar.outline import concave_outline
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.polygon import area
-from sim.skin import SolePressure
+from sim.sole_pressure import SolePressure
 
 FORCE, TOUCH = COLOURS["left"], COLOURS["right"]  # Fig. 40: force in blue, pre-touch in red
 NEAR = 0.015  # m: what counts as pre-touch in these pictures

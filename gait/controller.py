@@ -185,6 +185,11 @@ class WalkingController:
         """Time in s at which the walk is over and the robot has settled."""
         return self.schedule.end
 
+    @property
+    def proximity_sides(self) -> tuple[Side, ...]:
+        """Feet whose proximity it wants to have at the next tick."""
+        return self.motion.proximity_sides
+
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out."""
         s = self.settings

@@ -77,6 +77,11 @@ class FootMotion:
         """The foot that swings or swung last; None before the first step."""
         return None if self._swing is None else self.schedule.steps[self._step].side
 
+    @property
+    def proximity_sides(self) -> tuple[Side, ...]:
+        """Feet whose proximity the motion depends on: none, without preemptive compliance."""
+        return ()
+
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a level sole at its foothold to the command frame."""
         return Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world

@@ -107,7 +107,7 @@ class Simulation:
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.facts = ground.facts
         self.world: World = build_world(robot, ground)
-        self.sensors = SensorSuite(self.world, scene.sensing, seed)
+        self.sensors = SensorSuite(self.world, scene.sensing, seed, proximity=scene.control.pfc)
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
         centers = {}
@@ -170,7 +170,7 @@ class Simulation:
         last_step = math.ceil(controller.end / PHYSICS_PERIOD)
         began = shown = clock.perf_counter()
         for k in range(last_step):
-            fresh = sensors.sample_skin(k)
+            fresh = sensors.sample_skin(k, controller.proximity_sides, everything)
             if fresh and log is not None:
                 log.skin(sensors.readings)
             if k % _EVERY == 0:
@@ -201,6 +201,8 @@ class Simulation:
                 world.move_ground()
             mujoco.mj_step(model, data)
             judge.watch()
+        if sensors.proximity:
+            skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
         return _Result(ticks, clock.perf_counter() - began, skipped)
 
     def _identity(self) -> dict[str, object]:

@@ -34,6 +34,9 @@ class Walk:
         single_support: t_ss; 0 takes the robot's own.
         double_support: t_ds; 0 takes the robot's own.
         swing_height: Clearance of the swing foot.
+        approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
+            far below it, for ground that is lower than expected.
+        approach_speed: Speed of that in m/s.
         start: Duration of the first weight shift.
         end: Duration of the last weight shift.
         settle: Standing time that is simulated after the walk.
@@ -48,6 +51,8 @@ class Walk:
     single_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     double_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     swing_height: float = field(default=0.05, metadata=limits(0.005, 0.25))
+    approach_height: float = field(default=0.0, metadata=limits(0.0, 0.1))
+    approach_speed: float = field(default=0.06, metadata=limits(0.005, 0.5))
     start: float = field(default=1.2, metadata=limits(0.2, 60.0))
     end: float = field(default=1.0, metadata=limits(0.2, 60.0))
     settle: float = field(default=2.0, metadata=limits(0.0, 600.0))
@@ -62,6 +67,10 @@ class Sensing:
         skin_rate: Sampling rate of the soles in Hz.
         force_noise: Of each taxel in N (0.15 kg).
         delay_periods: Whole skin periods between sampling and delivery.
+        proximity_range: Range of the taxels' proximity sensors in m.
+        proximity_noise: Of each proximity reading in m.
+        proximity_bias: What every proximity reading is too long by in m; negative: too short.
+        dead_taxels: Share of each sole's taxels that are dead; the seed chooses which.
         encoder_noise: Of each joint encoder in rad.
         gyro_noise: Of each gyro axis in rad/s.
         accelerometer_noise: Of each accelerometer axis in m/s^2.
@@ -70,6 +79,10 @@ class Sensing:
     skin_rate: float = field(default=250.0, metadata=limits(10.0, 1000.0))
     force_noise: float = field(default=1.4715, metadata=limits(0.0, 1000.0))
     delay_periods: int = field(default=0, metadata=limits(0, 250))
+    proximity_range: float = field(default=0.05, metadata=limits(0.005, 0.5))
+    proximity_noise: float = field(default=0.002, metadata=limits(0.0, 0.1))
+    proximity_bias: float = field(default=0.0, metadata=limits(-0.05, 0.05))
+    dead_taxels: float = field(default=0.0, metadata=limits(0.0, 0.9))
     encoder_noise: float = field(default=5e-5, metadata=limits(0.0, 0.1))
     gyro_noise: float = field(default=2e-3, metadata=limits(0.0, 1.0))
     accelerometer_noise: float = field(default=0.05, metadata=limits(0.0, 10.0))
@@ -100,10 +113,12 @@ class Control:
 
     Attributes:
         feedback: False walks the plan in open loop.
+        pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
     feedback: bool = True
+    pfc: bool = False
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 
 from gait.controller import Sensors
 from plantar.layout import Side
 from plantar.reading import Reading
+from sim.proximity import ProximitySensor, SoleProximity
 from sim.scene import Sensing
 from sim.skin import SkinSensor, SoleSkin
 from sim.world import PHYSICS_PERIOD, World
@@ -23,13 +26,35 @@ class SensorSuite:
         world: The world.
         sensing: Rates, noise and delay.
         seed: Seed of all noise; each sensor draws from its own stream.
+        proximity: Whether the soles have proximity sensors that somebody uses.
     """
 
-    def __init__(self, world: World, sensing: Sensing, seed: int) -> None:
+    def __init__(self, world: World, sensing: Sensing, seed: int, *, proximity: bool = False) -> None:
         self._world = world
         self._sensing = sensing
-        streams = np.random.SeedSequence([seed, 0x5E]).spawn(3)
+        streams = np.random.SeedSequence([seed, 0x5E]).spawn(6)
         self._body_noise = np.random.default_rng(streams[2])
+        self.proximity: dict[Side, ProximitySensor] = {}
+        dead: dict[Side, list[int]] = {}
+        chance = np.random.default_rng(streams[5])
+        for i, side in enumerate(_SIDES):
+            layout = world.robot.layouts[side]
+            count = round(sensing.dead_taxels * len(layout))
+            dead[side] = chance.permutation(len(layout))[:count].tolist()
+            if proximity:
+                self.proximity[side] = ProximitySensor(
+                    SoleProximity(
+                        world.model,
+                        layout,
+                        world.robot.legs[side].sole_site,
+                        sensing.proximity_range,
+                        world.ground_top,
+                    ),
+                    sensing.proximity_noise,
+                    sensing.proximity_bias,
+                    np.random.default_rng(streams[3 + i]),
+                    dead[side],
+                )
         self.skins = {
             side: SkinSensor(
                 SoleSkin(
@@ -42,22 +67,26 @@ class SensorSuite:
                 noise_std_N=sensing.force_noise,
                 delay_periods=sensing.delay_periods,
                 rng=np.random.default_rng(streams[i]),
+                dead=dead[side],
+                proximity=self.proximity.get(side),
             )
             for i, side in enumerate(_SIDES)
         }
         self._skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
         self.readings: dict[Side, Reading] = {}
 
-    def sample_skin(self, tick: int) -> bool:
+    def sample_skin(self, tick: int, near: Collection[Side] = _SIDES, everything: bool = False) -> bool:
         """Sample the soles where a sample is due; returns whether one was.
 
         Args:
             tick: Number of physics steps since the controller started.
+            near: Soles whose proximity somebody asks for.
+            everything: Measure proximity that nobody asks for too; readings stay the same.
         """
         if tick % self._skin_every:
             return False
         for side in _SIDES:
-            self.readings[side] = self.skins[side].read(self._world.data)
+            self.readings[side] = self.skins[side].read(self._world.data, near=side in near, everything=everything)
         return True
 
     def sample_body(self) -> Sensors:

@@ -1,18 +1,4 @@
-"""Simulated sole skin: the normal force on each taxel, made from MuJoCo's contacts (model "contact patches").
-
-The sole collides as a rigid box, which is cheap and tips over exactly at its edge, but carries its load on a few
-corner points. A rubber sole carries it on an area. So the contact points of each geom pair span a patch of the sole
-plane, and the pair's normal wrench (fz, tx, ty), which is exact, is spread over the cells that the patch covers as the
-load of an elastic foundation that cannot pull (Winkler), each cell a piston with a stiff cap:
-
-    f_i = A_i max(0, a + b x_i + c y_i)      with a, b, c such that the forces have the pair's wrench,
-
-A_i the covered area of cell i and (x_i, y_i) its centroid. Where a cell is covered whole, that is the taxel's own
-position, and the taxels' centre of pressure is the true one; where an edge cuts a cell, the taxel still reports at its
-centre, as a real one does. A load beyond the outermost covered centroids goes to the nearest point among them; a
-contact along a line or at a point presses on the strip or square that the rubber's thickness makes of it; a contact
-on the sole's bare rim is carried by the cells nearest to it. In every case the taxel forces add up to the true normal
-force.
+"""Simulated sole skin: what the taxels feel of MuJoCo's contacts, and what its electronics deliver of that.
 
 A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
 `gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
@@ -23,221 +9,20 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Collection, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError, LayoutError, RobotError
+from plantar.errors import InputError, RobotError
 from plantar.layout import DEFAULT_RANGES, SoleLayout
-from plantar.polygon import closest_point, inner_offset
 from plantar.reading import Reading
-from sim.contact_truth import REACH, ContactSet, foot_contacts, small_hull
+from sim.contact_truth import REACH, ContactSet, foot_contacts
+from sim.proximity import ProximitySensor
+from sim.sole_pressure import SolePressure
 
-__all__ = ["SkinSensor", "SolePressure", "SoleSkin"]
-
-_GRID = 1e-4  # m: patches that agree within this are the same patch
-_MOST_PATCHES = 256
-_LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
-
-
-class _Patch(NamedTuple):
-    """What does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h)."""
-
-    cells: NDArray[np.int64]  # (m,)
-    centre: tuple[float, float]
-    scale: float
-    area: NDArray[np.float64]  # (m,): shares of the covered area
-    u: NDArray[np.float64]  # (m, 3)
-    weighted_u: NDArray[np.float64]  # (m, 3): area times u
-    weighted_uu: NDArray[np.float64]  # (m, 6): area times 1, x, y, xx, xy, yy
-    inverse: NDArray[np.float64]  # (3, 3): load to (a, b, c) where every covered cell carries
-    reach: NDArray[np.float64]  # (k, 2): polygon of the resultants that the cells can carry, in scaled coordinates
-    last: list[NDArray[np.bool_]]  # the cells (m,) that carried last: where the search for them starts; empty at first
-
-
-class SolePressure:
-    """Spreads a normal load over the taxels of a sole. Geometry is computed once a patch; no MuJoCo in here.
-
-    Args:
-        layout: The sole.
-        rubber: Thickness in m of the sole's rubber: half width of what a line or point contact presses on.
-
-    Raises:
-        LayoutError: If a taxel does not face the ground.
-        InputError: If the thickness is not above 0.
-
-    Example:
-        >>> from plantar import hex_layout
-        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
-        >>> pressure = SolePressure(layout)
-        >>> force = pressure.spread([(0.0, -0.05), (0.1, -0.05), (0.1, 0.05), (0.0, 0.05)], 100.0, (0.05, 0.0))
-        >>> round(float(force.sum()), 9), bool(force[layout.positions[:, 0] < -0.02].max() == 0)
-        (100.0, True)
-    """
-
-    def __init__(self, layout: SoleLayout, *, rubber: float = 3e-3) -> None:
-        import shapely  # 0.2 s: only where a skin is made
-
-        if not (math.isfinite(rubber) and rubber > 0.0):
-            raise InputError(f"rubber thickness is {rubber} m; allowed: a finite value above 0")
-        facing = layout.rotations[:, 2, 2]
-        if len(layout) == 0 or not (facing > 0.1).all():
-            raise LayoutError("layout field 'rotations' holds a taxel that does not face the ground, or none at all")
-        self.layout = layout
-        self.rubber = rubber
-        self._cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
-        self._area = shapely.area(self._cells)
-        self._gain = None if (facing == 1.0).all() else 1.0 / facing
-        self._patches: dict[tuple[tuple[int, int], ...], _Patch] = {}
-
-    def spread(
-        self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
-    ) -> NDArray[np.float64]:
-        """Taxel forces of a load on a patch.
-
-        Args:
-            patch: Contact points (x, y) in the sole frame in m; the patch is their convex hull.
-            force: Normal force in N; 0 or less loads nothing.
-            center_of_pressure: Point (2,) in the sole frame in m where the load acts.
-
-        Returns:
-            Forces (n,) in N, none negative, whose vertical parts add up to `force`.
-        """
-        out = np.zeros(len(self.layout))
-        if not (0.0 < force < math.inf) or not len(patch):
-            return out
-        shape = self._patch(patch)
-        x = (center_of_pressure[0] - shape.centre[0]) / shape.scale
-        y = (center_of_pressure[1] - shape.centre[1]) / shape.scale
-        pressure = shape.u @ (shape.inverse @ np.array([1.0, x, y]))
-        if pressure.min() < 0.0:
-            pressure = _one_sided(shape, x, y)
-        load = pressure * shape.area
-        load *= force / load.sum()
-        out[shape.cells] = load
-        return out if self._gain is None else np.asarray(out * self._gain)
-
-    def _patch(self, points: Sequence[tuple[float, float]]) -> _Patch:
-        key = tuple(sorted({(round(x / _GRID), round(y / _GRID)) for x, y in points}))
-        found = self._patches.get(key)
-        if found is None:
-            if len(self._patches) >= _MOST_PATCHES:
-                self._patches.pop(next(iter(self._patches)))
-            found = self._patches[key] = self._make_patch(np.array(key) * _GRID)
-        return found
-
-    def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
-        import shapely
-
-        polygon = shapely.Polygon(_at_least_wide(_hull(points), self.rubber))
-        shapely.prepare(polygon)
-        whole = shapely.contains(polygon, self._cells)
-        cut = np.flatnonzero(shapely.intersects(polygon, self._cells) & ~whole)
-        area = np.where(whole, self._area, 0.0)
-        points = self.layout.positions[:, :2].copy()
-        parts = shapely.intersection(self._cells[cut], polygon)
-        area[cut] = shapely.area(parts)
-        if area.sum() > 0.5 * polygon.area:
-            cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
-            points[cut[area[cut] > 0.0]] = shapely.get_coordinates(shapely.centroid(parts[area[cut] > 0.0]))
-            area, points = area[cells], points[cells]
-        else:  # on the bare rim beside the cells: the cells nearest to the patch's edge carry it
-            rim = shapely.get_coordinates(shapely.segmentize(polygon, 0.5 * self.rubber))
-            nearest = shapely.STRtree(self._cells).nearest(shapely.points(rim))
-            count = np.bincount(nearest)
-            cells = np.flatnonzero(count)
-            area = count[cells]
-            points = np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / area[:, None]
-        area = np.asarray(area / area.sum(), dtype=np.float64)
-        centre = area @ points
-        scale = max(float(np.abs(points - centre).max()), 1e-3)
-        u = np.column_stack([np.ones(len(points)), (points - centre) / scale])
-        weighted = area[:, None] * u
-        return _Patch(
-            cells,
-            (float(centre[0]), float(centre[1])),
-            scale,
-            area,
-            u,
-            weighted,
-            np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]]),
-            # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
-            np.asarray(np.linalg.pinv(weighted.T @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
-            inner_offset(_hull(u[:, 1:]), 2e-3),
-            [],
-        )
-
-
-def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:
-    """Pressures (m,) of a unit load at (x, y) where part of the patch lifts off.
-
-    The cells that carry and the field they give determine each other. Starting from the cells that carried in the last
-    call, which are mostly the same, one or two rounds find both; the result depends on the cells alone, not on the way
-    there. Where the rounds do not settle, `_damped` does.
-    """
-    inside = closest_point(shape.reach, (x, y))
-    assert inside is not None
-    load = [1.0, *inside.tolist()]
-    start = shape.last[0] if shape.last else shape.u @ (shape.inverse @ load) > 0.0
-    pressure = _settled(shape, start, load)
-    if pressure is None:
-        rough = _damped(shape, np.array(load))
-        pressure = _settled(shape, rough > 0.0, load)
-        if pressure is None:
-            return rough
-    return pressure
-
-
-def _settled(shape: _Patch, active: NDArray[np.bool_], load: list[float]) -> NDArray[np.float64] | None:
-    """Pressures (m,) once the cells that carry are those with a field above 0; None where that is not soon."""
-    for _ in range(8):
-        pressure = shape.u @ _solve_symmetric((active @ shape.weighted_uu).tolist(), load, 1e-12)
-        positive = pressure > 0.0
-        if (positive == active).all():
-            shape.last[:] = [positive]
-            return np.asarray(pressure * positive)
-        if not positive.any():
-            break
-        active = positive
-    return None
-
-
-def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Pressures (m,) of a unit load by Newton's method with a line search on the convex problem
-
-        minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
-
-    whose gradient is the pressure's wrench minus the load.
-    """
-    field = shape.inverse @ load
-    pressure = np.maximum(shape.u @ field, 0.0)
-    residual = pressure @ shape.weighted_u - load
-    error = _largest(residual)
-    ridge = 1e-9
-    for _ in range(40):
-        if error < 1e-10:
-            break
-        step = _solve_symmetric(((pressure > 0.0) @ shape.weighted_uu).tolist(), residual.tolist(), ridge)
-        start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
-        for _ in range(12):
-            field = start - rate * step
-            previous, pressure = pressure, np.maximum(shape.u @ field, 0.0)
-            residual = pressure @ shape.weighted_u - load
-            largest = _largest(residual)
-            if largest < 0.9 * error:
-                break
-            # A full step may overshoot where cells come on or off: then the objective itself must go down enough.
-            if math.isnan(value):
-                value = 0.5 * float(previous**2 @ shape.area) - float(load @ start)
-            if 0.5 * float(pressure**2 @ shape.area) - float(load @ field) <= value - 1e-4 * rate * slope:
-                break
-            rate *= 0.5
-        else:
-            ridge *= 100.0  # the active cells are nearly in a row: steps are too long, not just too bold
-        error = largest
-    return np.asarray(pressure)
+__all__ = ["SkinSensor", "SoleSkin"]
 
 
 class SoleSkin:
@@ -338,6 +123,7 @@ class SkinSensor:
             the first sample is delivered.
         rng: Source of the noise; the same seed and calls give the same noise. None needs noise_std_N = 0.
         dead: Indices of dead taxels: they read NaN.
+        proximity: Proximity of the same sole, sampled together with the forces; None where the skin has none.
 
     Raises:
         InputError: If an argument is outside what is allowed.
@@ -351,6 +137,7 @@ class SkinSensor:
         delay_periods: int = 0,
         rng: np.random.Generator | None = None,
         dead: Collection[int] = (),
+        proximity: ProximitySensor | None = None,
     ) -> None:
         n = len(skin)
         if not (math.isfinite(rate_hz) and rate_hz > 0.0):
@@ -369,6 +156,7 @@ class SkinSensor:
         self.delay_periods = int(delay_periods)
         self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
         self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
+        self.proximity = proximity
         self._rng = rng
         self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
         self._start = 0.0
@@ -379,12 +167,16 @@ class SkinSensor:
         self._queue.clear()
         self._taken = 0
 
-    def read(self, data: Any, contacts: ContactSet | None = None) -> Reading:
+    def read(
+        self, data: Any, contacts: ContactSet | None = None, *, near: bool = True, everything: bool = False
+    ) -> Reading:
         """What the electronics deliver at this instant; call it at every physics step.
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
             contacts: The sole's contacts where they are known already.
+            near: Whether somebody asks for this sole's proximity.
+            everything: Measure proximity in any case; the reading holds it only where it is asked for.
 
         Returns:
             The reading; its time is that of the sample in s, so `data.time - reading.time` is its age. The same object
@@ -396,7 +188,8 @@ class SkinSensor:
         if now >= self._start + self._taken * self.period - 1e-9:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1
-            self._queue.append(Reading(time=now, force=self._sample(data, contacts)))
+            distance = None if self.proximity is None else self.proximity.read(data, near, everything)
+            self._queue.append(Reading(time=now, force=self._sample(data, contacts), proximity=distance))
         return self._queue[0]
 
     def _sample(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
@@ -416,47 +209,3 @@ def _id_of(model: Any, kind: Any, word: str, name: str) -> int:
         known = ", ".join(n for n in names if n) or "none"
         raise RobotError(f"the model has no {word} named {name!r}; it has: {known}")
     return found
-
-
-def _hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.array(small_hull([(x, y) for x, y in points.tolist()]))
-
-
-def _largest(residual: NDArray[np.float64]) -> float:
-    return max(abs(float(v)) for v in residual.tolist())
-
-
-def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np.float64]:
-    """Solve a symmetric 3 x 3 system given as (11, 12, 13, 22, 23, 33), made regular by a share of its trace."""
-    ridge = share * (m[0] + m[3] + m[5]) + 1e-300
-    a, d, f = m[0] + ridge, m[3] + ridge, m[5] + ridge
-    c, e, g = m[1], m[2], m[4]  # [[a, c, e], [c, d, g], [e, g, f]]
-    i00, i01, i02 = d * f - g * g, e * g - c * f, c * g - d * e
-    i11, i12, i22 = a * f - e * e, c * e - a * g, a * d - c * c
-    determinant = a * i00 + c * i01 + e * i02
-    return np.array(
-        [
-            (i00 * b[0] + i01 * b[1] + i02 * b[2]) / determinant,
-            (i01 * b[0] + i11 * b[1] + i12 * b[2]) / determinant,
-            (i02 * b[0] + i12 * b[1] + i22 * b[2]) / determinant,
-        ]
-    )
-
-
-def _at_least_wide(polygon: NDArray[np.float64], half_width: float) -> NDArray[np.float64]:
-    """A polygon as it is, or, where it is thinner than twice `half_width`, the rectangle around it of that width."""
-    axis = np.array([1.0, 0.0])
-    if len(polygon) >= 2:
-        edge = np.roll(polygon, -1, axis=0) - polygon
-        normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]
-        depth = (polygon @ normal.T - (polygon * normal).sum(axis=1)).max(axis=0)
-        thinnest = int(np.argmin(depth))
-        if len(polygon) > 2 and depth[thinnest] >= 2.0 * half_width:
-            return polygon
-        axis = np.array([normal[thinnest, 1], -normal[thinnest, 0]])
-    across = np.array([-axis[1], axis[0]])
-    along, side = polygon @ axis, polygon @ across
-    low, high = along.min() - half_width, along.max() + half_width
-    middle = 0.5 * (side.min() + side.max())
-    corners = np.array([[low, -1.0], [high, -1.0], [high, 1.0], [low, 1.0]])
-    return np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)

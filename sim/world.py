@@ -16,7 +16,7 @@ from sim.inverse_kinematics import LegModel
 from sim.robots.biped import biped_mjcf
 from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
-from sim.terrain import Ground, Solid
+from sim.terrain import GROUND_GROUP, Ground, Solid
 
 __all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "robot_spec"]
 
@@ -131,6 +131,7 @@ class World:
         accelerometer: Address of the accelerometer in sensordata.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
+        ground_top: Height in m that no ground ever exceeds.
     """
 
     model: Any
@@ -148,6 +149,7 @@ class World:
     accelerometer: int
     touch: dict[Side, int]
     moving_ground: tuple[tuple[int, Solid], ...] = ()
+    ground_top: float = math.inf
 
     def move_ground(self) -> None:
         """Put what moves of the ground where it is now."""
@@ -172,6 +174,9 @@ def build_world(robot: Robot, ground: Ground) -> World:
     spec.option.impratio = 10.0
     spec.option.iterations = 20
     _add_looks(spec, robot.torso_body)
+    for geom in spec.geoms:
+        if geom.group == GROUND_GROUP:
+            geom.group = 1  # as visible as before, but nothing that proximity sensors see
     ground.add_to(spec)
     for side in _SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
@@ -207,4 +212,5 @@ def build_world(robot: Robot, ground: Ground) -> World:
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
         touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in _SIDES},
         moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
+        ground_top=ground.top,
     )

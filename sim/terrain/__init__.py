@@ -3,10 +3,11 @@
 from sim.terrain.beam import Beam
 from sim.terrain.block import Block
 from sim.terrain.course import Course
-from sim.terrain.ground import Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
+from sim.terrain.ground import GROUND_GROUP, Flat, Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 from sim.terrain.stones import Partial, Pebbles, Stones, Uneven
 
 __all__ = [
+    "GROUND_GROUP",
     "TERRAIN_KINDS",
     "Beam",
     "Block",

@@ -17,7 +17,11 @@ from numpy.typing import NDArray
 from plantar.layout import Side
 from sim.table import limits
 
-__all__ = ["Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain", "rotation_of"]
+__all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain", "rotation_of"]
+
+
+GROUND_GROUP = 2
+"""Geom group of all ground and of nothing else: what proximity sensors see."""
 
 
 @dataclass(frozen=True)
@@ -112,6 +116,21 @@ class Solid:
             position = position + share * (motion.position - position)
         return position
 
+    @property
+    def top(self) -> float:
+        """Height in m that no part of it ever exceeds."""
+        up = np.abs(self.rotation[2])
+        size = np.array(self.size)
+        if self.shape == "box":
+            reach = float(up @ size)
+        elif self.shape == "cylinder":
+            reach = float(math.hypot(up[0], up[1]) * size[0] + up[2] * size[1])
+        elif self.shape == "ellipsoid":
+            reach = float(np.linalg.norm(up * size))
+        else:
+            reach = float(size[0])
+        return reach + max([float(self.position[2]), *(float(m.position[2]) for m in self.motions)])
+
 
 @dataclass(frozen=True)
 class Ground:
@@ -134,6 +153,11 @@ class Ground:
         """Solids that move, with their number."""
         return tuple((i, s) for i, s in enumerate(self.solids) if s.motions)
 
+    @property
+    def top(self) -> float:
+        """Height in m that no part of the ground ever exceeds."""
+        return max([self.floor, *(solid.top for solid in self.solids)])
+
     def add_to(self, spec: Any) -> None:
         """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
         import mujoco
@@ -144,7 +168,7 @@ class Ground:
             "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
             "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
         }
-        common = {"contype": 2, "conaffinity": 1, "friction": [self.friction, 0.005, 0.0001]}
+        common = {"group": GROUND_GROUP, "contype": 2, "conaffinity": 1, "friction": [self.friction, 0.005, 0.0001]}
         spec.worldbody.add_geom(
             name="ground",
             type=mujoco.mjtGeom.mjGEOM_PLANE,

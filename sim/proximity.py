@@ -1,0 +1,142 @@
+"""Simulated proximity of a sole: one ray a taxel against the ground, and what the electronics deliver of it.
+
+Rays run along each taxel's -z, out of the body, and meet ground geoms alone (their own geom group), never the robot.
+They are the dearest of the sensors, so none is cast for a sole that nobody asks about, nor for one that is farther from
+the highest ground than its sensors reach.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError, RobotError
+from plantar.layout import SoleLayout
+from sim.terrain import GROUND_GROUP
+
+__all__ = ["ProximitySensor", "SoleProximity"]
+
+_LIFT = 0.02  # m inside the foot at which rays begin, so that a taxel that is pressed into the ground still sees it
+_GROUPS = np.array([1 if i == GROUND_GROUP else 0 for i in range(6)], dtype=np.uint8)
+
+
+class SoleProximity:
+    """Distances from the taxels of one sole to the ground.
+
+    Args:
+        model: The MjModel; its ground geoms are those of group `GROUND_GROUP`.
+        layout: The sole.
+        site: Name of the site that is the sole frame.
+        sensing_range: Range of the sensors in m.
+        ground_top: Height in m that no ground exceeds; a sole that is farther above it casts no rays.
+
+    Raises:
+        RobotError: If the model has no such site.
+        InputError: If the range is not a finite value above 0.
+    """
+
+    def __init__(
+        self, model: Any, layout: SoleLayout, site: str, sensing_range: float = 0.05, ground_top: float = math.inf
+    ) -> None:
+        if not (math.isfinite(sensing_range) and sensing_range > 0.0):
+            raise InputError(f"proximity range is {sensing_range} m; allowed: a finite value above 0")
+        self.layout = layout
+        self.range = sensing_range
+        self._model = model
+        self._site = int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, site))
+        if self._site < 0:
+            raise RobotError(f"the model has no site named {site!r}")
+        axes = layout.rotations[:, :, 2]
+        self._start = np.ascontiguousarray(layout.positions + _LIFT * axes)
+        self._way = np.ascontiguousarray(-axes)
+        self._reach = float(np.linalg.norm(layout.positions[:, :2], axis=1).max())
+        self._top = ground_top
+
+    def within_range(self, data: Any) -> bool:
+        """Whether any ground can be in range: no taxel is higher above the highest ground than its range.
+
+        Args:
+            data: The MjData.
+        """
+        tilt = math.hypot(float(data.site_xmat[self._site, 6]), float(data.site_xmat[self._site, 7]))
+        return float(data.site_xpos[self._site, 2]) - self._reach * tilt <= self._top + self.range
+
+    def distances(self, data: Any) -> NDArray[np.float64]:
+        """Distance (n,) from each taxel to the ground in m, free of noise; inf where nothing is in range.
+
+        A taxel that is up to 20 mm inside the ground has a negative distance.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+        """
+        out = np.full(len(self.layout), np.inf)
+        if not self.within_range(data):
+            return out
+        rotation = data.site_xmat[self._site].reshape(3, 3)
+        starts = self._start @ rotation.T + data.site_xpos[self._site]
+        ways = self._way @ rotation.T
+        cast, model, farthest = mujoco.mj_ray, self._model, self.range
+        geom = np.empty(1, dtype=np.int32)
+        for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
+            length = cast(model, data, start, way, _GROUPS, 1, -1, geom)
+            if 0.0 <= length <= farthest + _LIFT:
+                out[i] = length - _LIFT
+        return out
+
+
+class ProximitySensor:
+    """Proximity as its electronics deliver it: noisy, biased, with dead taxels.
+
+    Args:
+        proximity: The noise-free sensor.
+        noise_std: Standard deviation of the white noise on each distance in m.
+        bias: What is added to every distance in m.
+        rng: Source of the noise; it advances by one sample at each `read`, whether rays are cast or not.
+        dead: Indices of dead taxels: they read NaN.
+    """
+
+    def __init__(
+        self,
+        proximity: SoleProximity,
+        noise_std: float,
+        bias: float,
+        rng: np.random.Generator,
+        dead: Collection[int] = (),
+    ) -> None:
+        self.proximity = proximity
+        self.noise_std = noise_std
+        self.bias = bias
+        self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
+        self.cast = 0
+        self.skipped = 0
+        self._rng = rng
+
+    def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
+        """One sample.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            wanted: Whether somebody asks about this sole.
+            everything: Cast the rays in any case.
+
+        Returns:
+            Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
+        """
+        count = len(self.proximity.layout)
+        noise = self._rng.normal(self.bias, self.noise_std, count)
+        if not (wanted or everything):
+            self.skipped += count
+            return None
+        distance = self.proximity.distances(data)
+        self.cast += count
+        if not wanted:
+            return None
+        distance = distance + noise
+        distance[distance > self.proximity.range] = np.inf
+        distance[self.dead] = np.nan
+        return distance
