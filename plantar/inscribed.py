@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.convex_shapes import convex_shapes, points_of
-from plantar.kernels import any_angle as _any_angle
-from plantar.kernels import concave as _concave
 from plantar.outline import Outline
 
 __all__ = [
@@ -28,9 +26,6 @@ __all__ = [
     "rectangle_in_outline",
     "rectangle_in_outline_any_angle",
 ]
-
-_SAMPLES = 24
-"""Angles in a quarter turn that a search starts from, beside the directions of the edges."""
 
 
 class Circle(NamedTuple):
@@ -127,15 +122,15 @@ def inscribed_rectangle(polygon: ArrayLike, angle: float = 0.0) -> NDArray[np.fl
 def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
     """Rectangle of most area in a convex polygon, at any angle.
 
-    The best angle is searched for: 36 angles in a quarter turn and the directions of all edges, more angles where
-    these leave room for a summit, then golden sections around each summit that is not too far below the best.
+    A rectangle turned by t about its middle still holds one of d^2 t less at the angle before, d its diagonal. So the
+    best area at one angle bounds those near it: intervals of the quarter turn are cut and thrown away until those left
+    are 4e-3 rad wide, where one summit at most is taken to stand; golden sections find it.
 
     Args:
         polygon: Convex polygon (k, 2) in m.
 
     Returns:
-        Corners (4, 2) in m; its area is within 1e-6 of the largest one: the search is not a proof, and held on 6,000
-        random polygons against scans of 800 angles.
+        Corners (4, 2) in m; its area is within 1e-6 of the largest one.
 
     Example:
         >>> corners = inscribed_rectangle_any_angle([[0.0, 0.0], [1.0, 1.0], [0.0, 2.0], [-1.0, 1.0]])
@@ -166,24 +161,21 @@ def rectangle_in_outline(outline: Outline, angle: float = 0.0) -> NDArray[np.flo
     """
     if not len(outline):
         return np.empty((0, 2))
-    base = outline.points[0]
-    out = np.zeros(8)
-    starts = np.asarray(outline.starts, dtype=np.intp)
-    _concave.largest_rectangle_in_outline((outline.points - base).reshape(-1), starts, float(angle), 0.0, out)
-    return np.asarray(out.reshape(4, 2) + base)
+    shapes = convex_shapes()
+    return np.asarray(shapes.rectangle_in_outline(outline.points, outline.starts, outline.apart, float(angle)))
 
 
 def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
     """Rectangle of most area in a concave outline, at any angle.
 
-    Searched for as in `inscribed_rectangle_any_angle`, from 24 angles.
+    Searched for as in `inscribed_rectangle_any_angle`, island by island; one that is smaller than the best rectangle so
+    far is left out.
 
     Args:
         outline: Outline with islands and holes in m.
 
     Returns:
-        Corners (4, 2) in m; its area is within 1e-6 of the largest one around an angle that the search starts from. No
-        corners (0, 2) for an empty outline.
+        Corners (4, 2) in m; its area is within 1e-6 of the largest one. No corners (0, 2) for an empty outline.
 
     Example:
         >>> tilted = Outline.of_rings([[[0, 0], [1, 1], [0, 2], [-1, 1]]])
@@ -193,11 +185,5 @@ def rectangle_in_outline_any_angle(outline: Outline) -> NDArray[np.float64]:
     """
     if not len(outline):
         return np.empty((0, 2))
-    base = outline.points[0]
-    n = len(outline.points)
-    out = np.zeros(8)
-    starts = np.asarray(outline.starts, dtype=np.intp)
-    work = np.empty(22 * n + 14 + 16 * _SAMPLES)
-    points = (outline.points - base).reshape(-1)
-    _any_angle.largest_rectangle_at_any_angle(points, n, starts, _SAMPLES, work, out)
-    return np.asarray(out.reshape(4, 2) + base)
+    shapes = convex_shapes()
+    return np.asarray(shapes.rectangle_in_outline_at_any_angle(outline.points, outline.starts, outline.apart))

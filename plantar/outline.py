@@ -24,6 +24,7 @@ class Outline:
         points: Vertices (k, 2) of all rings in m, one ring after another, no ring with a repeated last point.
         starts: Offsets (r + 1) of the rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
+        apart: Whether islands are known to meet in points at most, so that what lies in the area lies in one of them.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -32,17 +33,21 @@ class Outline:
         (2.0, [1.0, 0.5], 1, 0.0)
     """
 
-    def __init__(self, points: NDArray[np.float64], starts: Sequence[int], ring_areas: Sequence[float]) -> None:
+    def __init__(
+        self, points: NDArray[np.float64], starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
+    ) -> None:
         self.points = points
         self.starts = starts
         self.ring_areas = ring_areas
+        self.apart = apart
 
     @classmethod
-    def of_rings(cls, rings: Sequence[ArrayLike]) -> Outline:
+    def of_rings(cls, rings: Sequence[ArrayLike], apart: bool = False) -> Outline:
         """Outline of given rings.
 
         Args:
             rings: Vertices (k, 2) of each ring in m, rims of islands counter-clockwise and of holes clockwise.
+            apart: Whether islands are known to meet in points at most.
 
         Returns:
             The outline; rings without area are left out.
@@ -55,7 +60,7 @@ class Outline:
                 kept.append(points)
                 areas.append(area)
                 starts.append(starts[-1] + len(points))
-        return cls(np.concatenate(kept) if kept else np.empty((0, 2)), starts, areas)
+        return cls(np.concatenate(kept) if kept else np.empty((0, 2)), starts, areas, apart)
 
     def __len__(self) -> int:
         return len(self.ring_areas)
@@ -108,7 +113,7 @@ class Outline:
         rings = [ring @ turn.T + shift for ring in self.rings]
         if scale < 0.0:  # seen from below
             rings = [ring[::-1] for ring in rings]
-        return Outline.of_rings(rings)
+        return Outline.of_rings(rings, self.apart)
 
 
 def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
@@ -148,7 +153,8 @@ def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
         layout.__dict__["_edge_table"] = table
     if table is None:
         return _union([layout.cell_polygon(int(i)) for i in np.flatnonzero(active)])
-    return Outline(*table.walk(cells))
+    points, starts, areas = table.walk(cells)
+    return Outline(points, starts, areas, True)
 
 
 def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
@@ -172,7 +178,7 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
     for i, (low, high) in enumerate(boxes):
         if any((low <= b).all() and (a <= high).all() for a, b in boxes[:i]):
             return _union([island for o in parts for island in o.islands])
-    return Outline.of_rings([ring for o in parts for ring in o.rings])
+    return Outline.of_rings([ring for o in parts for ring in o.rings], all(o.apart for o in parts))
 
 
 def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]]) -> Outline:
@@ -186,7 +192,7 @@ def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]
         if part.geom_type == "Polygon":
             part = shapely.geometry.polygon.orient(part)
             rings += [np.array(r.coords)[:-1] for r in (part.exterior, *part.interiors)]
-    return Outline.of_rings(rings)
+    return Outline.of_rings(rings, True)
 
 
 def _ring_area(points: NDArray[np.float64]) -> float:

@@ -91,7 +91,7 @@ class ShapeMembers:
 
     @cached_property
     def outline_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
-        """Largest rectangle (4, 2) in the concave outline, at any angle: a search that takes a millisecond or two."""
+        """Largest rectangle (4, 2) in the concave outline, at any angle."""
         return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
 
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:

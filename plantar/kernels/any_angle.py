@@ -10,107 +10,213 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from . import concave, rectangle
 
-__all__ = ["largest_rectangle_at_any_angle"]
+__all__ = ["AnyAngle"]
 
 _QUARTER = 0.5 * math.pi
-_NEAR = 0.5  # a local maximum that starts below this share of the best is not followed in any case
 _GOLDEN = 0.3819660112501051
-_SECTIONS = 40
-_BETWEEN = 7
+_PIECES = 12  # intervals of a quarter turn that the search starts with
+_SEEDS = 6  # directions of edges that are looked at first
+_FINE = 2e-3  # half an interval in rad below which one summit at most is taken to stand in it
+_CLOSE = 2e-7  # share of the area that is not looked for
+_SECTIONS = 48
+_STEP = 1e-6  # rad to either side by which a summit is told
 
 
-def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
-    """Largest rectangle at any angle: samples and the directions of the edges, then golden sections round the best.
+class AnyAngle:
+    """Largest rectangles at any angle, with the work arrays they need.
+
+    A rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old angle, d its
+    diagonal. So the largest area at one angle bounds what is there at angles near it: intervals of a quarter turn are
+    cut and thrown away until those that are left are narrow, and in these the summit is found by golden sections.
 
     Args:
-        ring: Clean convex ring, or the rings of an outline one after another, near the origin; flat.
-        n: Number of vertices, 3 or more.
-        starts: Offsets (r + 1,) of the outline's rings; empty for a convex ring.
-        samples: Number of evenly spaced angles in a quarter turn, 8 or more.
-        work: Room for 22 n + 14 + 16 samples numbers.
-        out: Receives the 4 corners, flat, counter-clockwise.
-
-    Returns:
-        Its area.
+        lists: Keep lists instead of arrays, which the interpreted form reads faster.
     """
-    quarter = _QUARTER
-    at = 6 * n + 12  # samples stand at work[at:], an angle and an area each, by angle
-    for i in range(samples):
-        work[at + 2 * i] = i * quarter / samples
-    count = samples
-    convex = len(starts) == 0
-    for i in range(n):
-        j = i + 1 if i + 1 < n else 0
-        if not convex and ring[2 * j] == ring[2 * i] and ring[2 * j + 1] == ring[2 * i + 1]:
-            continue
-        angle = (math.atan2(ring[2 * j + 1] - ring[2 * i + 1], ring[2 * j] - ring[2 * i]) + 4.0 * quarter) % quarter
-        k = count
-        while k > 0 and work[at + 2 * k - 2] > angle:
-            k -= 1
-        if k > 0 and angle - work[at + 2 * k - 2] < 1e-9:
-            work[at + 2 * k - 2] = angle
-            continue
-        for j in range(count, k, -1):
-            work[at + 2 * j] = work[at + 2 * j - 2]
-        work[at + 2 * k] = angle
-        count += 1
-    best = 0.0
-    best_angle = 0.0
-    for i in range(count):
-        area = _largest(ring, n, starts, work[at + 2 * i], _NEAR * best, work, out)
-        work[at + 2 * i + 1] = area
-        if area > best:
-            best = area
-            best_angle = work[at + 2 * i]
-    # Off its best angle a rectangle loses about (a + 1 / a) of its area a radian, a its sides' ratio: the slenderer
-    # the shape, the lower may a sample near the best angle lie.
-    _largest(ring, n, starts, best_angle, 0.0, work, out)
-    long = math.sqrt((out[2] - out[0]) ** 2 + (out[3] - out[1]) ** 2)
-    high = math.sqrt((out[4] - out[2]) ** 2 + (out[5] - out[3]) ** 2)
-    loss = long / high + high / long if long > 0.0 and high > 0.0 else 0.0
-    # Where a summit may stand between two samples, more of them: a finer list behind the first.
-    fine = at + 2 * count
-    more = 0
-    for i in range(count):
-        q = i + 1 if i + 1 < count else 0
-        low = work[at + 2 * i]
-        high = work[at + 2 * q] if i + 1 < count else work[at] + quarter
-        work[fine + 2 * more] = low
-        work[fine + 2 * more + 1] = work[at + 2 * i + 1]
-        more += 1
-        top = max(work[at + 2 * i + 1], work[at + 2 * q + 1])
-        if high - low < 1e-6 or top <= best * max(_NEAR, 1.0 - loss * (high - low)):
-            continue
-        for k in range(1, _BETWEEN):
-            angle = low + k * (high - low) / _BETWEEN
-            work[fine + 2 * more] = angle
-            work[fine + 2 * more + 1] = _largest(ring, n, starts, angle, _NEAR * best, work, out)
-            more += 1
-    at = fine
-    count = more
-    for i in range(count):
-        best = max(best, work[at + 2 * i + 1])
-    near = best * max(_NEAR, 1.0 - 0.5 * loss * quarter / samples / _BETWEEN - 1e-3)
-    result = 0.0
-    for i in range(count):
-        area = work[at + 2 * i + 1]
-        p = i - 1 if i > 0 else count - 1
-        q = i + 1 if i + 1 < count else 0
-        if area < near or area < work[at + 2 * p + 1] or area <= work[at + 2 * q + 1]:
-            continue
-        middle = work[at + 2 * i]
-        low = work[at + 2 * p] if i > 0 else work[at + 2 * p] - quarter
-        high = work[at + 2 * q] if i + 1 < count else work[at + 2 * q] + quarter
+
+    def __init__(self, lists):
+        self.lists = lists
+        self.convex = False
+        self.n = 0
+        self.best = 0.0
+        self.best_angle = 0.0
+        self.stack = self._numbers(512)
+        self.outline = concave.OutlineRectangles(lists)
+
+    def _numbers(self, size):
+        return [0.0] * size if self.lists else np.zeros(size)
+
+    def in_ring(self, ring, n, work, out):
+        """Largest rectangle in a convex ring.
+
+        Args:
+            ring: Clean convex ring, counter-clockwise, near the origin; flat.
+            n: Number of vertices, 3 or more.
+            work: Room for 6 n + 12 numbers.
+            out: Receives the 4 corners, flat, counter-clockwise.
+
+        Returns:
+            Its area.
+        """
+        self.convex = True
+        self.ring = ring
+        self.n = n
+        self.work = work
+        self.best = 0.0
+        self.best_angle = 0.0
+        self._seed(ring, n, out)
+        self._search(ring, n, out)
+        return self._largest(self.best_angle, 0.0, out)
+
+    def in_outline(self, points, starts, apart, out):
+        """Largest rectangle in an outline.
+
+        Args:
+            points: Vertices (k, 2) in m, the area on the left of each ring.
+            starts: Offsets (r + 1,) of the rings.
+            apart: Whether islands meet in points at most.
+            out: Receives the 4 corners about the first point, flat, counter-clockwise.
+
+        Returns:
+            Its area.
+        """
+        self.convex = False
+        self.best = 0.0
+        self.best_angle = 0.0
+        outline = self.outline
+        parts = outline.take(points, starts, apart)
+        best_part = 0
+        for k in range(parts):  # a good start first: it throws most of the other parts away
+            if outline.choose(k) <= self.best:
+                break
+            before = self.best
+            self._seed(outline.points, outline.m, out)
+            if self.best > before:
+                best_part = k
+        for k in range(parts):
+            if outline.choose(k) <= self.best:
+                break
+            before = self.best
+            self._search(outline.points, outline.m, out)
+            if self.best > before:
+                best_part = k
+        outline.choose(best_part)
+        return self._largest(self.best_angle, 0.0, out)
+
+    def _largest(self, angle, floor, out):
+        """Largest rectangle at one angle; the floor where it is not above it."""
+        if self.convex:
+            return rectangle.largest_rectangle(self.ring, self.n, angle, floor, self.work, out)
+        return self.outline.largest(angle, floor, out)
+
+    def _seed(self, points, n, out):
+        """Try the directions of some edges."""
+        stack = self.stack
+        count = 0
+        for i in range(n - 1):
+            dx = points[2 * i + 2] - points[2 * i]
+            dy = points[2 * i + 3] - points[2 * i + 1]
+            angle = (math.atan2(dy, dx) + 4.0 * _QUARTER) % _QUARTER
+            known = False
+            for k in range(count):
+                if abs(stack[k] - angle) < 1e-6 or abs(stack[k] - angle) > _QUARTER - 1e-6:
+                    known = True
+            if known:
+                continue
+            stack[count] = angle
+            count += 1
+            area = self._largest(angle, self.best, out)
+            if area > self.best:
+                self.best = area
+                self.best_angle = angle
+            if count == _SEEDS:
+                break
+
+    def _search(self, points, n, out):
+        """Search all angles of a quarter turn for more than the best so far."""
+        reach2 = 0.0  # square of the diameter
+        for i in range(n):
+            for j in range(i):
+                dx = points[2 * i] - points[2 * j]
+                dy = points[2 * i + 1] - points[2 * j + 1]
+                reach2 = max(reach2, dx * dx + dy * dy)
+        if self.best > 0.0:
+            self._climb(self.best_angle - _FINE, self.best_angle, self.best_angle + _FINE, self.best, out)
+        stack = self.stack
+        for k in range(_PIECES):
+            stack[2 * k] = _QUARTER * k / _PIECES
+            stack[2 * k + 1] = _QUARTER * (k + 1) / _PIECES
+        top = _PIECES
+        while top > 0:
+            top -= 1
+            low = stack[2 * top]
+            high = stack[2 * top + 1]
+            middle = 0.5 * (low + high)
+            half = 0.5 * (high - low)
+            floor = max(0.0, self.best * (1.0 + _CLOSE) - reach2 * half)
+            area = self._largest(middle, floor, out)
+            if area <= floor:
+                continue
+            if area > self.best:
+                self.best = area
+                self.best_angle = middle
+                self._climb(low, middle, high, area, out)
+            if half <= _FINE:
+                self._refine(low, middle, high, area, out)
+                continue
+            safe = (self.best * (1.0 + _CLOSE) - area) / reach2
+            if safe >= half:
+                continue
+            if top + 2 <= len(stack) // 2:
+                stack[2 * top] = low
+                stack[2 * top + 1] = middle - safe
+                stack[2 * top + 2] = middle + safe
+                stack[2 * top + 3] = high
+                top += 2
+
+    def _refine(self, low, middle, high, area, out):
+        """Look for a summit in a narrow interval, unless what it rises by at its ends leaves no room for one."""
+        half = middle - low
+        before = self._largest(low, 0.5 * area, out)
+        after = self._largest(high, 0.5 * area, out)
+        summit = max(area, max(before, after))
+        rise = max(abs(area - before), abs(area - after))
+        if summit + rise <= self.best * (1.0 + _CLOSE):
+            return
+        if before > area and before >= after:
+            self._climb(low - half, low, middle, before, out)
+        elif after > area:
+            self._climb(middle, high, high + half, after, out)
+        else:
+            self._climb(low, middle, high, area, out)
+
+    def _climb(self, low, middle, high, area, out):
+        """Golden sections round a summit; the best so far where it is higher."""
+        side = middle + _STEP
+        beside = self._largest(side, area, out)
+        if beside > area:
+            low = middle
+        else:
+            side = middle - _STEP
+            beside = self._largest(side, area, out)
+            if beside > area:
+                high = middle
+        if beside > area:
+            middle = side
+            area = beside
+        else:  # the summit itself, as edges and corners that touch make them
+            low = high
         for _ in range(_SECTIONS):
-            if high - low < 1e-7:
+            if high - low < 1e-8:
                 break
             if high - middle > middle - low:
                 angle = middle + _GOLDEN * (high - middle)
             else:
                 angle = middle - _GOLDEN * (middle - low)
-            trial = _largest(ring, n, starts, angle, area, work, out)
+            trial = self._largest(angle, area, out)
             if trial > area:
                 if angle > middle:
                     low = middle
@@ -122,14 +228,6 @@ def largest_rectangle_at_any_angle(ring, n, starts, samples, work, out):
                 high = angle
             else:
                 low = angle
-        if area > result:
-            result = area
-            best_angle = middle
-    return _largest(ring, n, starts, best_angle, 0.0, work, out)
-
-
-def _largest(ring, n, starts, angle, floor, work, out):
-    """Largest rectangle at one angle, of a convex ring or of an outline."""
-    if len(starts) == 0:
-        return rectangle.largest_rectangle(ring, n, angle, floor, work, out)
-    return concave.largest_rectangle_in_outline(ring, starts, angle, floor, out)
+        if area > self.best:
+            self.best = area
+            self.best_angle = middle

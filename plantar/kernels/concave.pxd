@@ -3,21 +3,78 @@ cimport cython
 from libc cimport math
 from . cimport rectangle
 
-@cython.locals(
-    m=Py_ssize_t, xs=double[::1], ys=double[::1], order=Py_ssize_t[::1], rank=Py_ssize_t[::1], line=double[::1],
-    lines=Py_ssize_t, slabs=Py_ssize_t, first=Py_ssize_t[::1], filled=Py_ssize_t[::1], total=Py_ssize_t,
-    edge=double[::1], trapezoid=double[::1], slab=Py_ssize_t[::1], count=Py_ssize_t, stack=double[::1],
-    ring=double[::1], work=double[::1], corner=double[::1], low=Py_ssize_t, high=Py_ssize_t, i=Py_ssize_t,
-    j=Py_ssize_t, k=Py_ssize_t, r=Py_ssize_t, t=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
-    n=Py_ssize_t, top=Py_ssize_t, start=Py_ssize_t, exact=bint, found=bint, bottom=Py_ssize_t
-)
-cpdef double largest_rectangle_in_outline(
-    const double[::1] points, const Py_ssize_t[::1] starts, double angle, double floor, double[::1] out
-) except -1
+@cython.final
+cdef class OutlineRectangles:
+    cdef bint lists
+    cdef Py_ssize_t m
+    cdef Py_ssize_t rings
+    cdef Py_ssize_t given_rings
+    cdef Py_ssize_t parts
+    cdef Py_ssize_t room
+    cdef Py_ssize_t many
+    cdef double[::1] given
+    cdef double[::1] points
+    cdef double[::1] xs
+    cdef double[::1] ys
+    cdef double[::1] line
+    cdef Py_ssize_t[::1] order
+    cdef Py_ssize_t[::1] rank
+    cdef Py_ssize_t[::1] first
+    cdef Py_ssize_t[::1] filled
+    cdef Py_ssize_t[::1] given_start
+    cdef Py_ssize_t[::1] start
+    cdef Py_ssize_t[::1] owner
+    cdef Py_ssize_t[::1] part
+    cdef double[::1] ring_area
+    cdef double[::1] part_area
+    cdef double[::1] edge
+    cdef double[::1] trapezoid
+    cdef double[::1] reach
+    cdef double[::1] stack
+    cdef Py_ssize_t[::1] slab
+    cdef Py_ssize_t[::1] path
+    cdef double[::1] ring
+    cdef double[::1] work
+    cdef double[::1] corner
 
-cdef Py_ssize_t _octagon(
-    double xa, double xb, double xc, double xd, double low, double high, double[::1] trapezoid, Py_ssize_t start,
-    Py_ssize_t end, double[::1] ring
-) noexcept
+    cdef _numbers(self, Py_ssize_t size)
+    cdef _places(self, Py_ssize_t size)
+
+    @cython.locals(
+        m=Py_ssize_t, rings=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
+        twice=double, whole=double
+    )
+    cpdef Py_ssize_t take(self, const double[:, :] points, object starts, bint apart) except -1
+
+    @cython.locals(
+        given="double[::1]", a=Py_ssize_t, x=double, y=double, best=Py_ssize_t, k=Py_ssize_t, r=Py_ssize_t, inside=bint,
+        i=Py_ssize_t, j=Py_ssize_t, share=double
+    )
+    cdef Py_ssize_t _around(self, Py_ssize_t hole) noexcept
+
+    @cython.locals(chosen=Py_ssize_t, m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
+    cpdef double choose(self, Py_ssize_t k) noexcept
+
+    @cython.locals(
+        slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
+        path="Py_ssize_t[::1]", reach="double[::1]",         trapezoid="double[::1]", count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t,
+        n=Py_ssize_t, top=Py_ssize_t, exact=bint, found=bint
+    )
+    cpdef double largest(self, double angle, double floor, double[::1] out) except -1
+
+    @cython.locals(
+        m=Py_ssize_t, points="double[::1]", xs="double[::1]", ys="double[::1]", order="Py_ssize_t[::1]",
+        rank="Py_ssize_t[::1]", line="double[::1]", first="Py_ssize_t[::1]", start="Py_ssize_t[::1]",
+        filled="Py_ssize_t[::1]", edge="double[::1]", trapezoid="double[::1]", slab="Py_ssize_t[::1]", gap=Py_ssize_t,
+        lines=Py_ssize_t, slabs=Py_ssize_t, total=Py_ssize_t, across=Py_ssize_t, count=Py_ssize_t, i=Py_ssize_t,
+        j=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
+        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t
+    )
+    cdef Py_ssize_t _cut(self, double angle) except -1
+
+    @cython.locals(ring="double[::1]", trapezoid="double[::1]")
+    cdef Py_ssize_t _octagon(
+        self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
+    ) noexcept
 
 cdef Py_ssize_t _add(double[::1] ring, Py_ssize_t n, double x, double y) noexcept

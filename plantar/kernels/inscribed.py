@@ -415,7 +415,7 @@ def _deepest(work, n, x, start, low, high, tolerance):
         if rising >= 0 and falling >= 0:
             share = work[3 * falling + 1] / (work[3 * falling + 1] - work[3 * rising + 1])
             slope = share * work[3 * rising] + (1.0 - share) * work[3 * falling]
-            if lowest == rising or lowest == falling or depth >= expected - tolerance:
+            if lowest in (rising, falling) or depth >= expected - tolerance:
                 break
         if steep > 0.0:
             rising = lowest

@@ -1,9 +1,8 @@
 # C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport any_angle, enclosing, inscribed, rectangle
+from . cimport any_angle, concave, enclosing, inscribed, rectangle
 
-cdef Py_ssize_t _SAMPLES
 cdef double _LARGEST
 
 cdef class ConvexShapes:
@@ -11,7 +10,7 @@ cdef class ConvexShapes:
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] out
-    cdef const Py_ssize_t[::1] starts
+    cdef any_angle.AnyAngle turning
     cdef Py_ssize_t n
     cdef double x
     cdef double y
@@ -52,3 +51,10 @@ cdef class ConvexShapes:
         corners=double[:, ::1]
     )
     cpdef bounding_box(self, const double[:, :] points)
+
+    @cython.locals(outline=concave.OutlineRectangles, best=double, k=Py_ssize_t)
+    cpdef rectangle_in_outline(self, const double[:, :] points, object starts, bint apart, double angle)
+    cpdef rectangle_in_outline_at_any_angle(self, const double[:, :] points, object starts, bint apart)
+
+    @cython.locals(i=Py_ssize_t)
+    cdef _placed(self, const double[:, :] points, double area)

@@ -16,7 +16,6 @@ from . import any_angle, enclosing, inscribed, rectangle
 
 __all__ = ["ConvexShapes"]
 
-_SAMPLES = 36
 _LARGEST = 1e100
 
 
@@ -32,9 +31,9 @@ class ConvexShapes:
     def __init__(self, lists):
         self.lists = lists
         self.ring = self._room(64)
-        self.work = self._room(1400)
+        self.work = self._room(256)
         self.out = self._room(8)
-        self.starts = np.empty(0, dtype=np.intp)
+        self.turning = any_angle.AnyAngle(lists)
         self.n = 0
         self.x = 0.0
         self.y = 0.0
@@ -47,7 +46,7 @@ class ConvexShapes:
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = self._room(4 * k + 2)
-            self.work = self._room(48 * k + 1400)
+            self.work = self._room(8 * k + 128)
         # First finite vertex, about which the others are taken.
         i = 0
         while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):
@@ -148,7 +147,30 @@ class ConvexShapes:
         """Corners of the largest rectangle inside, at any angle."""
         if self._clean(polygon) < 3:
             return self._middle(4)
-        any_angle.largest_rectangle_at_any_angle(self.ring, self.n, self.starts, _SAMPLES, self.work, self.out)
+        self.turning.in_ring(self.ring, self.n, self.work, self.out)
+        return self._corners(4)
+
+    def rectangle_in_outline(self, points, starts, apart, angle):
+        """Corners of the largest rectangle in an outline, its first side at an angle."""
+        outline = self.turning.outline
+        best = 0.0
+        for k in range(outline.take(points, starts, apart)):
+            if outline.choose(k) <= best:
+                break
+            best = outline.largest(angle, best, self.out)
+        return self._placed(points, best)
+
+    def rectangle_in_outline_at_any_angle(self, points, starts, apart):
+        """Corners of the largest rectangle in an outline, at any angle."""
+        return self._placed(points, self.turning.in_outline(points, starts, apart, self.out))
+
+    def _placed(self, points, area):
+        """The corners of `out` about the first point; all of them there where they hold no area."""
+        self.x = points[0, 0]
+        self.y = points[0, 1]
+        if area <= 0.0:
+            for i in range(8):
+                self.out[i] = 0.0
         return self._corners(4)
 
     def box(self, polygon):

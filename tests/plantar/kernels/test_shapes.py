@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.cell_edges import edge_table
-from plantar.kernels import concave, is_compiled, outline, python_form, shapes
+from plantar.kernels import is_compiled, outline, python_form, shapes
 from plantar.polygon import convex_hull
 
 pytestmark = pytest.mark.skipif(not is_compiled("shapes"), reason="without a compiler there is one form only")
@@ -68,8 +68,10 @@ def test_outlines_and_their_rectangles_agree_to_the_last_bit(seed, share, angle)
     if len(points):
         moments = python_form("outline").area_and_centroid(points, starts)
         assert outline.area_and_centroid(points, starts) == moments
-        flat, offsets = (points - points[0]).reshape(-1), np.array(starts)
-        ours, theirs = np.zeros(8), np.zeros(8)
-        size = concave.largest_rectangle_in_outline(flat, offsets, angle, 0.0, ours)
-        assert size == python_form("concave").largest_rectangle_in_outline(flat, offsets, angle, 0.0, theirs)
-        assert same(ours, theirs)
+        ours, oracle = shapes.ConvexShapes(False), python_form("shapes").ConvexShapes(True)
+        for apart in (True, False):
+            found = ours.rectangle_in_outline(points, starts, apart, angle)
+            assert same(found, oracle.rectangle_in_outline(points, starts, apart, angle))
+            if seed % 8 == 0:
+                found = ours.rectangle_in_outline_at_any_angle(points, starts, apart)
+                assert same(found, oracle.rectangle_in_outline_at_any_angle(points, starts, apart))
