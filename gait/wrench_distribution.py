@@ -1,0 +1,385 @@
+"""Share a net contact wrench between the feet: the quadratic program of Caron et al. 2019, T 4.4.4.
+
+Unknown is the wrench w_i of each foot in its own contact frame. With J_i w_i that wrench about the middle of the feet
+in the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
+
+    net |e|^2 + ankle sum |m_i|^2 + pressure ((1 - r) fz_1 - r fz_2)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
+
+with m_i the moment (x, y) about the point of foot i at which it likes its centre of pressure, r the share of the first
+foot, forces in body weights and moments in body weights times 0.1 m. Each w_i stays in its wrench cone and its normal
+force at or above a minimum; one foot alone has no moment or ratio to choose. Cones live in the contact frames, so
+where the robot stands and heads only turns and shifts the costs: results 10 m away are the same.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from enum import StrEnum
+
+import daqp
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.wrench_cone import Rectangle, cone_rows
+from plantar.errors import InputError
+
+__all__ = ["DistributionState", "DistributionWeights", "FootContact", "Program", "WrenchDistribution", "WrenchShare"]
+
+_LENGTH = 0.1  # m: unit of moments over forces inside the program
+_SCALE = np.array([1.0, 1.0, 1.0, _LENGTH, _LENGTH, _LENGTH])
+_ROWS = 17  # of one foot: 16 facets of the cone and the least normal force
+_RIDGE = 1e-8  # on wrenches while the violations alone are minimised
+_TRACKED = 0.005  # of the body weight (or times 0.1 m): a net wrench nearer than this is tracked
+
+
+class DistributionState(StrEnum):
+    """How a distribution ended."""
+
+    TRACKED = "tracked"
+    """The feet give the wanted net wrench."""
+    SATURATED = "saturated"
+    """No wrenches inside the cones give it; the share comes nearest."""
+    INFEASIBLE = "infeasible"
+    """The constraints contradict each other; the share violates them least."""
+    INVALID = "invalid"
+    """The request holds a number that is not finite; the share is the body's weight in the middle of the contacts."""
+    AIRBORNE = "airborne"
+    """No contact, no wrench."""
+
+
+@dataclass(frozen=True)
+class FootContact:
+    """A contact of one foot with the ground.
+
+    Attributes:
+        position: Origin (3,) of the contact frame in the world in m, for example the sole frame's.
+        rotation: Rotation (3, 3) from the contact to the world frame.
+        rectangle: The contact area in the contact frame.
+        friction: Coefficient of the friction pyramid, above 0.
+        preferred: Point (x, y) of the contact frame in m at which the foot likes its centre of pressure; the
+            rectangle's middle where None.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    rectangle: Rectangle
+    friction: float = 0.6
+    preferred: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class DistributionWeights:
+    """Weights of the cost, dimensionless; only their ratios matter.
+
+    Attributes:
+        net: Of the error of the net wrench.
+        ankle: Of the moments about the preferred centres of pressure (foot compliance).
+        pressure: Of the deviation from the wanted ratio of the normal forces.
+        friction: Of tangential forces and yaw moments; makes the share unique.
+    """
+
+    net: float = 1e4
+    ankle: float = 10.0
+    pressure: float = 0.1
+    friction: float = 0.01
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise InputError(f"distribution weight '{item.name}' is {value}; allowed: a finite number above 0")
+
+
+@dataclass(frozen=True)
+class WrenchShare:
+    """What each foot shall take.
+
+    Attributes:
+        state: How the distribution ended.
+        wrenches: Wrench (k, 6) of each foot in its contact frame about that frame's origin, by the world on the robot.
+        error: Their sum minus the wanted net wrench (6,) in the world frame, about the middle of the contacts.
+        violation: By how much the worst constraint is violated in N; 0 unless infeasible.
+    """
+
+    state: DistributionState
+    wrenches: NDArray[np.float64]
+    error: NDArray[np.float64]
+    violation: float
+
+    def center_of_pressure(self, foot: int) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) of one foot in its contact frame in m; None without load (below 1 mN)."""
+        _, _, fz, tx, ty, _ = self.wrenches[foot].tolist()
+        return np.array([-ty / fz, tx / fz]) if fz > 1e-3 else None
+
+
+@dataclass(frozen=True)
+class Program:
+    """The quadratic program of one call: minimise 1/2 v' H v + f' v subject to A v <= b.
+
+    Attributes:
+        hessian: H (n, n).
+        gradient: f (n,).
+        constraints: A (m, n).
+        upper: b (m,).
+        unit: What v = 1 means (n,) in N and N m.
+    """
+
+    hessian: NDArray[np.float64]
+    gradient: NDArray[np.float64]
+    constraints: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    unit: NDArray[np.float64]
+
+
+class _Workspace:
+    """Arrays and solver for one number of feet; filled in place, and only where something has changed."""
+
+    def __init__(self, feet: int, weights: DistributionWeights) -> None:
+        n = 6 * feet
+        self.jacobian = np.zeros((6, n))
+        # What does not depend on poses and ratio.
+        self.own = np.diag(np.tile([1.0, 1.0, 0.0, 0.0, 0.0, 1.0], feet)) * weights.friction
+        self.hessian = np.eye(n)
+        self.gradient = np.zeros(n)
+        self.constraints = np.zeros((_ROWS * feet, n))
+        self.upper = np.zeros(_ROWS * feet)
+        self.lower = np.full(_ROWS * feet, -1e30)
+        self.middle = (0.0, 0.0, 0.0)
+        self.poses: list[bytes] = []
+        self.bounds: list[tuple[Rectangle, float, tuple[float, float] | None] | None] = [None] * feet
+        self.ratio = math.nan
+        self.solver: daqp.Model | None = None
+
+    def forget(self) -> None:
+        """Start afresh: a request with numbers that are not finite leaves nothing behind."""
+        self.poses, self.bounds, self.solver = [], [None] * len(self.bounds), None
+
+
+class WrenchDistribution:
+    """Distributes net wrenches over one or two feet. One instance a controller: it keeps what does not change.
+
+    Args:
+        weight: Weight of the robot in N; the unit of forces inside the program.
+        weights: Weights of the cost.
+        minimum_force: Least normal force in N of each foot that is given as a contact.
+
+    Raises:
+        InputError: If the weight is not above 0, or the minimum force below 0.
+
+    Example:
+        >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
+        >>> feet = [FootContact(np.array([0.0, y, 0.0]), flat, sole) for y in (0.1, -0.1)]
+        >>> share = WrenchDistribution(600.0).solve(feet, [0.0, 0.0, 600.0, 20.0, 0.0, 0.0], [0.0, 0.0, 0.0])
+        >>> share.state.value, [round(float(f)) for f in share.wrenches[:, 2]]
+        ('tracked', [400, 200])
+    """
+
+    def __init__(self, weight: float, weights: DistributionWeights | None = None, minimum_force: float = 15.0) -> None:
+        if not (math.isfinite(weight) and weight > 0.0):
+            raise InputError(f"weight of the robot is {weight} N; allowed: a finite value above 0")
+        if not (math.isfinite(minimum_force) and minimum_force >= 0.0):
+            raise InputError(f"minimum force is {minimum_force} N; allowed: a finite value, 0 or more")
+        self.weight = weight
+        self.weights = weights or DistributionWeights()
+        self.minimum_force = minimum_force
+        self._unit = weight * _SCALE
+        self._units = {k: np.tile(self._unit, k) for k in (1, 2)}
+        self._workspaces = {k: _Workspace(k, self.weights) for k in (1, 2)}
+
+    def solve(
+        self,
+        contacts: Sequence[FootContact],
+        wrench: NDArray[np.float64] | Sequence[float],
+        point: NDArray[np.float64] | Sequence[float],
+        ratio: float = 0.5,
+    ) -> WrenchShare:
+        """Share a net wrench. A request that cannot be met is no error: see `DistributionState`.
+
+        Args:
+            contacts: At most two contacts.
+            wrench: Wanted net wrench (6,) in the world frame about `point`, by the world on the robot.
+            point: Point (3,) of the world frame in m.
+            ratio: Share of the normal force that the first of two feet shall carry, 0 to 1.
+
+        Returns:
+            The share.
+        """
+        feet = len(contacts)
+        if feet == 0:
+            return WrenchShare(DistributionState.AIRBORNE, np.empty((0, 6)), -np.asarray(wrench, dtype=float), 0.0)
+        work = self._workspaces[feet]
+        wanted = self._prepare(work, contacts, wrench, point, ratio)
+        if wanted is None:
+            return self._rest(contacts, ratio)
+        solver = work.solver
+        assert solver is not None
+        solver.update(f=work.gradient)
+        scaled, _, flag, _ = solver.solve()
+        if flag < 1:
+            scaled = self._least_violating(work)
+        error = work.jacobian @ scaled - wanted
+        largest = max(map(abs, error.tolist()))
+        if not math.isfinite(largest):
+            work.forget()
+            return self._rest(contacts, ratio)
+        violation = 0.0
+        state = DistributionState.TRACKED if largest <= _TRACKED else DistributionState.SATURATED
+        if flag < 1:
+            state = DistributionState.INFEASIBLE
+            violation = self.weight * float((work.constraints @ scaled - work.upper).max())
+        return WrenchShare(state, (scaled * self._units[feet]).reshape(feet, 6), error * self._unit, violation)
+
+    def program(
+        self,
+        contacts: Sequence[FootContact],
+        wrench: NDArray[np.float64] | Sequence[float],
+        point: NDArray[np.float64] | Sequence[float],
+        ratio: float = 0.5,
+    ) -> Program:
+        """The program that `solve` solves, for checks against other solvers.
+
+        Args:
+            contacts: One or two contacts.
+            wrench: Wanted net wrench (6,), as in `solve`.
+            point: Its point (3,).
+            ratio: Share of the first foot.
+
+        Returns:
+            A copy of its matrices.
+
+        Raises:
+            InputError: If a number is not finite.
+        """
+        work = self._workspaces[len(contacts)]
+        if self._prepare(work, contacts, wrench, point, ratio) is None:
+            raise InputError("the request of a wrench distribution holds a number that is not finite")
+        return Program(
+            work.hessian.copy(),
+            work.gradient.copy(),
+            work.constraints.copy(),
+            work.upper.copy(),
+            self._units[len(contacts)].copy(),
+        )
+
+    def _prepare(
+        self,
+        work: _Workspace,
+        contacts: Sequence[FootContact],
+        wrench: NDArray[np.float64] | Sequence[float],
+        point: NDArray[np.float64] | Sequence[float],
+        ratio: float,
+    ) -> NDArray[np.float64] | None:
+        """Fill the workspace; returns the wanted wrench (6,) in the program's units, None for numbers not finite."""
+        fx, fy, fz, tx, ty, tz = np.asarray(wrench, dtype=float).tolist()
+        px, py, pz = np.asarray(point, dtype=float).tolist()
+        if not math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + ratio):
+            return None
+        new_bounds = False
+        for i, contact in enumerate(contacts):
+            bounds = (contact.rectangle, contact.friction, contact.preferred)
+            if bounds != work.bounds[i]:
+                if not math.isfinite(sum(contact.rectangle) + contact.friction + sum(contact.preferred or ())):
+                    work.forget()
+                    return None
+                new_bounds = True
+                work.bounds[i] = bounds
+                self._constrain(work, i, contact)
+        poses = [a.tobytes() for c in contacts for a in (c.position, c.rotation)]
+        if new_bounds or poses != work.poses or ratio != work.ratio:
+            if poses != work.poses:
+                if not _turn(work, contacts):
+                    work.forget()
+                    return None
+                work.poses = poses
+            work.ratio = ratio
+            self._weigh(work, ratio)
+            if work.solver is None:
+                work.solver = daqp.Model()
+                work.solver.settings = {"primal_tol": 1e-10}
+                work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
+            elif new_bounds:
+                work.solver.update(H=work.hessian, A=work.constraints, bupper=work.upper, blower=work.lower)
+            else:
+                work.solver.update(H=work.hessian)
+        mx, my, mz = work.middle
+        dx, dy, dz = px - mx, py - my, pz - mz
+        w, m = self.weight, self.weight * _LENGTH
+        moments = ((tx + dy * fz - dz * fy) / m, (ty + dz * fx - dx * fz) / m, (tz + dx * fy - dy * fx) / m)
+        wanted = np.array([fx / w, fy / w, fz / w, *moments])
+        np.matmul(wanted, work.jacobian, out=work.gradient)
+        work.gradient *= -self.weights.net
+        return wanted
+
+    def _constrain(self, work: _Workspace, i: int, contact: FootContact) -> None:
+        """Cone, least force and own costs of one foot, in the program's units."""
+        k, row = 6 * i, _ROWS * i
+        x0, x1, y0, y1 = contact.rectangle
+        inner = Rectangle(x0 / _LENGTH, x1 / _LENGTH, y0 / _LENGTH, y1 / _LENGTH)
+        work.constraints[row : row + 16, k : k + 6] = cone_rows(inner, contact.friction)
+        work.constraints[row + 16, k + 2] = -1.0
+        work.upper[row + 16] = -self.minimum_force / self.weight
+        if len(work.bounds) == 2:
+            # Moments about the preferred point: tx - y fz and ty + x fz.
+            x, y = contact.preferred or contact.rectangle.center
+            x, y, ankle, own = x / _LENGTH, y / _LENGTH, self.weights.ankle, work.own
+            own[k + 2, k + 2] = ankle * (x * x + y * y)
+            own[k + 2, k + 3] = own[k + 3, k + 2] = -ankle * y
+            own[k + 2, k + 4] = own[k + 4, k + 2] = ankle * x
+            own[k + 3, k + 3] = own[k + 4, k + 4] = ankle
+
+    def _weigh(self, work: _Workspace, ratio: float) -> None:
+        """Hessian of the cost, in the program's units."""
+        hessian = work.hessian
+        np.matmul(work.jacobian.T, self.weights.net * work.jacobian, out=hessian)
+        hessian += work.own
+        if len(work.bounds) == 2:
+            pressure, rest = self.weights.pressure, 1.0 - ratio
+            hessian[2, 2] += pressure * rest * rest
+            hessian[8, 8] += pressure * ratio * ratio
+            hessian[2, 8] -= pressure * ratio * rest
+            hessian[8, 2] -= pressure * ratio * rest
+
+    def _least_violating(self, work: _Workspace) -> NDArray[np.float64]:
+        """Solution (n,) with the least sum of squared violations, and the least cost among those."""
+        m, n = work.constraints.shape
+        hessian = np.diag([_RIDGE] * n + [1.0] * m)
+        widened = np.hstack([work.constraints, -np.eye(m)])  # A v - violation <= b
+        violations = daqp.solve(hessian, np.zeros(n + m), widened, work.upper, work.lower)[0][n:]
+        relaxed = work.upper + np.maximum(violations, 0.0) + 1e-7
+        return np.asarray(daqp.solve(work.hessian, work.gradient, work.constraints, relaxed, work.lower)[0])
+
+    def _rest(self, contacts: Sequence[FootContact], ratio: float) -> WrenchShare:
+        """The body's weight, by the ratio where it is one, at the preferred points."""
+        first = min(1.0, max(0.0, ratio)) if math.isfinite(ratio) else 0.5
+        shares = (1.0,) if len(contacts) == 1 else (first, 1.0 - first)
+        wrenches = np.zeros((len(contacts), 6))
+        for row, share, contact in zip(wrenches, shares, contacts, strict=True):
+            x, y = contact.preferred or contact.rectangle.center
+            if math.isfinite(x + y):
+                row[2:5] = share * self.weight * np.array([1.0, y, -x])
+            else:
+                row[2] = share * self.weight
+        return WrenchShare(DistributionState.INVALID, wrenches, np.full(6, np.nan), 0.0)
+
+
+def _turn(work: _Workspace, contacts: Sequence[FootContact]) -> bool:
+    """Jacobian of the net wrench about the middle of the contacts, in the program's units; False if not finite."""
+    places = [c.position.tolist() for c in contacts]
+    mx, my, mz = work.middle = tuple(sum(v) / len(places) for v in zip(*places, strict=True))
+    # One flat list: filling blocks of an array costs twice as much.
+    force: list[list[float]] = [[], [], []]
+    moment: list[list[float]] = [[], [], []]
+    for contact, (x, y, z) in zip(contacts, places, strict=True):
+        dx, dy, dz = (x - mx) / _LENGTH, (y - my) / _LENGTH, (z - mz) / _LENGTH
+        one, two, three = contact.rotation.tolist()
+        for rows, turned in zip(force, (one, two, three), strict=True):
+            rows += [*turned, 0.0, 0.0, 0.0]
+        (a, b, c), (d, e, f), (g, h, i) = one, two, three
+        moment[0] += [dy * g - dz * d, dy * h - dz * e, dy * i - dz * f, *one]
+        moment[1] += [dz * a - dx * g, dz * b - dx * h, dz * c - dx * i, *two]
+        moment[2] += [dx * d - dy * a, dx * e - dy * b, dx * f - dy * c, *three]
+    flat = [v for row in (*force, *moment) for v in row]
+    work.jacobian.ravel()[:] = flat
+    return math.isfinite(sum(flat))
