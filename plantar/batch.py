@@ -14,10 +14,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import ReadingError
+from plantar.ground_plane import checked_range, ground_fit
 from plantar.kernels import frames as _kernel
 from plantar.layout import SoleLayout
 
-__all__ = ["BLOCK", "Loads", "SupportPolygons", "blocks", "loads", "support_polygons", "wrenches"]
+__all__ = [
+    "BLOCK",
+    "GroundPlanes",
+    "Loads",
+    "SupportPolygons",
+    "blocks",
+    "ground_planes",
+    "loads",
+    "support_polygons",
+    "wrenches",
+]
 
 BLOCK = 4096
 """Frames that are looked at together where a conversion or an iterator cuts a recording into pieces."""
@@ -75,6 +86,25 @@ class SupportPolygons:
             raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
         end = int(self.size[: frame + 1].sum())
         return self.vertices[end - int(self.size[frame]) : end]
+
+
+@dataclass(frozen=True, eq=False)
+class GroundPlanes:
+    """The plane of the ground of each frame: z = -height + slope . (x, y) in the sole frame.
+
+    Attributes:
+        height: Height (frames,) in m of the sole frame's origin above the ground; NaN where no taxel sees it.
+        slope: Rise (frames, 2) of the ground along the sole's x and y, as a ratio; NaN likewise.
+        residual: Root mean square distance (frames,) in m of the points used; NaN likewise.
+        directions: Directions (frames,) in which the points determine a slope: 2, 1, 0, and -1 without a plane.
+        inliers: Taxels (frames, n) whose points were used.
+    """
+
+    height: NDArray[np.float64]
+    slope: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    directions: NDArray[np.int64]
+    inliers: NDArray[np.bool_]
 
 
 def wrenches(
@@ -189,6 +219,43 @@ def support_polygons(
     )
 
 
+def ground_planes(
+    layout: SoleLayout, distance: ArrayLike, *, sensing_range: float | None = None, tolerance: float = 2e-3
+) -> GroundPlanes:
+    """Plane of the ground under the sole in every frame; `plantar.fit_ground_plane` says how.
+
+    Args:
+        layout: The sole, n taxels.
+        distance: Distances (frames, n) in m; inf where nothing is in range, NaN for a dead taxel.
+        sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
+            layout where None.
+        tolerance: Distance in m from the plane that noise and rough ground explain.
+
+    Returns:
+        The planes.
+
+    Raises:
+        ReadingError: If the distances have another shape or are not numeric.
+        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+        >>> planes = ground_planes(layout, np.array([[0.03], [np.inf]]) - 0.1 * layout.positions[:, 0])
+        >>> planes.height.round(9).tolist(), planes.directions.tolist()
+        ([0.03, nan], [2, -1])
+    """
+    array = _forces(layout, distance, "distances")
+    reach = checked_range(layout, sensing_range, tolerance)
+    out = np.empty((len(array), 4))
+    directions = np.empty(len(array), dtype=np.intp)
+    inliers = np.zeros(array.shape, dtype=bool)
+    used = inliers.view(np.uint8)
+    for rows, part in _pieces(array):
+        ground_fit(layout).frames(part, reach, tolerance, out[rows], directions[rows], used[rows])
+    return GroundPlanes(out[:, 0], out[:, 1:3], out[:, 3], directions, inliers)
+
+
 def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
     """Cut a recording into blocks of frames, for results that should not be held in memory as a whole.
 
@@ -213,13 +280,13 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
         yield rows, force[rows]
 
 
-def _forces(layout: SoleLayout, force: ArrayLike) -> NDArray[np.float64]:
+def _forces(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> NDArray[np.float64]:
     """The forces as an array of numbers, not copied, of the layout's width."""
     array = np.asanyarray(force)
     if array.dtype.kind not in "fiub":
-        raise ReadingError("forces are not numeric")
+        raise ReadingError(f"{name} are not numeric")
     if array.ndim != 2 or array.shape[1] != len(layout):
-        raise ReadingError(f"forces have shape {array.shape}; expected (frames, {len(layout)})")
+        raise ReadingError(f"{name} have shape {array.shape}; expected (frames, {len(layout)})")
     return array
 
 

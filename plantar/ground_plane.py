@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError, ReadingError
+from plantar.kernels.ground import GroundFit
 from plantar.layout import SoleLayout
 
-__all__ = ["GroundPlane", "fit_ground_plane", "ground_points"]
-
-_DRAWS = 80
-"""Triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^8 holds a clean one."""
+__all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "ground_points"]
 
 
 class GroundPlane(NamedTuple):
@@ -99,90 +96,36 @@ def fit_ground_plane(
     readings = np.asarray(distance, dtype=np.float64)
     if readings.shape != (len(layout),):
         raise ReadingError(f"distances have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
+    reach = checked_range(layout, sensing_range, tolerance)
+    out = np.empty(4)
+    inliers = np.zeros(len(layout), dtype=bool)
+    directions: int = ground_fit(layout).fit(readings, reach, tolerance, out, inliers.view(np.uint8))
+    if directions < 0:
+        return None
+    height, rise_x, rise_y, residual = out.tolist()
+    return GroundPlane(height, (rise_x, rise_y), residual, inliers, directions)
+
+
+def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
+    """Range in m of a fit, that of the layout where None; raises `InputError` where it or the tolerance is no length.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> checked_range(hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]]), None, 2e-3)
+        0.05
+    """
     if not tolerance > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
     reach = layout.proximity_range if sensing_range is None else sensing_range
     if not 0.0 < reach < math.inf:
         raise InputError(f"sensing range is {reach} m; allowed: a finite value above 0")
-    seen = np.flatnonzero(np.abs(readings) < reach)
-    if not len(seen):
-        return None
-    points = layout.positions[seen] - readings[seen, None] * layout.rotations[seen, :, 2]
-    kept = np.ones(len(seen), dtype=bool)
-    plane, directions = _least_squares(points)
-    residual = _residuals(points, plane)
-    if len(seen) > 3 and float(np.abs(residual).max()) > tolerance:
-        kept = _agreeing(points, tolerance)
-        plane, directions = _least_squares(points[kept])
-        residual = _residuals(points[kept], plane)
-    inliers = np.zeros(len(layout), dtype=bool)
-    inliers[seen[kept]] = True
-    return GroundPlane(
-        height=-float(plane[0]),
-        slope=(float(plane[1]), float(plane[2])),
-        residual=float(np.sqrt(residual @ residual / len(residual))),
-        inliers=inliers,
-        directions=directions,
-    )
+    return reach
 
 
-def _residuals(points: NDArray[np.float64], plane: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(points[:, 2] - plane[0] - points[:, :2] @ plane[1:])
-
-
-def _least_squares(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], int]:
-    """Plane (z0, dz/dx, dz/dy) and the directions it is determined in; the flattest plane where that is not both."""
-    centre = points.mean(axis=0)
-    local = points - centre
-    (xx, xy), (_, yy) = (local[:, :2].T @ local[:, :2]).tolist()
-    xz, yz = (local[:, 2] @ local[:, :2]).tolist()
-    # Eigenvalues of the 2 x 2 scatter; a direction with less than 1e-9 of the extent's square says nothing.
-    middle, spread = 0.5 * (xx + yy), float(np.hypot(0.5 * (xx - yy), xy))
-    large, small = middle + spread, middle - spread
-    if not large > 1e-18 * len(points):  # one place: 1 nm
-        slope, directions = (0.0, 0.0), 0
-    elif small <= 1e-9 * large:
-        angle = 0.5 * float(np.arctan2(2.0 * xy, xx - yy))
-        c, s = float(np.cos(angle)), float(np.sin(angle))
-        rise = (c * xz + s * yz) / large
-        slope, directions = (c * rise, s * rise), 1
-    else:
-        determinant = xx * yy - xy * xy
-        slope, directions = ((yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant), 2
-    z0 = float(centre[2]) - slope[0] * float(centre[0]) - slope[1] * float(centre[1])
-    return np.array([z0, *slope]), directions
-
-
-def _agreeing(points: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:
-    """Mask of the points that agree with the plane of least median of squares through three of them."""
-    x, y, z = np.ascontiguousarray(points.T)
-    a, b, c = _triples(len(points))
-    xa, ya, za = x[a], y[a], z[a]
-    ux, uy, uz = x[b] - xa, y[b] - ya, z[b] - za
-    vx, vy, vz = x[c] - xa, y[c] - ya, z[c] - za
-    nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
-    # Neither flat triangles nor planes steeper than 60 degrees or so, which no foot steps on.
-    usable = (np.abs(nz) > 0.5 * np.hypot(nx, ny)) & (np.abs(nz) > 1e-6 * (ux * ux + uy * uy + vx * vx + vy * vy))
-    if not usable.any():
-        return np.ones(len(points), dtype=bool)
-    if not usable.all():
-        xa, ya, za, nx, ny, nz = (v[usable] for v in (xa, ya, za, nx, ny, nz))
-    rise_x, rise_y = -nx / nz, -ny / nz
-    level = za - rise_x * xa - rise_y * ya
-    miss = np.abs(z - np.stack([level, rise_x, rise_y], axis=1) @ np.stack([np.ones(len(x)), x, y]))
-    half = (len(points) + 3) // 2 - 1  # the median of Rousseeuw: with three parameters, breakdown of one half
-    median = np.partition(miss, half, axis=1)[:, half]
-    best = int(np.argmin(median))
-    scale = 1.4826 * (1.0 + 5.0 / max(len(points) - 3, 1)) * float(median[best])
-    return np.asarray(miss[best] <= max(tolerance, 2.5 * scale))
-
-
-@lru_cache(maxsize=64)
-def _triples(n: int) -> NDArray[np.int64]:
-    """Index triples (3, m) of n points: all of them where they are few, else the same random ones each time."""
-    if n * (n - 1) * (n - 2) <= 6 * _DRAWS:
-        a, b, c = np.meshgrid(*[np.arange(n)] * 3, indexing="ij")
-        ordered = (a < b) & (b < c)
-        return np.stack([a[ordered], b[ordered], c[ordered]])
-    rng = np.random.default_rng(0)
-    return np.ascontiguousarray(np.array([rng.choice(n, 3, replace=False) for _ in range(_DRAWS)]).T)
+def ground_fit(layout: SoleLayout) -> GroundFit:
+    """The kernel that fits planes to what a sole sees, made at first use."""
+    try:
+        kernel: GroundFit = layout.__dict__["_ground_fit"]
+    except KeyError:
+        kernel = layout.__dict__["_ground_fit"] = GroundFit(layout.positions, layout.rotations[:, :, 2])
+    return kernel

@@ -205,13 +205,30 @@ def fill_from_neighbours(
     sound = ~bad & np.isfinite(out)
     scale = layout.areas if per_area else np.ones(len(layout))
     source = np.where(sound, out, 0.0) / scale
-    for taxel in np.flatnonzero(bad.any(axis=0) if bad.ndim == 2 else bad):
-        near = list(layout.neighbours[taxel])
-        count = sound[..., near].sum(axis=-1)
-        total = source[..., near].sum(axis=-1)
-        mean = np.divide(total, count, out=np.full(np.shape(total), np.nan), where=count > 0) * scale[taxel]
-        out[..., taxel] = np.where(bad[..., taxel], mean, out[..., taxel])
+    near, known = _neighbour_table(layout)
+    count = np.zeros(out.shape)
+    total = np.zeros(out.shape)
+    for column, there in zip(near.T, known.T, strict=True):  # first neighbour of every taxel, then the second, ...
+        count += sound[..., column] & there
+        total += source[..., column] * there
+    mean = np.divide(total, count, out=np.full(out.shape, np.nan), where=count > 0.0) * scale
+    np.copyto(out, mean, where=bad)
     return out
+
+
+def _neighbour_table(layout: SoleLayout) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Neighbours (n, most) of every taxel, padded, and which of them are there; made at first use."""
+    try:
+        table: tuple[NDArray[np.intp], NDArray[np.bool_]] = layout.__dict__["_neighbour_table"]
+    except KeyError:
+        most = max(map(len, layout.neighbours), default=0)
+        near = np.zeros((len(layout), most), dtype=np.intp)
+        known = np.zeros((len(layout), most), dtype=bool)
+        for taxel, row in enumerate(layout.neighbours):
+            near[taxel, : len(row)] = row
+            known[taxel, : len(row)] = True
+        table = layout.__dict__["_neighbour_table"] = near, known
+    return table
 
 
 def _same(now: NDArray[np.float64], before: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:

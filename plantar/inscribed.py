@@ -124,7 +124,7 @@ def inscribed_rectangle_any_angle(polygon: ArrayLike) -> NDArray[np.float64]:
 
     A rectangle turned by t about its middle still holds one of d^2 t less at the angle before, d its diagonal. So the
     best area at one angle bounds those near it: intervals of the quarter turn are cut and thrown away until those left
-    are 4e-3 rad wide, where one summit at most is taken to stand; golden sections find it.
+    are 0.012 rad wide, where one summit at most is taken to stand; golden sections find it.
 
     Args:
         polygon: Convex polygon (k, 2) in m.

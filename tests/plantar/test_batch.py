@@ -7,7 +7,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import Percept, Reading, ReadingError, batch, hex_layout, kernels
+from plantar import InputError, Percept, Reading, ReadingError, batch, fit_ground_plane, hex_layout, kernels
 from plantar.batch import blocks, loads, support_polygons, wrenches
 from plantar.curved_sole import rotations_to_normals
 
@@ -164,3 +164,39 @@ def test_other_bad_input_is_named():
         next(blocks(np.zeros((2, 3)), 0))
     with pytest.raises(ReadingError, match="vertices=True"):
         support_polygons(SOLE, np.zeros((2, len(SOLE)))).polygon(0)
+
+
+@given(seeds)
+@settings(max_examples=30)
+def test_ground_planes_are_those_of_the_frames(seed):
+    rng = np.random.default_rng(seed)
+    slope = rng.uniform(-0.2, 0.2, (20, 1)) * SOLE.positions[:, 0]
+    distance = 0.02 + slope + np.where(rng.random((20, len(SOLE))) < 0.2, rng.normal(0.0, 0.02, (20, len(SOLE))), 0.0)
+    distance[rng.random(distance.shape) < 0.1] = rng.choice([np.nan, np.inf, -np.inf])
+    distance[:3] = np.inf
+    distance[3, 1:] = np.nan
+    planes = batch.ground_planes(SOLE, distance)
+    for k, row in enumerate(distance):
+        plane = fit_ground_plane(SOLE, row)
+        assert (plane is None) == (planes.directions[k] < 0)
+        if plane is None:
+            assert np.isnan([planes.height[k], *planes.slope[k], planes.residual[k]]).all()
+            assert not planes.inliers[k].any()
+        else:
+            assert (planes.height[k], *planes.slope[k], planes.residual[k]) == (
+                plane.height,
+                *plane.slope,
+                plane.residual,
+            )
+            assert (planes.inliers[k] == plane.inliers).all()
+            assert planes.directions[k] == plane.directions
+
+
+def test_ground_planes_take_any_array_of_numbers():
+    distance = np.full((4, len(SOLE)), 0.03, dtype=np.float32)
+    assert batch.ground_planes(SOLE, distance[::2]).height == pytest.approx([0.03, 0.03], rel=1e-6)
+    assert batch.ground_planes(SOLE, distance[:0]).inliers.shape == (0, len(SOLE))
+    with pytest.raises(ReadingError, match="distances have shape"):
+        batch.ground_planes(SOLE, distance[:, 1:])
+    with pytest.raises(InputError, match="tolerance of the ground plane"):
+        batch.ground_planes(SOLE, distance, tolerance=0.0)

@@ -1,0 +1,56 @@
+# C types of ground.py. Without a compiler this file is not read.
+cimport cython
+from libc cimport math
+
+cdef double _NONE
+cdef double _INFINITE
+cdef int _DRAWS
+
+@cython.final
+cdef class GroundFit:
+    cdef const double[:, ::1] positions
+    cdef const double[:, ::1] normals
+    cdef Py_ssize_t taxels
+    cdef double[:, ::1] points
+    cdef Py_ssize_t[::1] taxel
+    cdef unsigned char[::1] kept
+    cdef double[::1] miss
+    cdef double[::1] plane
+    cdef dict triples
+
+    @cython.locals(k=Py_ssize_t)
+    cpdef frames(
+        self, const double[:, :] distance, double reach, double tolerance, double[:, ::1] out,
+        Py_ssize_t[::1] directions, unsigned char[:, ::1] inliers
+    )
+
+    @cython.locals(
+        seen=Py_ssize_t, i=Py_ssize_t, d=double, directions=int, worst=double, total=double, used=Py_ssize_t
+    )
+    cpdef int fit(
+        self, const double[:] distance, double reach, double tolerance, double[::1] out, unsigned char[::1] inliers
+    ) except -2
+
+    @cython.locals(worst=double, i=Py_ssize_t)
+    cdef double _misses(self, Py_ssize_t seen) noexcept
+
+    @cython.locals(
+        x=double, y=double, z=double, count=Py_ssize_t, i=Py_ssize_t, xx=double, xy=double, yy=double, xz=double,
+        yz=double, dx=double, dy=double, dz=double, middle=double, half=double, spread=double, large=double,
+        small=double, rise_x=double, rise_y=double, directions=int, angle=double, c=double, s=double, rise=double,
+        determinant=double
+    )
+    cdef int _least_squares(self, Py_ssize_t seen) noexcept
+
+    @cython.locals(
+        table="const Py_ssize_t[:, ::1]", points="double[:, ::1]", miss="double[::1]", half=Py_ssize_t, best=double,
+        best_z=double, best_x=double, best_y=double, k=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t, ux=double,
+        uy=double, uz=double, vx=double, vy=double, vz=double, nx=double, ny=double, nz=double, size=double,
+        rise_x=double, rise_y=double, level=double, below=Py_ssize_t, i=Py_ssize_t, limit=double
+    )
+    cdef bint _agree(self, Py_ssize_t seen, double tolerance) except -1
+
+    @cython.locals(
+        miss="double[::1]", low=Py_ssize_t, high=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, pivot=double
+    )
+    cdef double _ranked(self, Py_ssize_t seen, Py_ssize_t rank) noexcept
