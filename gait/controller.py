@@ -21,11 +21,13 @@ from gait.estimator import (
 )
 from gait.foot_motion import FootMotion, Landing
 from gait.footsteps import Footstep, other_side
+from gait.landing_compliance import LandingCompliance
 from gait.lip import pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
+from gait.stance_contact import ContactSettings, StanceContact
 from gait.vrp_plan import LipReference
-from gait.walk_plan import plan_vrps
+from gait.walk_plan import WalkPlan
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
 from plantar.polygon import centroid, inner_offset
@@ -52,7 +54,9 @@ class ControllerSettings:
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
+        contact: How footholds are found from the taxels.
         feedback: False walks the plan in open loop, for comparison.
+        footholds: False takes every foothold for a whole sole, for comparison.
     """
 
     com_height: float
@@ -64,7 +68,9 @@ class ControllerSettings:
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
+    contact: ContactSettings = field(default_factory=ContactSettings)
     feedback: bool = True
+    footholds: bool = False
 
 
 @dataclass(frozen=True)
@@ -162,7 +168,8 @@ class WalkingController:
             assert point is not None
             vrp_in_sole[side] = point
         self._vrp_in_sole = vrp_in_sole
-        self.plan = plan_vrps(feet, self.schedule, vrp_in_sole, self.omega)
+        self._center_in_sole = dict(vrp_in_sole)
+        self.plan = WalkPlan(feet, self.schedule, vrp_in_sole, self.omega)
         self.balance = DcmBalance(settings.gains, self.omega, settings.period)
         self.estimator = FloatingBaseEstimator(
             kinematics,
@@ -176,7 +183,11 @@ class WalkingController:
         self._ticks = 0
         self.replans = 0
         self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
-        self._region_of: list[tuple[Side, float, float, float]] = []
+        self._contacts = {s: StanceContact(layouts[s], settings.contact) for s in _SIDES}
+        self._turning = {s: LandingCompliance(settings.period) for s in _SIDES}
+        self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
+        self._step_of: dict[Side, int | None] = {"left": None, "right": None}
+        self._region_of: list[object] = []
         self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
 
@@ -211,6 +222,9 @@ class WalkingController:
             self._align(state)
         if self.motion.update(phase, sensors.time, state.loads, self._frame):
             self._compensation.start()
+            self._lift(phase)
+        if feedback and s.footholds and self._feel(phase, sensors, state, percepts):
+            reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
@@ -270,23 +284,66 @@ class WalkingController:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._frame.follow(position, state.positions_sole[side], turn)
 
+    def _lift(self, phase: Phase) -> None:
+        """A swing begins: what its foot stood on no longer counts, where it will stand is not known."""
+        side = phase.swing
+        assert side is not None
+        self._contacts[side].lift()
+        self._turning[side].reset()
+        self._support[side] = None
+        self._center_in_sole[side] = self._vrp_in_sole[side]
+        self._step_of[side] = phase.step
+
+    def _feel(self, phase: Phase, sensors: Sensors, state: BaseState, percepts: Mapping[Side, Percept]) -> bool:
+        """Look at what the feet stand on; where a foothold is not what was planned, move the plan (T 4.4.2)."""
+        changed = False
+        for side in _SIDES:
+            step = self._step_of[side]
+            if step is None or (not self.motion.landed if phase.swing == side else phase.swing is not None):
+                continue
+            contact = self._contacts[side]
+            cop = percepts[side].position_cop_in_sole
+            if cop is not None and state.loads[side] > self.settings.estimator.minimum_load:
+                self._turning[side].update(state.loads[side], cop, self._center_in_sole[side])
+            if not contact.update(sensors.readings[side], state.loads[side]):
+                continue
+            known = self._support[side] is not None
+            if contact.whole and not known:
+                continue  # as planned
+            self._support[side] = polygon_in_world(
+                contact.polygon_in_sole, state.rotations_sole[side], state.positions_sole[side]
+            )
+            self._center_in_sole[side] = contact.center_in_sole
+            point = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
+            if math.dist(point[:2], self.plan.stance(step)) < self.settings.contact.least_move:
+                continue
+            self.plan.move(step, point[:2], sensors.time, self._zmp_region(phase))
+            self.replans += 1
+            changed = True
+        return changed
+
     def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
-        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, at their commanded
-        places, moved inwards by the offset. It is made anew only when a foot comes, goes or moves."""
+        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards by the
+        offset. A foot whose support is not known counts with its whole sole at its commanded place. It is made anew
+        only when a foot comes, goes or moves, or another support is found."""
         standing = [s for s in _SIDES if self.motion.landed or phase.swing != s]
-        places = []
+        places: list[object] = []
         for side in standing:
             position, yaw = self.motion.footholds[side]
-            places.append((side, float(position[0]), float(position[1]), yaw))
+            support = self._support[side]
+            places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
         if places != self._region_of:
-            parts = [
-                polygon_in_world(
-                    self._outline[side],
-                    Footstep(side, x, y, yaw).rotation_sole_to_world,
-                    np.array([x, y, 0.0]) + self._frame.offset,
-                )
-                for side, x, y, yaw in places
-            ]
+            parts = []
+            for side in standing:
+                support = self._support[side]
+                if support is None:
+                    position, yaw = self.motion.footholds[side]
+                    support = polygon_in_world(
+                        self._outline[side],
+                        Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world,
+                        np.array([position[0], position[1], 0.0]) + self._frame.offset,
+                    )
+                parts.append(support)
             self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
             self._region_of = places
         return self._region
@@ -309,8 +366,9 @@ class WalkingController:
         rotations: dict[Side, NDArray[np.float64]] = {}
         for side in _SIDES:
             position = self.motion.footholds[side][0]
-            rotations[side] = self.motion.rotation(side)
-            centers[side] = position[:2] + rotations[side][:2, :2] @ self._vrp_in_sole[side]
+            turn = self._turning[side].turn
+            rotations[side] = self.motion.rotation(side) @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
+            centers[side] = position[:2] + rotations[side][:2, :2] @ self._center_in_sole[side]
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
         else:

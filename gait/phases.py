@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 
 from gait.footsteps import Footstep, other_side
@@ -115,12 +115,28 @@ class WalkSchedule:
         """Time in s at which the robot has walked and settled."""
         return self.walking_end + self.timing.settle
 
+    def delay(self, phase: Phase, by: float) -> None:
+        """Make a phase longer; all later ones come later.
+
+        Args:
+            phase: One of `phases`.
+            by: How much longer in s.
+        """
+        i = self.phases.index(phase)
+        later = [replace(p, start=p.start + by, end=p.end + by) for p in self.phases[i + 1 :]]
+        self.phases = (*self.phases[:i], replace(phase, end=phase.end + by), *later)
+        self.walking_end += by
+
     def at(self, time: float) -> Phase:
         """The phase at a time in s."""
+        return self.phases[self.index(time)]
+
+    def index(self, time: float) -> int:
+        """Index in `phases` of the phase at a time in s."""
         i = self._cursor
         while time >= self.phases[i].end and i + 1 < len(self.phases):
             i += 1
         while time < self.phases[i].start:
             i -= 1
         self._cursor = i
-        return self.phases[i]
+        return i

@@ -8,7 +8,11 @@ solutions
 
 The DCM is unstable forward in time, so its waypoints run backward from the last knot (T 4.14 corrected:
 xi_i = r + e^(-w T) (xi_(i+1) - r) for a constant VRP), and each segment is evaluated from its END: A e^(w (t - T))
-never grows, whatever the length of the plan. The CoM is stable forward in time and runs forward.
+never grows, whatever the length of the plan. The CoM is stable forward in time and runs forward, as far as it is asked
+for.
+
+What a segment keeps, A e^(w T), depends on what comes after it only through the difference of waypoint and VRP. So a
+plan whose later knots move together, or are delayed, keeps it: `replanned` solves the new knots and no others.
 """
 
 from __future__ import annotations
@@ -74,27 +78,121 @@ class VrpPlan:
             raise InputError("a VRP plan needs finite points at strictly increasing finite times")
         if not (math.isfinite(omega) and omega > 0.0):
             raise InputError(f"pendulum frequency is {omega} rad/s; allowed: above 0")
-        self.times: list[float] = knots.tolist()
-        self.vrps = points
+        segments = len(knots) - 1
+        self._keep(knots, points, np.empty((segments, 2)), np.empty((segments, 2)), np.empty((segments + 1, 2)), omega)
+        self.dcm_waypoints[-1] = points[-1]  # the plan ends at rest on its last VRP
+        self._solve(segments)
+        self._start_com(points[0] if com is None else np.asarray(com, dtype=float))
+
+    def _keep(
+        self,
+        times: NDArray[np.float64],
+        vrps: NDArray[np.float64],
+        rate: NDArray[np.float64],
+        end_offset: NDArray[np.float64],
+        waypoints: NDArray[np.float64],
+        omega: float,
+    ) -> None:
+        self.times: list[float] = times.tolist()
+        self.vrps = vrps
         self.omega = omega
-        duration = np.diff(knots)
-        self._rate = np.diff(points, axis=0) / duration[:, None]
-        # Backward: DCM waypoints, with the plan ending at rest on its last VRP.
-        waypoints = np.empty_like(points)
-        waypoints[-1] = points[-1]
-        self._end_offset = np.empty_like(self._rate)  # A e^(w T) of each segment
-        for i in range(len(duration) - 1, -1, -1):
-            self._end_offset[i] = waypoints[i + 1] - points[i + 1] - self._rate[i] / omega
-            waypoints[i] = points[i] + self._rate[i] / omega + math.exp(-omega * duration[i]) * self._end_offset[i]
         self.dcm_waypoints = waypoints
-        # Forward: CoM at the knots.
-        start = points[0] if com is None else np.asarray(com, dtype=float)
-        self._com_offset = np.empty_like(self._rate)  # B of each segment
-        for i, length in enumerate(duration):
-            growing = 0.5 * math.exp(-omega * length) * self._end_offset[i]
-            self._com_offset[i] = start - points[i] - growing
-            start = points[i + 1] + 0.5 * self._end_offset[i] + math.exp(-omega * length) * self._com_offset[i]
-        self._last_com = start
+        self._rate = rate
+        self._end_offset = end_offset  # A e^(w T) of each segment
+
+    def _solve(self, segments: int) -> None:
+        """Backward: rates, offsets and DCM waypoints of the first segments, from the waypoint at their end."""
+        omega, times = self.omega, self.times
+        x, y = self.dcm_waypoints[segments].tolist()
+        points = self.vrps[: segments + 1].tolist()
+        for i in range(segments - 1, -1, -1):
+            (ax, ay), (bx, by) = points[i], points[i + 1]
+            length = times[i + 1] - times[i]
+            rx, ry = (bx - ax) / length, (by - ay) / length
+            ox, oy = x - bx - rx / omega, y - by - ry / omega
+            decay = math.exp(-omega * length)
+            x, y = ax + rx / omega + decay * ox, ay + ry / omega + decay * oy
+            self._rate[i] = rx, ry
+            self._end_offset[i] = ox, oy
+            self.dcm_waypoints[i] = x, y
+
+    def _start_com(self, com: NDArray[np.float64]) -> None:
+        self._com_offset: list[NDArray[np.float64]] = []  # B of each segment, as far as it was asked for
+        self._next_com = com  # at the start of the first segment that was not
+
+    def _offset_of_com(self, segment: int) -> NDArray[np.float64]:
+        """Forward: B of a segment."""
+        while len(self._com_offset) <= segment:
+            i = len(self._com_offset)
+            decay = math.exp(-self.omega * (self.times[i + 1] - self.times[i]))
+            offset = self._next_com - self.vrps[i] - 0.5 * decay * self._end_offset[i]
+            self._com_offset.append(offset)
+            self._next_com = self.vrps[i + 1] + 0.5 * self._end_offset[i] + decay * offset
+        return self._com_offset[segment]
+
+    def replanned(
+        self,
+        times: Sequence[float],
+        vrps: ArrayLike,
+        first: int,
+        *,
+        shift: ArrayLike = (0.0, 0.0),
+        delay: float = 0.0,
+    ) -> VrpPlan:
+        """A plan that goes on from this one over other knots.
+
+        Args:
+            times: Times (m,) of the new knots in s, strictly increasing; the first is now.
+            vrps: VRP (m, 2) at each in m.
+            first: Index of the first knot of this plan that is kept after them; the number of knots keeps none.
+            shift: By how much (2,) in m the kept knots move.
+            delay: By how much in s they are delayed.
+
+        Returns:
+            The plan; its CoM starts where this plan's CoM is now. The kept knots cost nothing to solve.
+
+        Raises:
+            InputError: If the knots are not finite, not increasing or of other shapes.
+
+        Example:
+            >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
+            >>> plan.replanned([0.5, 1.0], [[0, 0], [0.02, 0]], 2).times
+            [0.5, 1.0, 1.3, 3.0]
+        """
+        head, points, move = np.asarray(times, float), np.asarray(vrps, float).reshape(-1, 2), np.asarray(shift, float)
+        m = len(head)
+        knots = np.concatenate([head, np.asarray(self.times[first:]) + delay])
+        every = np.concatenate([points, self.vrps[first:] + move])
+        finite = np.isfinite(knots).all() and np.isfinite(every).all()
+        if (
+            not m
+            or head.ndim != 1
+            or len(points) != m
+            or len(knots) < 2
+            or not finite
+            or not (np.diff(knots) > 0).all()
+        ):
+            raise InputError("a plan goes on over finite points (m, 2) at strictly increasing finite times (m,)")
+        kept = len(knots) - m
+        unsolved = m if kept else m - 1
+        new = object.__new__(VrpPlan)
+        waypoints = np.empty_like(every)
+        if kept:
+            waypoints[m:] = self.dcm_waypoints[first:] + move
+        else:
+            waypoints[-1] = every[-1]
+        gap = np.empty((unsolved, 2))
+        new._keep(
+            knots,
+            every,
+            np.concatenate([gap, self._rate[first:]]),
+            np.concatenate([gap, self._end_offset[first:]]),
+            waypoints,
+            self.omega,
+        )
+        new._solve(unsolved)
+        new._start_com(self.at(float(head[0])).com)
+        return new
 
     @property
     def duration(self) -> float:
@@ -113,7 +211,8 @@ class VrpPlan:
         omega = self.omega
         if time >= self.times[-1]:
             vrp = self.vrps[-1]
-            offset = math.exp(-omega * (time - self.times[-1])) * (self._last_com - vrp)
+            self._offset_of_com(len(self.times) - 2)
+            offset = math.exp(-omega * (time - self.times[-1])) * (self._next_com - vrp)
             zero = np.zeros(2)
             return LipReference(vrp, vrp, zero, vrp + offset, -omega * offset, omega * omega * offset)
         time = max(time, self.times[0])
@@ -122,7 +221,7 @@ class VrpPlan:
         rate = self._rate[i]
         vrp = self.vrps[i] + since * rate
         growing = math.exp(-omega * until) * self._end_offset[i]
-        shrinking = math.exp(-omega * since) * self._com_offset[i]
+        shrinking = math.exp(-omega * since) * self._offset_of_com(i)
         return LipReference(
             vrp=vrp,
             dcm=vrp + rate / omega + growing,

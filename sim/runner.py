@@ -100,6 +100,7 @@ class Simulation:
             swing_height=walk.swing_height,
             gains=BalanceGains.from_table(robot.balance),
             feedback=scene.control.feedback,
+            footholds=scene.control.footholds,
         )
         self.controller = WalkingController(
             self.settings, self.feet, self.steps, robot.layouts, self.legs, begin=walk.begin
@@ -167,9 +168,9 @@ class Simulation:
         everything = self.scene.control.skip == "none"
         ticks: list[float] = []
         skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
-        last_step = math.ceil(controller.end / PHYSICS_PERIOD)
         began = shown = clock.perf_counter()
-        for k in range(last_step):
+        k = 0
+        while k < math.ceil(controller.end / PHYSICS_PERIOD):  # a replan may make it later
             fresh = sensors.sample_skin(k, controller.proximity_sides, everything)
             if fresh and log is not None:
                 log.skin(sensors.readings)
@@ -189,7 +190,10 @@ class Simulation:
                     break
                 if progress is not None and start - shown > 0.1:
                     shown = start
-                    progress(k / last_step, f"{data.time:.1f} s, {len(judge.landings)} of {len(self.steps)} steps")
+                    progress(
+                        data.time / controller.end,
+                        f"{data.time:.1f} s, {len(judge.landings)} of {len(self.steps)} steps",
+                    )
             if k % _FRAME_EVERY == 0:
                 if film is not None:
                     film.add()
@@ -201,6 +205,7 @@ class Simulation:
                 world.move_ground()
             mujoco.mj_step(model, data)
             judge.watch()
+            k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
         return _Result(ticks, clock.perf_counter() - began, skipped)
@@ -274,7 +279,7 @@ class Simulation:
         """Distance in m and heading error in degrees of the true torso from the plan's end."""
         world, data = self.world, self.world.data
         com = data.subtree_com[world.torso, :2]
-        plan = self.controller.plan.vrps[-1]
+        plan = self.controller.plan.end
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
         wanted = self.steps[-1].yaw if self.steps else self.feet["left"].yaw
         return float(np.hypot(*(com - plan))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))

@@ -113,11 +113,13 @@ class Control:
 
     Attributes:
         feedback: False walks the plan in open loop.
+        footholds: False takes every foothold for a whole sole: no plantar feedback on what the feet stand on.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
     feedback: bool = True
+    footholds: bool = False
     pfc: bool = False
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 

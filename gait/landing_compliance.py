@@ -1,0 +1,63 @@
+"""After touchdown a foot turns until the ground carries it evenly (T 4.4.1, Fig. 49-d).
+
+A sole that lands a milliradian off level rests on one edge, and its taxels show that edge and no foothold. The foot
+therefore yields to the moment of its own ground reaction wrench about a point c that shall become the centre of
+pressure,
+
+    w = A ((p - c) x f),     [w_x, w_y] = A f_z [p_y - c_y, -(p_x - c_x)],
+
+the damping control of a foot (Caron et al. 2019) with the wrench of the taxels. As long as only a line of cells
+carries, c is the sole's centre, and the foot turns down onto the rest of what is there; then it is the centroid of what
+carries, so that a foot does not turn over the edge of a partial foothold.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["LandingCompliance"]
+
+
+@dataclass
+class LandingCompliance:
+    """Turn of one landed foot.
+
+    Attributes:
+        period: Control period in s.
+        admittance: A in rad/s per N m.
+        largest_rate: Largest rate in rad/s.
+        largest_turn: Largest turn in rad.
+        turn: Turn (2,) about the sole's x and y axes in rad.
+    """
+
+    period: float
+    admittance: float = 0.005
+    largest_rate: float = 0.1
+    largest_turn: float = 0.035
+    turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
+
+    def reset(self) -> None:
+        """The foot lifts off: the next landing begins level."""
+        self.turn = np.zeros(2)
+
+    def update(self, force: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> None:
+        """One control tick of a foot that carries.
+
+        Args:
+            force: Vertical force on it in N.
+            center_of_pressure: Where that acts (2,) in the sole frame in m.
+            target: Where it shall act (2,) in the sole frame in m.
+        """
+        dx, dy = (center_of_pressure - target).tolist()
+        gain = self.admittance * force
+        rate = np.array([gain * dy, -gain * dx])
+        size = math.hypot(*rate.tolist())
+        if size > self.largest_rate:
+            rate *= self.largest_rate / size
+        turn = self.turn + self.period * rate
+        size = math.hypot(*turn.tolist())
+        self.turn = turn if size <= self.largest_turn else turn * (self.largest_turn / size)

@@ -1,0 +1,292 @@
+"""Which part of a sole is supported, finer than a cell: a fit of straight ground edges to the taxels' partial loads.
+
+The hull of the active cells (T 4.24) reaches up to a whole cell beyond the edge of what the sole stands on. Cells that
+the edge cuts carry less than their neighbours do, and how much less says where it runs. The sole is taken for an
+elastic foundation under a rigid foot: on the supported part S the pressure is linear, so that taxel i reads
+
+    F_i = int_(cell i and S) (a + b x + c y) dA = a A_i + b Mx_i + c My_i,
+
+with A_i, Mx_i, My_i the area and first moments of the cell's covered part. S is what is left of the cells on the inner
+side of a few straight lines n . x <= h, the edges of the ground. For given lines the pressure is a linear
+least-squares problem; the lines move by Gauss-Newton steps, whose derivatives are exact: an edge that moves out by dh
+adds to each cell its chord times the pressure there (Leibniz).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.errors import ReadingError
+from plantar.kernels.cut_cells import cut_cells
+from plantar.layout import SoleLayout
+from plantar.polygon import closest_point, convex_hull, inner_offset
+
+__all__ = ["GroundEdges", "PartialContact"]
+
+_MOST_EDGES = 4
+_WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
+_RANGE = 0.02  # m, prior spread of an edge about where the cells' corners put it
+_TURN = math.radians(12.0)  # prior spread of its direction
+
+
+@dataclass(frozen=True)
+class GroundEdges:
+    """Straight edges of the ground under a sole, and what they leave of it.
+
+    Attributes:
+        lines: Edges (m, 3) in the sole frame: outward normal of length 1, and distance from the origin in m.
+        polygon: Supported part (k, 2) of the cells' convex hull in the sole frame in m, counter-clockwise.
+        deviation: Standard deviation (m,) of each edge's distance in m, as the noise allows.
+        residual: Root mean square of what the loads differ from the fit in N.
+    """
+
+    lines: NDArray[np.float64]
+    polygon: NDArray[np.float64]
+    deviation: NDArray[np.float64]
+    residual: float
+
+
+class PartialContact:
+    """Finds the edges of the ground under one sole.
+
+    Args:
+        layout: The sole, n taxels.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.12, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.12, 0.07]], clip=False)
+        >>> fit = PartialContact(layout)
+        >>> covered = fit.cover(np.array([[1.0, 0.0, 0.031]]))[:, 0]
+        >>> edges = fit.update(1e5 * covered, covered > 0.0)
+        >>> round(float(edges.lines[0, 2]), 4)
+        0.031
+    """
+
+    def __init__(self, layout: SoleLayout) -> None:
+        self.layout = layout
+        n = len(layout)
+        self._points = np.ascontiguousarray(layout.vertices[layout.corner_vertex, :2])
+        self._start = layout.corner_start.astype(np.intp)
+        room = int(np.diff(self._start).max(initial=3)) + _MOST_EDGES
+        self._scratch = np.empty((2, room, 2))
+        self._tags = np.empty((2, room), dtype=np.intp)
+        self._measure = np.empty((n, 3))
+        self._centers = np.ascontiguousarray(layout.positions[:, :2])
+        self._hull = convex_hull(self._points)
+        self._cell = math.sqrt(layout.cell_area)
+        most = max((len(near) for near in layout.neighbours), default=0)
+        self._near = np.full((n, max(1, most)), -1, dtype=np.intp)
+        for i, near in enumerate(layout.neighbours):
+            self._near[i, : len(near)] = near
+        self.edges: GroundEdges | None = None
+
+    def reset(self) -> None:
+        """Forget the edges: the foot lifts off."""
+        self.edges = None
+
+    def hull_of(self, active: ArrayLike) -> NDArray[np.float64]:
+        """Convex polygon (k, 2) of the corners of some cells in the sole frame in m (T 4.24).
+
+        Args:
+            active: Mask (n,) of the cells.
+
+        Returns:
+            The polygon, counter-clockwise; empty where there is none.
+        """
+        return convex_hull(self._points[np.repeat(np.asarray(active, dtype=bool), np.diff(self._start))])
+
+    def cover(self, lines: ArrayLike) -> NDArray[np.float64]:
+        """Area and first moments of what lines leave of each cell.
+
+        Args:
+            lines: Half-planes (m, 3) n . x <= h in the sole frame, m of up to 4.
+
+        Returns:
+            Area in m^2 and moments in m^3 about the sole frame's origin, (n, 3).
+        """
+        return self._cut(np.ascontiguousarray(lines, dtype=np.float64))[0]
+
+    def expected(self, load: float, center_of_pressure: ArrayLike, lines: ArrayLike) -> NDArray[np.float64]:
+        """What the taxels would read if a load were carried by all that lines leave of the sole.
+
+        The pressure is linear where it is positive, and zero where the sole lifts off, so that its resultant is the
+        load (a foundation that cannot pull); found by Newton's method on the pressure's three numbers.
+
+        Args:
+            load: Vertical force in N.
+            center_of_pressure: Where it acts (2,) in the sole frame in m.
+            lines: Half-planes (m, 3), see `cover`.
+
+        Returns:
+            Forces (n,) in N, none negative.
+        """
+        measure = self.cover(np.asarray(lines, dtype=np.float64).reshape(-1, 3))
+        area = measure[:, 0]
+        covered = area > 1e-3 * self.layout.cell_area
+        if not covered.any() or not load > 0.0:
+            return np.zeros(len(area))
+        place = np.zeros_like(measure)
+        place[covered] = measure[covered] / area[covered, None]
+        place[:, 0] = covered
+        x, y = np.asarray(center_of_pressure, dtype=np.float64).tolist()
+        # The resultant cannot leave the cells' centres: a load on the rim goes to the outermost of them.
+        inside = closest_point(inner_offset(convex_hull(place[covered, 1:]), 2e-3), np.array([x, y]))
+        wanted = load * np.array([1.0, *(np.array([x, y]) if inside is None else inside).tolist()])
+        weight = place * area[:, None]
+        on = covered
+        for _ in range(12):
+            normal = weight[on].T @ place[on]
+            normal.ravel()[::4] += 1e-9 * np.array([normal[0, 0], normal[1, 1], normal[2, 2]]) + 1e-15
+            pressure = place @ np.linalg.solve(normal, wanted)
+            positive = covered & (pressure > 0.0)
+            if not positive.any() or bool((positive == on).all()):
+                break
+            on = positive
+        found = np.where(covered, np.maximum(pressure, 0.0) * area, 0.0)
+        return np.asarray(found * (load / max(float(found.sum()), 1e-12)))
+
+    def update(
+        self, load: ArrayLike, active: ArrayLike, noise: float = 1.0, steps: int = 1, idle: ArrayLike | None = None
+    ) -> GroundEdges:
+        """Fit the edges to the loads; starts from the last fit while the active cells ask for the same edges.
+
+        Args:
+            load: Force (n,) on each taxel in N, a mean over readings for less noise; NaN where a taxel is faulty.
+            active: Mask (n,) of the taxels that have been loaded.
+            noise: Standard deviation of `load` in N.
+            steps: Gauss-Newton steps.
+            idle: Mask (n,) of the taxels that are known not to be supported; all that are not active where None. Of
+                others the fit says nothing: they may have lifted off ground that is there.
+
+        Returns:
+            The edges; with no active taxel an empty polygon.
+
+        Raises:
+            ReadingError: If load or mask has not n values.
+        """
+        force, mask = np.asarray(load, dtype=np.float64), np.asarray(active, dtype=bool)
+        if force.shape != (len(self.layout),) or mask.shape != force.shape:
+            raise ReadingError(f"load and mask have shapes {force.shape} and {mask.shape}; allowed: (n,) taxels")
+        sound = np.isfinite(force)
+        mask = mask & sound & (force > 0.0)
+        if not mask.any():
+            self.edges = None
+            return GroundEdges(np.empty((0, 3)), np.empty((0, 2)), np.empty(0), 0.0)
+        strong = self._strong(force, mask)
+        beyond = sound & ~strong if idle is None else sound & (np.asarray(idle, dtype=bool) | (mask & ~strong))
+        start = self._outer_lines(strong, beyond)
+        lines = start
+        if self.edges is not None and len(self.edges.lines) == len(start) > 0:
+            order = np.argmax(start[:, :2] @ self.edges.lines[:, :2].T, axis=1)
+            if len(set(order.tolist())) == len(start):
+                lines = self.edges.lines[order]
+        force = np.where(sound, force, 0.0)
+        deviation, residual = np.empty(0), 0.0
+        for _ in range(steps):
+            lines, deviation, residual = self._step(lines, start, force, sound, noise)
+        polygon = self._hull
+        for nx, ny, h in lines.tolist():
+            polygon = _clipped(polygon, nx, ny, h)
+        self.edges = GroundEdges(lines, polygon, deviation, residual)
+        return self.edges
+
+    def _strong(self, force: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Active taxels that carry no less than a part of what their strongest neighbour does, for their area."""
+        pressure = np.where(mask, force, 0.0) / self.layout.areas
+        around = np.where(self._near >= 0, pressure[self._near], 0.0).max(axis=1, initial=0.0)
+        return np.asarray(mask & (pressure > _WEAK * around))
+
+    def _outer_lines(self, strong: NDArray[np.bool_], idle: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Where fits start: edges of the strong cells' hull, a quarter of a cell further in, that others lie beyond."""
+        corners = self._points[np.repeat(strong, np.diff(self._start))]
+        hull = convex_hull(corners)
+        after = np.roll(hull, -1, axis=0) - hull
+        weight = np.hypot(after[:, 0], after[:, 1])
+        normal = np.column_stack([after[:, 1], -after[:, 0]]) / weight[:, None]
+        height = (normal * hull).sum(axis=1) - 0.25 * self._cell
+        beyond = (self._centers[idle] @ normal.T) > height - 0.1 * self._cell
+        chosen: list[int] = []
+        while len(hull) > 2 and beyond.any() and len(chosen) < _MOST_EDGES:
+            best = int(np.argmax(beyond.sum(axis=0) + weight))  # the longer edge where as many lie beyond
+            chosen.append(best)
+            beyond = beyond[~beyond[:, best]]
+        return np.column_stack([normal[chosen], height[chosen]]).reshape(-1, 3)
+
+    def _cut(self, lines: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        chords = np.empty((len(self.layout), len(lines), 3))
+        cut_cells(self._points, self._start, lines, self._scratch, self._tags, self._measure, chords)
+        return self._measure.copy(), chords
+
+    def _step(
+        self,
+        lines: NDArray[np.float64],
+        start: NDArray[np.float64],
+        force: NDArray[np.float64],
+        sound: NDArray[np.bool_],
+        noise: float,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """One Gauss-Newton step of pressure and edges together, held by the prior that the cells' corners give."""
+        m = len(lines)
+        measure, chords = self._cut(lines)
+        measure[~sound] = 0.0
+        basis = measure / self.layout.cell_area
+        normal = basis.T @ basis
+        normal.ravel()[::4] += 1e-9 * np.trace(normal) + 1e-12
+        field = np.linalg.solve(normal, basis.T @ force)
+        pulls = basis @ field < 0.0
+        if pulls.any():  # rubber does not pull: where the pressure would be negative the sole has lifted off
+            basis[pulls] = 0.0
+            normal = basis.T @ basis
+            normal.ravel()[::4] += 1e-9 * np.trace(normal) + 1e-12
+            field = np.linalg.solve(normal, basis.T @ force)
+        residual = force - basis @ field
+        if not m:
+            return lines, np.empty(0), float(np.sqrt(np.mean(residual**2)))
+        length, mx, my = chords[:, :, 0], chords[:, :, 1], chords[:, :, 2]
+        pressure = (field[0] + field[1] * mx + field[2] * my) / self.layout.cell_area
+        along = -lines[:, 1] * mx + lines[:, 0] * my  # place along each edge, from the foot of the origin's normal
+        rate = np.where(sound[:, None], length * np.maximum(pressure, 0.0), 0.0)
+        # An edge turns about the middle of its chords, so that distance and direction do not mix.
+        weight = rate.sum(axis=0) + 1e-12
+        pivot = (rate * along).sum(axis=0) / weight
+        jacobian = np.hstack([basis, rate, rate * (pivot - along)]) / noise
+        target = np.concatenate([np.zeros(3), np.zeros(2 * m)])
+        hessian = jacobian.T @ jacobian
+        gradient = jacobian.T @ (residual / noise)
+        prior = np.concatenate([np.full(3, 1e-12 * np.trace(normal)), np.full(m, _RANGE**-2), np.full(m, _TURN**-2)])
+        # What the prior wants: distance at the pivot and direction of the start.
+        turn = np.arctan2(
+            lines[:, 0] * start[:, 1] - lines[:, 1] * start[:, 0], lines[:, 0] * start[:, 0] + lines[:, 1] * start[:, 1]
+        )
+        place = lines[:, 2:] * lines[:, :2] + pivot[:, None] * np.column_stack([-lines[:, 1], lines[:, 0]])
+        target[3 : 3 + m] = start[:, 2] - (start[:, :2] * place).sum(axis=1)
+        target[3 + m :] = turn
+        inverse = np.linalg.inv(hessian + np.diag(prior))
+        step = inverse @ (gradient + prior * target)
+        move = np.clip(step[3 : 3 + m], -0.5 * self._cell, 0.5 * self._cell)
+        angle = np.clip(step[3 + m :], -0.2, 0.2)
+        c, s = np.cos(angle), np.sin(angle)
+        new = np.column_stack([c * lines[:, 0] - s * lines[:, 1], s * lines[:, 0] + c * lines[:, 1]])
+        height = (new * (place + move[:, None] * lines[:, :2])).sum(axis=1)
+        # An edge lies within the cells that are loaded: not beyond their corners, nor a whole cell inside.
+        deviation = np.sqrt(np.diag(inverse)[3 : 3 + m])
+        return np.column_stack([new, height]), deviation, float(np.sqrt(np.mean(residual**2)))
+
+
+def _clipped(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
+    """What of a convex polygon (k, 2) lies where n . x <= h."""
+    kept: list[tuple[float, float]] = []
+    points = polygon.tolist()
+    for k, (ax, ay) in enumerate(points):
+        bx, by = points[k + 1 - len(points)]
+        a, b = nx * ax + ny * ay - h, nx * bx + ny * by - h
+        if a <= 0.0:
+            kept.append((ax, ay))
+        if (a < 0.0 < b) or (b < 0.0 < a):
+            share = a / (a - b)
+            kept.append((ax + share * (bx - ax), ay + share * (by - ay)))
+    return np.array(kept).reshape(-1, 2)
