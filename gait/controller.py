@@ -23,7 +23,7 @@ from gait.foot_motion import FootMotion, Landing
 from gait.footsteps import Footstep, other_side
 from gait.landing_compliance import LandingCompliance
 from gait.lip import pendulum_frequency
-from gait.phases import Phase, Timing, WalkSchedule
+from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
 from gait.stance_contact import ContactSettings, StanceContact
 from gait.vrp_plan import LipReference
@@ -56,7 +56,8 @@ class ControllerSettings:
         estimator: Estimator gains.
         contact: How footholds are found from the taxels.
         feedback: False walks the plan in open loop, for comparison.
-        footholds: False takes every foothold for a whole sole, for comparison.
+        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
+            "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
     """
 
     com_height: float
@@ -70,7 +71,7 @@ class ControllerSettings:
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
     feedback: bool = True
-    footholds: bool = False
+    footholds: str = "off"
 
 
 @dataclass(frozen=True)
@@ -187,6 +188,7 @@ class WalkingController:
         self._turning = {s: LandingCompliance(settings.period) for s in _SIDES}
         self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
         self._step_of: dict[Side, int | None] = {"left": None, "right": None}
+        self._replanned, self._replanned_step = -math.inf, -1
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
         self._ground = float(np.mean([feet[s].z for s in _SIDES]))
@@ -199,7 +201,11 @@ class WalkingController:
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
         """Feet whose proximity it wants to have at the next tick."""
-        return self.motion.proximity_sides
+        sides = self.motion.proximity_sides
+        last = self.motion.last_side
+        if self.settings.footholds == "skin" and not self.motion.landed and last is not None and last not in sides:
+            return (*sides, last)
+        return sides
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out."""
@@ -223,7 +229,7 @@ class WalkingController:
         if self.motion.update(phase, sensors.time, state.loads, self._frame):
             self._compensation.start()
             self._lift(phase)
-        if feedback and s.footholds and self._feel(phase, sensors, state, percepts):
+        if feedback and s.footholds != "off" and self._feel(phase, sensors, state, percepts):
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
@@ -299,7 +305,11 @@ class WalkingController:
         changed = False
         for side in _SIDES:
             step = self._step_of[side]
-            if step is None or (not self.motion.landed if phase.swing == side else phase.swing is not None):
+            if phase.swing == side and not self.motion.landed:
+                self._contacts[side].see(sensors.readings[side])
+            # Only while the foot takes the weight over: later its load wanders, and the ground under it stays.
+            taking_over = phase.kind == PhaseKind.DOUBLE_SUPPORT and step == phase.step - 1
+            if step is None or not (taking_over or (phase.swing == side and self.motion.landed)):
                 continue
             contact = self._contacts[side]
             cop = percepts[side].position_cop_in_sole
@@ -315,8 +325,12 @@ class WalkingController:
             )
             self._center_in_sole[side] = contact.center_in_sole
             point = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
-            if math.dist(point[:2], self.plan.stance(step)) < self.settings.contact.least_move:
+            rules = self.settings.contact
+            if sensors.time < self._replanned + rules.replan_pause and self._replanned_step == step:
                 continue
+            if math.dist(point[:2], self.plan.stance(step)) < rules.least_move:
+                continue
+            self._replanned, self._replanned_step = sensors.time, step
             self.plan.move(step, point[:2], sensors.time, self._zmp_region(phase))
             self.replans += 1
             changed = True

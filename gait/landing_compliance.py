@@ -30,14 +30,16 @@ class LandingCompliance:
         period: Control period in s.
         admittance: A in rad/s per N m.
         largest_rate: Largest rate in rad/s.
-        largest_turn: Largest turn in rad.
+        largest_turn: Largest turn in rad: what a levelled sole may be off; more would lean the body.
+        largest_force: Vertical force in N from which the foot carries the body and no longer yields.
         turn: Turn (2,) about the sole's x and y axes in rad.
     """
 
     period: float
     admittance: float = 0.005
     largest_rate: float = 0.1
-    largest_turn: float = 0.035
+    largest_turn: float = 0.004
+    largest_force: float = 350.0
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
 
     def reset(self) -> None:
@@ -52,6 +54,8 @@ class LandingCompliance:
             center_of_pressure: Where that acts (2,) in the sole frame in m.
             target: Where it shall act (2,) in the sole frame in m.
         """
+        if force > self.largest_force:
+            return
         dx, dy = (center_of_pressure - target).tolist()
         gain = self.admittance * force
         rate = np.array([gain * dy, -gain * dx])

@@ -8,6 +8,7 @@ and is refined while more load comes on.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
@@ -36,13 +37,19 @@ class ContactSettings:
         forgetting: Share of the old in the running sum that edges are fitted to.
         least_expected: Force in N that the ground believed in would put on a taxel, from which its silence tells.
         least_share: Share of that force below which a taxel is silent.
+        step_down: Depth in m below the nearest ground from which a taxel has no ground to stand on.
+        deep: Depth in m that counts for all that is deeper or out of range.
+        sight: Share of a new reading in the running mean of what is seen.
+        least_seen: Number of taxels that have to see ground.
         least_margin: Distance in m of the load from the believed polygon's edge, from which silence tells.
         least_wrong: Share of the load that silent taxels should carry, from which the belief is wrong.
         least_force: Running mean in N from which a taxel has carried.
+        model_error: Share of the largest force that a taxel's force may differ from the fit's.
         full_ratio: Share of the sole from which on the foothold counts as the whole sole.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
         fit_every: Readings between two fits.
         least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
+        replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
     minimum_load: float = 90.0
@@ -52,13 +59,19 @@ class ContactSettings:
     forgetting: float = 0.92
     least_expected: float = 5.0
     least_share: float = 0.3
+    step_down: float = 0.012
+    deep: float = 0.05
+    sight: float = 0.3
+    least_seen: int = 4
     least_margin: float = 0.03
     least_wrong: float = 0.1
     least_force: float = 3.5
+    model_error: float = 0.1
     full_ratio: float = 0.93
     subcell: bool = True
     fit_every: int = 2
-    least_move: float = 0.003
+    least_move: float = 0.004
+    replan_pause: float = 0.06
 
     def __post_init__(self) -> None:
         for item in fields(self):
@@ -100,6 +113,9 @@ class StanceContact:
         self._weight = 0.0
         self._count = 0
         self._idle = np.zeros(n, dtype=bool)
+        self._depth: NDArray[np.float64] | None = None
+        self._seen_time = -1.0
+        self._believed: NDArray[np.float64] | None = None
         self._time = -1.0
         self._fit.reset()
 
@@ -142,35 +158,81 @@ class StanceContact:
             return False
         return self._find()
 
+    def see(self, reading: Reading) -> None:
+        """Take in what the taxels see of the ground while the foot comes down.
+
+        Args:
+            reading: The sole's latest reading; without proximity it says nothing.
+        """
+        distance = reading.proximity
+        if distance is None or reading.time <= self._seen_time:
+            return
+        self._seen_time = reading.time
+        sound = np.isfinite(distance) | np.isposinf(distance)
+        near = distance[np.isfinite(distance)]
+        if len(near) < self.settings.least_seen:
+            return
+        # Relative to the nearest ground: the foot is on its way down.
+        ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
+        depth = np.clip(distance - ground, -0.05, self.settings.deep)
+        share = self.settings.sight if self._depth is not None else 1.0
+        before = np.zeros(len(depth)) if self._depth is None else self._depth
+        self._depth = np.where(sound, before + share * (depth - before), np.nan)
+
+    def _from_sight(self) -> NDArray[np.float64] | None:
+        """Edges (m, 3) of the ground as the taxels saw it before they touched; None where they did not."""
+        if self._depth is None:
+            return None
+        idle = self._depth > self.settings.step_down
+        return self._fit.between(np.isfinite(self._depth) & ~idle, idle)
+
     def _find(self) -> bool:
-        """Compare what the taxels read with what they would on the ground that is believed in; change the belief."""
+        """Find what carries, from what was seen and what is felt."""
         s = self.settings
         mean = self._sum / self._weight
+        # Rubber is no ideal foundation: beside the noise the fit forgives a share of the largest force.
+        noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * float(mean.max()))
+        first, before = not self.settled, self.polygon_in_sole
+        self.settled = True
+        if first:
+            self._believed = self._from_sight()
+        if self._believed is None:
+            silent = self._silent(mean)
+            if silent is not None:
+                self._idle |= silent
+            self._idle &= ~self._carried
+            believed = self._fit.between(self._carried, self._idle)
+        else:
+            believed = self._believed
+        if len(believed):
+            polygon = self._fit.polygon(believed)
+            if s.subcell or self._believed is None:
+                found = self._fit.update(mean, self._carried, noise, steps=3 if first else 1, start=believed)
+                # A foot that still settles presses on a corner or a line: then the loads say nothing of the ground.
+                if self._believed is None or found.residual < s.model_error * float(mean.max()):
+                    polygon = found.polygon if s.subcell else self._fit.hull_of(self._carried)
+            ratio = area(polygon) / self._whole_area if len(polygon) > 2 else 0.0
+        else:
+            polygon, ratio = self.layout.outline, 1.0
+        if ratio > s.full_ratio:
+            polygon, ratio = self.layout.outline, 1.0
+        if ratio <= 0.0:
+            return first
+        self.area_ratio, self.polygon_in_sole = ratio, polygon
+        return first or polygon is not before
+
+    def _silent(self, mean: NDArray[np.float64]) -> NDArray[np.bool_] | None:
+        """Taxels (n,) that should carry on the ground that is believed in, and do not; None where all is well."""
+        s = self.settings
         load = float(mean.sum())
         cop = (mean @ self.layout.positions[:, :2]) / load
-        edges = self._fit.edges
-        lines = np.empty((0, 3)) if edges is None else edges.lines
-        expected = self._fit.expected(load, cop, lines)
-        noise = s.taxel_noise / self._weight**0.5
         # A load near the edge lifts the rest off, whether there is ground or not: only a load well inside tells.
         polygon = self.polygon_in_sole
         around = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
-        telling = signed_margin(polygon, cop) > min(s.least_margin, 0.8 * area(polygon) / around)
-        missing = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
-        outside = self._carried & (self._fit.cover(lines)[:, 0] < 0.1 * self.layout.areas)
-        wrong = telling and float(expected[missing].sum()) > s.least_wrong * load and int(missing.sum()) >= 2
-        first = not self.settled
-        self.settled = True
-        if not wrong and not (outside.any() and len(lines)) and not len(lines):
-            return first
-        self._idle = (self._idle | missing) & ~self._carried if wrong else self._idle & ~self._carried
-        found = self._fit.update(mean, self._carried, noise, steps=4 if wrong or outside.any() else 1, idle=self._idle)
-        polygon = found.polygon if s.subcell else self._fit.hull_of(self._carried)
-        if len(polygon) < 3:
-            return first
-        ratio = area(polygon) / self._whole_area
-        if ratio > s.full_ratio or not len(found.lines):
-            polygon, ratio = self.layout.outline, 1.0
-        changed = polygon is not self.polygon_in_sole
-        self.area_ratio, self.polygon_in_sole = ratio, polygon
-        return first or changed
+        if signed_margin(polygon, cop) < min(s.least_margin, 0.8 * area(polygon) / around):
+            return None
+        lines = np.empty((0, 3)) if self._fit.edges is None else self._fit.edges.lines
+        expected = self._fit.expected(load, cop, lines)
+        silent = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
+        wrong = int(silent.sum()) >= 2 and float(expected[silent].sum()) > s.least_wrong * load
+        return silent if wrong else None

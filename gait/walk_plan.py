@@ -86,6 +86,8 @@ class WalkPlan:
         first = schedule.phases[0].end
         start = self._between(0)
         times, points = self._knots(-math.inf, len(schedule.steps))
+        if times and times[0] <= first:  # no step at all
+            del times[0], points[0]
         self.vrps = VrpPlan([first - 1.0, first, *times], [start, start, *points], omega, com)
 
     def at(self, time: float) -> LipReference:

@@ -29,7 +29,9 @@ __all__ = ["GroundEdges", "PartialContact"]
 
 _MOST_EDGES = 4
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
-_RANGE = 0.02  # m, prior spread of an edge about where the cells' corners put it
+_RANGE = 0.01  # m, prior spread of an edge about where the cells' corners put it
+_TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
+_COS, _SIN = np.cos(_TURNS), np.sin(_TURNS)
 _TURN = math.radians(12.0)  # prior spread of its direction
 
 
@@ -125,32 +127,37 @@ class PartialContact:
             Forces (n,) in N, none negative.
         """
         measure = self.cover(np.asarray(lines, dtype=np.float64).reshape(-1, 3))
+        field, on = self._field(measure, load, np.asarray(center_of_pressure, dtype=np.float64))
+        return np.where(on, np.maximum(measure @ field, 0.0), 0.0)
+
+    def _field(
+        self, measure: NDArray[np.float64], load: float, center_of_pressure: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Pressure (3,) a, b, c of a load on covered cells, and the cells (n,) that it presses on."""
         area = measure[:, 0]
-        covered = area > 1e-3 * self.layout.cell_area
-        if not covered.any() or not load > 0.0:
-            return np.zeros(len(area))
-        place = np.zeros_like(measure)
-        place[covered] = measure[covered] / area[covered, None]
-        place[:, 0] = covered
-        x, y = np.asarray(center_of_pressure, dtype=np.float64).tolist()
+        on = area > 1e-3 * self.layout.cell_area
+        if not on.any() or not load > 0.0:
+            return np.zeros(3), np.zeros(len(area), dtype=bool)
+        covered, place = on, np.zeros_like(measure)
+        place[on] = measure[on] / area[on, None]
         # The resultant cannot leave the cells' centres: a load on the rim goes to the outermost of them.
-        inside = closest_point(inner_offset(convex_hull(place[covered, 1:]), 2e-3), np.array([x, y]))
-        wanted = load * np.array([1.0, *(np.array([x, y]) if inside is None else inside).tolist()])
-        weight = place * area[:, None]
-        on = covered
+        inside = closest_point(inner_offset(convex_hull(place[on, 1:]), 2e-3), center_of_pressure)
+        x, y = (center_of_pressure if inside is None else inside).tolist()
+        wanted = load * np.array([1.0, x, y])
+        field = np.zeros(3)
         for _ in range(12):
-            normal = weight[on].T @ place[on]
-            normal.ravel()[::4] += 1e-9 * np.array([normal[0, 0], normal[1, 1], normal[2, 2]]) + 1e-15
-            pressure = place @ np.linalg.solve(normal, wanted)
-            positive = covered & (pressure > 0.0)
+            normal = measure[on].T @ place[on]
+            normal.ravel()[::4] *= 1.0 + 1e-9
+            normal.ravel()[::4] += 1e-15
+            field = np.linalg.solve(normal, wanted)
+            positive = covered & (place @ field > 0.0)
             if not positive.any() or bool((positive == on).all()):
                 break
             on = positive
-        found = np.where(covered, np.maximum(pressure, 0.0) * area, 0.0)
-        return np.asarray(found * (load / max(float(found.sum()), 1e-12)))
+        return field, on
 
     def update(
-        self, load: ArrayLike, active: ArrayLike, noise: float = 1.0, steps: int = 1, idle: ArrayLike | None = None
+        self, load: ArrayLike, active: ArrayLike, noise: float = 1.0, steps: int = 1, start: ArrayLike | None = None
     ) -> GroundEdges:
         """Fit the edges to the loads; starts from the last fit while the active cells ask for the same edges.
 
@@ -159,8 +166,7 @@ class PartialContact:
             active: Mask (n,) of the taxels that have been loaded.
             noise: Standard deviation of `load` in N.
             steps: Gauss-Newton steps.
-            idle: Mask (n,) of the taxels that are known not to be supported; all that are not active where None. Of
-                others the fit says nothing: they may have lifted off ground that is there.
+            start: Where the edges are believed to be (m, 3), see `between`; found from the loads where None.
 
         Returns:
             The edges; with no active taxel an empty polygon.
@@ -176,22 +182,21 @@ class PartialContact:
         if not mask.any():
             self.edges = None
             return GroundEdges(np.empty((0, 3)), np.empty((0, 2)), np.empty(0), 0.0)
-        strong = self._strong(force, mask)
-        beyond = sound & ~strong if idle is None else sound & (np.asarray(idle, dtype=bool) | (mask & ~strong))
-        start = self._outer_lines(strong, beyond)
-        lines = start
-        if self.edges is not None and len(self.edges.lines) == len(start) > 0:
-            order = np.argmax(start[:, :2] @ self.edges.lines[:, :2].T, axis=1)
-            if len(set(order.tolist())) == len(start):
+        if start is None:
+            strong = self._strong(force, mask)
+            first = self.between(strong, sound & ~strong)
+        else:
+            first = np.asarray(start, dtype=np.float64).reshape(-1, 3)
+        lines = first
+        if self.edges is not None and len(self.edges.lines) == len(first) > 0:
+            order = np.argmax(first[:, :2] @ self.edges.lines[:, :2].T, axis=1)
+            if len(set(order.tolist())) == len(first):
                 lines = self.edges.lines[order]
         force = np.where(sound, force, 0.0)
         deviation, residual = np.empty(0), 0.0
         for _ in range(steps):
-            lines, deviation, residual = self._step(lines, start, force, sound, noise)
-        polygon = self._hull
-        for nx, ny, h in lines.tolist():
-            polygon = _clipped(polygon, nx, ny, h)
-        self.edges = GroundEdges(lines, polygon, deviation, residual)
+            lines, deviation, residual = self._step(lines, first, force, sound, noise)
+        self.edges = GroundEdges(lines, self.polygon(lines), deviation, residual)
         return self.edges
 
     def _strong(self, force: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -200,21 +205,52 @@ class PartialContact:
         around = np.where(self._near >= 0, pressure[self._near], 0.0).max(axis=1, initial=0.0)
         return np.asarray(mask & (pressure > _WEAK * around))
 
-    def _outer_lines(self, strong: NDArray[np.bool_], idle: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Where fits start: edges of the strong cells' hull, a quarter of a cell further in, that others lie beyond."""
-        corners = self._points[np.repeat(strong, np.diff(self._start))]
-        hull = convex_hull(corners)
+    def between(self, supported: ArrayLike, idle: ArrayLike) -> NDArray[np.float64]:
+        """Lines between cells that are supported and cells that are not: half way between the centres of both.
+
+        Args:
+            supported: Mask (n,) of the cells over ground.
+            idle: Mask (n,) of the cells that are known not to be; of others nothing is said.
+
+        Returns:
+            Half-planes (m, 3), the side with the most idle cells first; m up to 4.
+        """
+        inner, outer = self._centers[np.asarray(supported, dtype=bool)], self._centers[np.asarray(idle, dtype=bool)]
+        hull = self.hull_of(supported)
+        if len(hull) < 3 or not len(outer):
+            return np.empty((0, 3))
         after = np.roll(hull, -1, axis=0) - hull
         weight = np.hypot(after[:, 0], after[:, 1])
         normal = np.column_stack([after[:, 1], -after[:, 0]]) / weight[:, None]
-        height = (normal * hull).sum(axis=1) - 0.25 * self._cell
-        beyond = (self._centers[idle] @ normal.T) > height - 0.1 * self._cell
-        chosen: list[int] = []
-        while len(hull) > 2 and beyond.any() and len(chosen) < _MOST_EDGES:
-            best = int(np.argmax(beyond.sum(axis=0) + weight))  # the longer edge where as many lie beyond
-            chosen.append(best)
-            beyond = beyond[~beyond[:, best]]
-        return np.column_stack([normal[chosen], height[chosen]]).reshape(-1, 3)
+        height = (inner @ normal.T).max(axis=0)  # of the outermost supported centre
+        place = outer @ normal.T
+        beyond = place > height + 0.1 * self._cell
+        left = np.ones(len(outer), dtype=bool)
+        chosen: list[tuple[float, float, float]] = []
+        while (beyond[left].any()) and len(chosen) < _MOST_EDGES:
+            best = int(np.argmax(beyond[left].sum(axis=0) + weight))  # the longer side where as many lie beyond
+            side = outer[beyond[:, best]]
+            left &= ~beyond[:, best]
+            # Turned to where the gap between both sides is widest.
+            ways = np.column_stack([_COS, _SIN]) * normal[best, 0] + np.column_stack([-_SIN, _COS]) * normal[best, 1]
+            low, high = (inner @ ways.T).max(axis=0), (side @ ways.T).min(axis=0)
+            widest = int(np.argmax(high - low - 1e-3 * self._cell * np.abs(_TURNS)))
+            chosen.append((*ways[widest].tolist(), 0.5 * float(low[widest] + high[widest])))
+        return np.array(chosen).reshape(-1, 3)
+
+    def polygon(self, lines: ArrayLike) -> NDArray[np.float64]:
+        """What lines leave of the convex hull of all cells.
+
+        Args:
+            lines: Half-planes (m, 3) n . x <= h in the sole frame.
+
+        Returns:
+            Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
+        """
+        left = self._hull
+        for nx, ny, h in np.asarray(lines, dtype=np.float64).reshape(-1, 3).tolist():
+            left = _clipped(left, nx, ny, h)
+        return left
 
     def _cut(self, lines: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         chords = np.empty((len(self.layout), len(lines), 3))
@@ -233,23 +269,20 @@ class PartialContact:
         m = len(lines)
         measure, chords = self._cut(lines)
         measure[~sound] = 0.0
+        load = float(force.sum())
+        middle = force @ self._centers / load if load > 0.0 else np.zeros(2)
+        field, on = self._field(measure, load, middle)
+        measure[~on] = 0.0  # rubber does not pull: of what has lifted off nothing is known
         basis = measure / self.layout.cell_area
+        field = field * self.layout.cell_area
         normal = basis.T @ basis
-        normal.ravel()[::4] += 1e-9 * np.trace(normal) + 1e-12
-        field = np.linalg.solve(normal, basis.T @ force)
-        pulls = basis @ field < 0.0
-        if pulls.any():  # rubber does not pull: where the pressure would be negative the sole has lifted off
-            basis[pulls] = 0.0
-            normal = basis.T @ basis
-            normal.ravel()[::4] += 1e-9 * np.trace(normal) + 1e-12
-            field = np.linalg.solve(normal, basis.T @ force)
         residual = force - basis @ field
         if not m:
             return lines, np.empty(0), float(np.sqrt(np.mean(residual**2)))
         length, mx, my = chords[:, :, 0], chords[:, :, 1], chords[:, :, 2]
         pressure = (field[0] + field[1] * mx + field[2] * my) / self.layout.cell_area
         along = -lines[:, 1] * mx + lines[:, 0] * my  # place along each edge, from the foot of the origin's normal
-        rate = np.where(sound[:, None], length * np.maximum(pressure, 0.0), 0.0)
+        rate = np.where(on[:, None], length * np.maximum(pressure, 0.0), 0.0)
         # An edge turns about the middle of its chords, so that distance and direction do not mix.
         weight = rate.sum(axis=0) + 1e-12
         pivot = (rate * along).sum(axis=0) / weight
@@ -257,7 +290,9 @@ class PartialContact:
         target = np.concatenate([np.zeros(3), np.zeros(2 * m)])
         hessian = jacobian.T @ jacobian
         gradient = jacobian.T @ (residual / noise)
-        prior = np.concatenate([np.full(3, 1e-12 * np.trace(normal)), np.full(m, _RANGE**-2), np.full(m, _TURN**-2)])
+        prior = np.concatenate(
+            [np.full(3, 1e-9 * np.trace(normal) / noise**2 + 1e-12), np.full(m, _RANGE**-2), np.full(m, _TURN**-2)]
+        )
         # What the prior wants: distance at the pivot and direction of the start.
         turn = np.arctan2(
             lines[:, 0] * start[:, 1] - lines[:, 1] * start[:, 0], lines[:, 0] * start[:, 0] + lines[:, 1] * start[:, 1]

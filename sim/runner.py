@@ -108,7 +108,9 @@ class Simulation:
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.facts = ground.facts
         self.world: World = build_world(robot, ground)
-        self.sensors = SensorSuite(self.world, scene.sensing, seed, proximity=scene.control.pfc)
+        self.sensors = SensorSuite(
+            self.world, scene.sensing, seed, proximity=scene.control.pfc or scene.control.footholds == "skin"
+        )
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
         centers = {}

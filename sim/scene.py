@@ -113,13 +113,14 @@ class Control:
 
     Attributes:
         feedback: False walks the plan in open loop.
-        footholds: False takes every foothold for a whole sole: no plantar feedback on what the feet stand on.
+        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
+            taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
     feedback: bool = True
-    footholds: bool = False
+    footholds: str = field(default="off", metadata={"choices": ("off", "force", "skin")})
     pfc: bool = False
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
