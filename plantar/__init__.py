@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         SceneError,
     )
     from plantar.feet import FeetPercept
+    from plantar.foot_tick import FootTick, walking_tick
     from plantar.force import center_of_pressure, ground_reaction_wrench, wrench_at, zmp_of_feet, zmp_of_wrench
     from plantar.ground_plane import GroundPlane, fit_ground_plane, ground_points
     from plantar.health import StuckMonitor, TaxelHealth, fill_from_neighbours, stuck_taxels
@@ -67,6 +68,7 @@ __all__ = [
     "DependencyError",
     "FeetPercept",
     "FootError",
+    "FootTick",
     "FormatError",
     "GroundPlane",
     "HeightContour",
@@ -134,6 +136,7 @@ __all__ = [
     "temperature_footprint",
     "temperature_wrench",
     "virtual_ground_reaction_wrench",
+    "walking_tick",
     "wrench_at",
     "wrench_of_feet",
     "write_layout",
@@ -148,6 +151,7 @@ __all__ = [
 _MODULE_OF_NAME = {
     "Circle": "inscribed",
     "FeetPercept": "feet",
+    "FootTick": "foot_tick",
     "GroundPlane": "ground_plane",
     "HeightContour": "proximity",
     "HexLattice": "hex_lattice",
@@ -206,6 +210,7 @@ _MODULE_OF_NAME = {
     "temperature_footprint": "temperature",
     "temperature_wrench": "temperature",
     "virtual_ground_reaction_wrench": "virtual_wrench",
+    "walking_tick": "foot_tick",
     "wrench_at": "force",
     "wrench_of_feet": "sole_pose",
     "write_layout": "layout_file",

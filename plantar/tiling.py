@@ -185,7 +185,7 @@ def _cells_within(
         part = max(parts, key=lambda p: float(p.area), default=shapely.Polygon())
         if part.area >= max(minimum_fraction or 0.0, 1e-3) * cell_area:
             part = shapely.geometry.polygon.orient(part)
-            rings.append(np.array(part.exterior.coords)[:-1])
+            rings.append(_on_lattice(np.array(part.exterior.coords)[:-1], candidates[i], 2e-6 * grain))
             kept_centres.append(np.array(part.centroid.coords[0]))
     if not rings:
         raise LayoutError(
@@ -193,6 +193,14 @@ def _cells_within(
             "use a smaller cell area"
         )
     return rings, np.array(kept_centres)
+
+
+def _on_lattice(ring: NDArray[np.float64], corners: NDArray[np.float64], tolerance: float) -> NDArray[np.float64]:
+    """A cut cell's corners, those that are the whole cell's put back from GEOS's grid to where they were: cells that
+    are shifted copies of each other stay so, to the last digits."""
+    gap = np.hypot(*(ring[:, None] - corners).transpose(2, 0, 1))
+    nearest = gap.argmin(axis=1)
+    return np.where(gap.min(axis=1, keepdims=True) <= tolerance, corners[nearest], ring)
 
 
 def _layout(

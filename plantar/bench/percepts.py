@@ -16,6 +16,7 @@ from plantar.bench.kernels import OFFSET
 from plantar.bench.rivals import Corners, hull_shapely
 from plantar.bench.soles import contacts, sole_of
 from plantar.feet import FeetPercept
+from plantar.foot_tick import walking_tick
 from plantar.kernels import is_compiled, python_form
 from plantar.layout import SoleLayout
 from plantar.percept import Percept
@@ -57,6 +58,13 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
     ]
     ticks = [
         Route("plantar", lambda p: [_tick(s, f) for s, f in zip(feet, p, strict=True)], pairs, _flat, ours=True),
+        Route(
+            "plantar, percepts",
+            lambda p: [_tick_of_percept(s, f) for s, f in zip(feet, p, strict=True)],
+            pairs,
+            _flat,
+            ours=True,
+        ),
         Route("shapely + numpy", lambda p: [t.tick(f) for t, f in zip(tools, p, strict=True)], pairs, _flat),
         Route(
             "scipy + shapely + numpy", lambda p: [t.tick(f, True) for t, f in zip(tools, p, strict=True)], pairs, _flat
@@ -86,7 +94,13 @@ def compare_percepts(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
 
 
 def _tick(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
-    """What a tick needs of one foot, from plantar."""
+    """What a tick needs of one foot, from plantar in one call."""
+    t = walking_tick(layout, force, _AIM, OFFSET)
+    return t.active, t.position_cop, t.wrench, t.support_area, t.centroid, abs(polygon.area(t.safe_polygon)), t.clamped
+
+
+def _tick_of_percept(layout: SoleLayout, force: Array) -> tuple[Any, ...]:
+    """The same from a percept, member by member."""
     foot = Percept(layout, Reading(0.0, force))
     safe = polygon.inner_offset(foot.support_polygon_in_sole, OFFSET)
     return (

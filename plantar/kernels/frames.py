@@ -109,7 +109,7 @@ def hulls(sole, force, threshold, saturation, active, size, measure, points):
     room = points.shape[0]
     for k in range(force.shape[0]):
         for i in range(sole.taxels):
-            active[i] = threshold < force[k, i] < saturation
+            active[i] = (force[k, i] > threshold) & (force[k, i] < saturation)
         found = sole.find_hull(active)
         if room:
             if filled + found > room:

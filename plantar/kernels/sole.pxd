@@ -4,7 +4,6 @@ from . cimport convex
 
 cdef double _NONE
 cdef double _INFINITE
-cdef int _USED
 cdef int _NOT_LOWER
 cdef int _NOT_UPPER
 
@@ -25,10 +24,22 @@ cdef class SoleKernel:
     cdef public double tolerance
     cdef public bint flat
     cdef public double[::1] kept
-    cdef unsigned char[::1] used
+    cdef const Py_ssize_t[::1] corner_level
+    cdef const Py_ssize_t[::1] first_end
+    cdef const Py_ssize_t[::1] last_begin
+    cdef Py_ssize_t levels
+    cdef Py_ssize_t[::1] lowest
+    cdef Py_ssize_t[::1] highest
     cdef Py_ssize_t[::1] way
     cdef Py_ssize_t[::1] ring
     cdef public double[:, ::1] polygon
+    cdef list hulls
+    cdef object mask_room
+    cdef unsigned char[::1] mask
+    cdef object sums_room
+    cdef double[::1] sums
+    cdef double[:, :, ::1] rings
+    cdef double[:, ::1] lines
 
     cpdef active(self, const double[:] force, double threshold, double saturation)
 
@@ -49,10 +60,18 @@ cdef class SoleKernel:
     cpdef hull(self, const unsigned char[:] active)
 
     @cython.locals(
-        used="unsigned char[::1]", way="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]",
-        sign="const unsigned char[::1]", kind=int, forth=Py_ssize_t, top=Py_ssize_t, count=Py_ssize_t, low=Py_ssize_t,
-        high=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t, last=Py_ssize_t, end=int, i=Py_ssize_t, c=Py_ssize_t,
-        v=Py_ssize_t, size=Py_ssize_t
+        corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, left=Py_ssize_t,
+        moved=bint, area=double, cx=double, cy=double, qx=double, qy=double, _margin=double
+    )
+    cpdef tick(
+        self, const double[:] force, double threshold, double saturation, double offset, double x, double y
+    )
+
+    @cython.locals(
+        way="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", sign="const unsigned char[::1]",
+        level="const Py_ssize_t[::1]", lowest="Py_ssize_t[::1]", highest="Py_ssize_t[::1]", kind=int, at=Py_ssize_t,
+        left=Py_ssize_t, right=Py_ssize_t, forth=Py_ssize_t, count=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t,
+        last=Py_ssize_t, end=int, from_corner=Py_ssize_t, to_corner=Py_ssize_t, i=Py_ssize_t, c=Py_ssize_t, v=Py_ssize_t, size=Py_ssize_t
     )
     cpdef Py_ssize_t find_hull(self, const unsigned char[:] active) noexcept
 

@@ -17,8 +17,7 @@ __all__ = ["SoleKernel"]
 
 _NONE = float("nan")
 _INFINITE = float("inf")
-_USED = 4  # bits of a corner: that it belongs to an active cell, and where that cell keeps it from being on the hull
-_NOT_LOWER = 1
+_NOT_LOWER = 1  # bits of a corner: where its cell keeps it from being on the hull
 _NOT_UPPER = 2
 
 
@@ -51,7 +50,8 @@ class SoleKernel:
         order = np.lexsort((vertices[:, 1], vertices[:, 0]))
         rank = np.empty(len(order), dtype=np.intp)
         rank[order] = np.arange(len(order))
-        self.points = np.ascontiguousarray(vertices[order])
+        ordered = np.ascontiguousarray(vertices[order])
+        self.points = ordered
         self.taxels = len(self.areas)
         self.corners = len(order)
         largest = float(np.abs(vertices).max(initial=0.0))
@@ -60,6 +60,23 @@ class SoleKernel:
         starts = np.asarray(corner_start, dtype=np.intp).tolist()
         rings = [corner_vertex[starts[i] : starts[i + 1]] for i in range(self.taxels)]
         rows = _rows_of_copies([vertices[ring] for ring in rings], self.tolerance)
+        # Each cell's corners in another order: those that count only where it is the first of its row come first,
+        # those that count only where it is the last come last.
+        first_end, last_begin = starts[1 : self.taxels + 1], starts[: self.taxels]
+        for row in rows:
+            if len(row) > 1:
+                along = vertices[rings[row[len(row) - 1]][0]] - vertices[rings[row[0]][0]]
+                behind = _is_behind(vertices[rings[row[0]]], along)
+                ahead = _is_behind(vertices[rings[row[0]]], -along)
+                order_in_cell = np.concatenate(
+                    [np.flatnonzero(ahead), np.flatnonzero(~ahead & ~behind), np.flatnonzero(behind)]
+                )
+                for i in row:
+                    rings[i] = rings[i][order_in_cell]
+                    first_end[i] -= int(behind.sum())
+                    last_begin[i] += int(ahead.sum())
+        self.first_end = np.array(first_end, dtype=np.intp)
+        self.last_begin = np.array(last_begin, dtype=np.intp)
         self.row_taxel = np.array([i for row in rows for i in row], dtype=np.intp)
         self.row_start = np.cumsum([0, *map(len, rows)], dtype=np.intp)
         self.corner_rank = np.concatenate([*(rank[ring] for ring in rings), np.empty(0, dtype=np.intp)])
@@ -68,10 +85,24 @@ class SoleKernel:
         ).astype(np.uint8)
         self.corner_start = np.array(starts, dtype=np.intp)
         self.kept = np.zeros(self.taxels)
-        self.used = np.zeros(len(order), dtype=np.uint8)
-        self.way = np.zeros(2 * len(order), dtype=np.intp)
-        self.ring = np.zeros(2 * len(order), dtype=np.intp)
-        self.polygon = np.zeros((len(order), 2))
+        new = np.ones(len(order), dtype=bool)  # x that differ, to the last bit: on a lattice few of them
+        new[1:] = ordered[1:, 0] != ordered[:-1, 0]
+        level = np.cumsum(new) - 1
+        self.levels = int(new.sum())
+        self.corner_level = np.ascontiguousarray(level[np.asarray(self.corner_rank)], dtype=np.intp)
+        self.lowest = np.full(self.levels, self.corners, dtype=np.intp)
+        self.highest = np.full(self.levels, -1, dtype=np.intp)
+        self.way = np.zeros(2 * len(order) + 2, dtype=np.intp)
+        self.ring = np.zeros(2 * len(order) + 2, dtype=np.intp)
+        polygon = np.zeros((len(order), 2))
+        self.polygon = polygon
+        self.hulls = [polygon[:size] for size in range(len(order) + 1)]  # a copy of one is the cheapest new array
+        self.mask_room = np.zeros(self.taxels, dtype=bool)
+        self.mask = self.mask_room
+        self.sums_room = np.zeros(9)
+        self.sums = self.sums_room
+        self.rings = np.zeros((3, 2 * len(order) + 8, 3))
+        self.lines = np.zeros((len(order), 3))
 
     def active(self, force, threshold, saturation):
         """Active taxels (T 4.22), as `plantar.activation.active_taxels`.
@@ -84,14 +115,13 @@ class SoleKernel:
         Returns:
             Mask (n,).
         """
-        out = np.empty(self.taxels, dtype=bool)
-        self._activate(force, threshold, saturation, out)
-        return out
+        self._activate(force, threshold, saturation, self.mask)
+        return self.mask_room.copy()
 
     def _activate(self, force, threshold, saturation, out):
         """`active` into an array."""
         for i in range(self.taxels):
-            out[i] = threshold < force[i] < saturation
+            out[i] = (force[i] > threshold) & (force[i] < saturation)
 
     def loads(self, force, active):
         """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
@@ -106,9 +136,8 @@ class SoleKernel:
         Returns:
             (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
         """
-        out = np.empty(9)
-        self._loads(force, active, out)
-        return out
+        self._loads(force, active, self.sums)
+        return self.sums_room.copy()
 
     def _loads(self, force, active, out):
         """`loads` into an array."""
@@ -135,8 +164,8 @@ class SoleKernel:
     def hull(self, active):
         """Convex hull of the active cells (T 4.24), with its area and centroid.
 
-        Only the ends of each row of copies are looked at, and of their corners those above no active cell for the
-        lower chain, below none for the upper; they come sorted. Reference: the monotone chain over all corners of all
+        Only the ends of each row of copies are looked at, and of their corners the lowest at each x for the lower
+        chain, the highest for the upper; they come sorted. Reference: the monotone chain over all corners of all
         active cells in exact fractions; errors as `convex.convex_hull`, `convex.area`, `convex.area_and_centroid`.
 
         Args:
@@ -147,9 +176,47 @@ class SoleKernel:
         """
         size = self.find_hull(active)
         area, x, y = self.measure_hull(size)
-        out = np.empty((size, 2))
-        self.copy_hull(size, out)
-        return out, area, x, y
+        return self.hulls[size].copy(), area, x, y
+
+    def tick(self, force, threshold, saturation, offset, x, y):
+        """What a controller needs of one foot, in one call: `active`, `loads`, `hull`, then the hull moved inwards and
+        the point of it that is closest to another one, as `convex.inner_offset` and `convex.closest_point`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+            offset: How far the hull's edges move inwards in m; 0 or less, and they stay.
+            x: The other point in m.
+            y: The same.
+
+        Returns:
+            Mask (n,); (9,) of `loads`; polygon (k, 2) in m, its area in m^2, x and y of its centroid in m; the smaller
+            polygon (m, 2) in m; the closest point (2,) in m. Coordinates are NaN without contact.
+        """
+        self._activate(force, threshold, saturation, self.mask)
+        self._loads(force, self.mask, self.sums)
+        size = self.find_hull(self.mask)
+        area, cx, cy = self.measure_hull(size)
+        left = size
+        moved = size > 0 and not offset <= 0.0
+        if moved:
+            left = convex._inner_offset(self.polygon[:size], offset, self.lines, self.rings) if size > 2 else 1
+        safe = np.empty((left, 2))
+        corners = safe
+        if not moved:
+            self.copy_hull(size, corners)
+        elif size > 2:
+            convex._shifted(self.rings, left, self.polygon, corners)
+        else:
+            corners[0, 0], corners[0, 1] = cx, cy
+        nearest = np.empty(2)
+        point = nearest
+        qx = qy = _NONE
+        if size > 0:
+            _margin, qx, qy = convex._nearest(corners, x, y)
+        point[0], point[1] = qx, qy
+        return self.mask_room.copy(), self.sums_room.copy(), self.hulls[size].copy(), area, cx, cy, safe, nearest
 
     def find_hull(self, active):
         """Find the hull of the active cells and leave it in `polygon`.
@@ -160,8 +227,9 @@ class SoleKernel:
         Returns:
             Number of its corners.
         """
-        used, way, rank, sign = self.used, self.way, self.corner_rank, self.corner_sign
-        low, high = self.corners, -1
+        way, rank, sign, level = self.way, self.corner_rank, self.corner_sign, self.corner_level
+        lowest, highest = self.lowest, self.highest
+        left, right = self.levels, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
             while first <= last and not active[self.row_taxel[first]]:
@@ -172,27 +240,43 @@ class SoleKernel:
                 last -= 1
             for end in range(2 if last > first else 1):
                 i = self.row_taxel[last if end else first]
-                for c in range(self.corner_start[i], self.corner_start[i + 1]):
-                    v = rank[c]
-                    used[v] |= sign[c]
-                    low = min(low, v)
-                    high = max(high, v)
-        forth = 0
-        top = way.shape[0]
-        for v in range(low, high + 1):
-            kind = used[v]
-            if kind:
-                used[v] = 0
-                if not kind & _NOT_LOWER:
-                    way[forth] = v
-                    forth += 1
-                if not kind & _NOT_UPPER:
-                    top -= 1
-                    way[top] = v
+                from_corner = self.last_begin[i] if end else self.corner_start[i]
+                to_corner = self.corner_start[i + 1] if end or last == first else self.first_end[i]
+                for c in range(from_corner, to_corner):
+                    v, kind, at = rank[c], sign[c], level[c]
+                    if not kind & _NOT_LOWER:
+                        lowest[at] = min(lowest[at], v)
+                    if not kind & _NOT_UPPER:
+                        highest[at] = max(highest[at], v)
+                    left = min(left, at)
+                    right = max(right, at)
+        if right < 0:
+            return 0
+        # The lower chain takes the lowest corner at each x, the upper one the highest; where a chain turns, both.
+        way[0] = lowest[left]
+        forth = 1
+        for at in range(left + 1, right + 1):
+            if lowest[at] < self.corners:
+                way[forth] = lowest[at]
+                forth += 1
+                lowest[at] = self.corners
+        lowest[left] = self.corners
         count = forth
-        for i in range(top + 1, way.shape[0]):  # the highest point has been visited
-            way[count] = way[i]
+        way[count] = highest[right]  # where it is the lowest too, the walk steps over it
+        count += 1
+        forth += 1
+        highest[right] = -1
+        for at in range(right - 1, left, -1):
+            if highest[at] >= 0:
+                way[count] = highest[at]
+                count += 1
+                highest[at] = -1
+        if left < right:
+            way[count] = highest[left]
             count += 1
+            highest[left] = -1
+        way[count] = way[0]
+        count += 1
         size = convex.hull_ring(self.points, way, forth, count, self.tolerance, self.ring)
         for i in range(size):
             v = self.ring[i]
@@ -260,11 +344,30 @@ def _rows_of_copies(cells, tolerance):
     return rows
 
 
+def _is_behind(cell, along):
+    """Which corners (k,) of a convex cell lie within it and its copies farther along: no corners of their hull.
+
+    Args:
+        cell: Corners (k, 2) in m; where they are not convex none is.
+        along: Direction (2,) to the copies, of any length.
+    """
+    edge = np.roll(cell, -1, axis=0) - cell
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    after = np.roll(edge, -1, axis=0)
+    turns = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+    size = float(length.sum())
+    if not (turns > 1e-6 * size * size / len(cell) ** 2).all():
+        return np.zeros(len(cell), dtype=bool)
+    away = cell[:, None] - 1e-3 * size * along / float(np.hypot(*along)) - cell
+    depth = (edge[:, 0] * away[..., 1] - edge[:, 1] * away[..., 0]) / length
+    return depth.min(axis=1) > 1e-6 * size
+
+
 def _signs(cell, rank):
-    """Where each corner of a cell can be on a hull that holds the cell, as bits to gather (k,).
+    """Where each corner of a cell can be on a hull that holds the cell, as bits (k,).
 
     A corner above the line from the lowest to the highest of its cell's corners is never on the lower chain of the
-    hull, one below it never on the upper. So a corner between an active cell above and one below is on neither.
+    hull, one below it never on the upper.
 
     Args:
         cell: Corners (k, 2) in m.
@@ -274,4 +377,4 @@ def _signs(cell, rank):
     along, away = high - low, cell - low
     above = along[0] * away[:, 1] - along[1] * away[:, 0]
     sure = 1e-9 * float((along * along).sum())
-    return np.where(above > sure, _USED | _NOT_LOWER, np.where(above < -sure, _USED | _NOT_UPPER, _USED))
+    return np.where(above > sure, _NOT_LOWER, np.where(above < -sure, _NOT_UPPER, 0))

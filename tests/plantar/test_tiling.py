@@ -244,3 +244,12 @@ def test_a_grid_refuses_what_it_cannot_lay_out():
         grid_layout([[0, 0], [1e-3, 0], [40, 40], [0, 1e-3]], pitch=(1e-3, 1e-3))
     with pytest.raises(LayoutError, match="no cell of"):
         grid_layout(RECTANGLE, pitch=(1.0, 1.0))
+
+
+def test_cut_cells_keep_the_lattice_where_the_outline_does_not_cut_them():
+    lattice = HexLattice(691e-6, angle=0.1)
+    layout = hex_layout([[-0.13, -0.06], [0.12, -0.05], [0.12, 0.05], [-0.12, 0.06]], angle=0.1)
+    exact = lattice.corners(lattice.cells_near([-0.2, -0.2], [0.2, 0.2])).reshape(-1, 2)
+    gap = np.hypot(*(layout.vertices[:, None, :2] - exact).transpose(2, 0, 1)).min(axis=1)
+    assert ((gap == 0.0) | (gap > 1e-7)).all()
+    assert (gap == 0.0).sum() > 2 * len(layout) / 3
