@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass, field, fields
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.vrp_plan import LipReference
+from gait.wrench_cone import Rectangle
 from plantar.errors import InputError
+from plantar.layout import Side
 from plantar.polygon import closest_point
 
-__all__ = ["BalanceGains", "BalanceState", "DcmBalance"]
+__all__ = ["BalanceGains", "BalanceLaw", "BalanceState", "DcmBalance", "FootAction", "FootState"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,42 @@ class BalanceGains:
 
 
 @dataclass(frozen=True)
+class FootState:
+    """A foot that stands, as a balance law sees it.
+
+    Attributes:
+        position: Sole frame origin (3,) in the world frame in m.
+        rotation: Rotation (3, 3) from the sole to the world frame.
+        rectangle: The part of the sole that may be loaded, in the sole frame.
+        center: Point (x, y) of the sole at which the plan likes its centre of pressure in m.
+        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    rectangle: Rectangle
+    center: tuple[float, float]
+    wrench: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FootAction:
+    """What a balance law wants of a foot.
+
+    Attributes:
+        wrench: Wrench (6,) in the sole frame about its origin that the ground shall exert on it.
+        roll: Turn in rad of the commanded sole about its x axis.
+        pitch: Turn in rad about its y axis.
+        shift: Shift in m of the commanded sole upwards.
+    """
+
+    wrench: NDArray[np.float64]
+    roll: float
+    pitch: float
+    shift: float
+
+
+@dataclass(frozen=True)
 class BalanceState:
     """What the balance law decided at one tick, world frame.
 
@@ -57,12 +95,46 @@ class BalanceState:
         com: CoM reference (2,) in m after admittance.
         com_velocity: Its rate (2,) in m/s.
         com_acceleration: Acceleration (2,) in m/s^2 that the desired ZMP asks for.
+        feet: What each foot shall do; empty for a law that leaves the feet as the plan has them.
     """
 
     zmp_desired: NDArray[np.float64]
     com: NDArray[np.float64]
     com_velocity: NDArray[np.float64]
     com_acceleration: NDArray[np.float64]
+    feet: Mapping[Side, FootAction] = field(default_factory=dict)
+
+
+class BalanceLaw(Protocol):
+    """What the walking controller asks of a balance law.
+
+    Attributes:
+        wants_feet: Whether it looks at the feet; if not, `update` gets none.
+    """
+
+    wants_feet: bool
+
+    def update(
+        self,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        region: NDArray[np.float64],
+        feet: Mapping[Side, FootState],
+    ) -> BalanceState:
+        """One control tick.
+
+        Args:
+            reference: The plan now.
+            dcm: Measured DCM (2,) in m.
+            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
+            region: Convex polygon (k, 2) in which the desired ZMP has to lie.
+            feet: The feet that stand.
+
+        Returns:
+            What body and feet shall do.
+        """
+        ...
 
 
 class DcmBalance:
@@ -73,6 +145,8 @@ class DcmBalance:
         omega: Pendulum frequency in rad/s.
         period: Control period in s.
     """
+
+    wants_feet = False
 
     def __init__(self, gains: BalanceGains, omega: float, period: float) -> None:
         self.gains = gains
@@ -105,6 +179,7 @@ class DcmBalance:
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
+        feet: Mapping[Side, FootState] | None = None,
     ) -> BalanceState:
         """One control tick.
 
@@ -113,6 +188,7 @@ class DcmBalance:
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot carries load.
             region: Where the desired ZMP has to lie (see `desired_zmp`).
+            feet: The feet that stand; this law does not need them.
 
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).

@@ -308,7 +308,8 @@ class WalkingController:
             if phase.swing == side and not self.motion.landed:
                 self._contacts[side].see(sensors.readings[side])
             # Only while the foot takes the weight over: later its load wanders, and the ground under it stays.
-            taking_over = phase.kind == PhaseKind.DOUBLE_SUPPORT and step == phase.step - 1
+            early = phase.kind == PhaseKind.SINGLE_SUPPORT and sensors.time < phase.start + self.settings.contact.watch
+            taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
             if step is None or not (taking_over or (phase.swing == side and self.motion.landed)):
                 continue
             contact = self._contacts[side]

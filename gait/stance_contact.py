@@ -47,8 +47,10 @@ class ContactSettings:
         model_error: Share of the largest force that a taxel's force may differ from the fit's.
         full_ratio: Share of the sole from which on the foothold counts as the whole sole.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
-        fit_every: Readings between two fits.
+        fit_every: Readings between two looks at a foothold that has settled.
+        standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
         least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
+        watch: Time in s into the single support until which a foothold is refined.
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
@@ -69,8 +71,10 @@ class ContactSettings:
     model_error: float = 0.1
     full_ratio: float = 0.93
     subcell: bool = True
-    fit_every: int = 2
+    fit_every: int = 8
+    standing_load: float = 450.0
     least_move: float = 0.004
+    watch: float = 0.15
     replan_pause: float = 0.06
 
     def __post_init__(self) -> None:
@@ -153,8 +157,7 @@ class StanceContact:
         self._mean += share * (force - self._mean)
         if self._count >= s.settle_readings:
             self._carried |= self._mean > s.least_force
-        after = self._count - s.settle_readings
-        if after < 0 or (after % s.fit_every and after > 2):
+        if self._count < s.settle_readings or (self.settled and self._count % s.fit_every):
             return False
         return self._find()
 
@@ -190,36 +193,44 @@ class StanceContact:
         """Find what carries, from what was seen and what is felt."""
         s = self.settings
         mean = self._sum / self._weight
-        # Rubber is no ideal foundation: beside the noise the fit forgives a share of the largest force.
-        noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * float(mean.max()))
         first, before = not self.settled, self.polygon_in_sole
         self.settled = True
         if first:
             self._believed = self._from_sight()
+        if self._believed is not None:
+            outside = self._carried & (mean > s.least_expected) & ~self._over(self._believed)
+            if int(outside.sum()) >= s.least_seen:
+                self._believed = None  # what was seen there is not what carries
         if self._believed is None:
             silent = self._silent(mean)
             if silent is not None:
                 self._idle |= silent
             self._idle &= ~self._carried
-            believed = self._fit.between(self._carried, self._idle)
+            lines = self._fit.between(self._carried, self._idle)
         else:
-            believed = self._believed
-        if len(believed):
-            polygon = self._fit.polygon(believed)
-            if s.subcell or self._believed is None:
-                found = self._fit.update(mean, self._carried, noise, steps=3 if first else 1, start=believed)
-                # A foot that still settles presses on a corner or a line: then the loads say nothing of the ground.
-                if self._believed is None or found.residual < s.model_error * float(mean.max()):
-                    polygon = found.polygon if s.subcell else self._fit.hull_of(self._carried)
-            ratio = area(polygon) / self._whole_area if len(polygon) > 2 else 0.0
-        else:
-            polygon, ratio = self.layout.outline, 1.0
-        if ratio > s.full_ratio:
-            polygon, ratio = self.layout.outline, 1.0
-        if ratio <= 0.0:
+            lines = self._believed if first or self._fit.edges is None else self._fit.edges.lines
+        polygon = self._fit.polygon(lines)
+        # A foot that still settles presses on a corner or a line; once it stands, the loads say where the edges are.
+        if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
+            largest = float(mean.max())
+            noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * largest)
+            found = self._fit.update(mean, self._carried, noise, start=lines)
+            if found.residual < s.model_error * largest:
+                polygon = found.polygon
+        elif len(lines) and not s.subcell and self._carried.any():
+            polygon = self._fit.hull_of(self._carried)
+        if len(polygon) < 3:
             return first
+        ratio = area(polygon) / self._whole_area
+        if ratio > s.full_ratio or not len(lines):
+            polygon, ratio = self.layout.outline, 1.0
         self.area_ratio, self.polygon_in_sole = ratio, polygon
         return first or polygon is not before
+
+    def _over(self, lines: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Taxels (n,) of which lines leave a part."""
+        reach = 0.6 * math.sqrt(self.layout.cell_area)
+        return np.asarray((self.layout.positions[:, :2] @ lines[:, :2].T < lines[:, 2] + reach).all(axis=1))
 
     def _silent(self, mean: NDArray[np.float64]) -> NDArray[np.bool_] | None:
         """Taxels (n,) that should carry on the ground that is believed in, and do not; None where all is well."""

@@ -82,7 +82,7 @@ class Simulation:
             walk.steps,
             length=walk.length,
             sideways=walk.sideways,
-            width=walk.width or robot.stance_width,
+            width=walk.stance_width or robot.stance_width,
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )

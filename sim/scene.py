@@ -29,7 +29,7 @@ class Walk:
         steps: Number of steps; the last one closes the feet.
         length: Distance by which a step leads the other foot.
         sideways: Lateral distance by which each opening step leads, positive to the left.
-        width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
+        stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
         first: Foot that moves first.
         single_support: t_ss; 0 takes the robot's own.
         double_support: t_ds; 0 takes the robot's own.
@@ -46,7 +46,7 @@ class Walk:
     steps: int = field(default=20, metadata=limits(0, 100000))
     length: float = field(default=0.2, metadata=limits(-0.5, 0.5))
     sideways: float = field(default=0.0, metadata=limits(-0.3, 0.3))
-    width: float = field(default=0.0, metadata=limits(0.0, 0.6))
+    stance_width: float = field(default=0.0, metadata=limits(0.0, 0.6))
     first: str = field(default="left", metadata={"choices": ("left", "right")})
     single_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     double_support: float = field(default=0.0, metadata=limits(0.0, 10.0))

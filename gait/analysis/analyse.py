@@ -8,29 +8,52 @@ import io
 import json
 import math
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gait.analysis.figures import figure_force, figure_pressure, figure_steps
-from gait.analysis.parameters import (
-    FootGait,
-    Step,
-    analyse_foot,
-    gait_of_feet,
-    landing_impact,
-    summary_of_foot,
-    symmetry,
+from gait.analysis.figures import (
+    figure_force,
+    figure_pressure,
+    figure_regions,
+    figure_steps,
+    figure_symmetry,
+    figure_wrench,
 )
+from gait.analysis.footprint_report import analyse_image
+from gait.analysis.force_curve import landing_impact
+from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
+from gait.analysis.parameters import FootGait, analyse_feet
+from gait.analysis.platform import told_apart
+from gait.analysis.player import player_data
 from gait.analysis.report import report_page
+from gait.analysis.spread import Spread
+from gait.analysis.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
 from plantar.atomic import output_folder
-from plantar.formats import read_recording
+from plantar.errors import InputError
+from plantar.formats import ReadOptions, named_format, read_recording
 from plantar.layout import Side
 from plantar.layout_file import read_layout
 from plantar.plotting import save_figure
 from plantar.pressure_recording import PressureRecording
 
-__all__ = ["analyse_recording", "metrics_of"]
+__all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "write_analysis"]
+
+
+@dataclass(frozen=True, eq=False)
+class Analysis:
+    """A recording, its feet and what was measured.
+
+    Attributes:
+        recording: The recording; a platform's with its footprints told apart.
+        feet: The gait of each foot.
+        metrics: What metrics.json holds.
+    """
+
+    recording: PressureRecording
+    feet: Mapping[Side, FootGait]
+    metrics: Mapping[str, Any]
 
 
 def analyse_recording(
@@ -39,15 +62,20 @@ def analyse_recording(
     format: str | None = None,
     layout: str | os.PathLike[str] | None = None,
     progress: Callable[[float, str], None] | None = None,
+    *,
+    options: ReadOptions | None = None,
+    mm_per_pixel: float | None = None,
 ) -> dict[str, Any]:
-    """Analyse a recording and write metrics.json, steps.csv, figures (PNG and SVG) and report.html.
+    """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
     Args:
-        path: The recording.
+        path: The recording or image.
         out: Output folder, made if needed; nothing is left in it on an error.
         format: Name of the file's format; recognised from its content where None.
         layout: Layout file to use instead of the format's own geometry; mirrored for the other foot.
         progress: Called with a fraction 0..1 and what is being done.
+        options: What else the user knows about the file.
+        mm_per_pixel: Size of an image's pixel in mm.
 
     Returns:
         What metrics.json holds, and "files": the paths written.
@@ -55,35 +83,97 @@ def analyse_recording(
     Raises:
         FormatError: If the file is not a recording that can be read.
         LayoutError: If the layout file is not valid.
-        InputError: If the folder cannot be written to.
+        InputError: If the folder cannot be written to, or an option does not fit the file.
     """
     tell = progress or (lambda fraction, text: None)
     tell(0.0, "reading")
-    sole = None if layout is None else read_layout(layout)
-    recording = read_recording(path, format, sole)
-    tell(0.3, "finding steps")
-    feet: dict[Side, FootGait] = {side: analyse_foot(recording, side) for side in recording.feet}
-    metrics = metrics_of(recording, feet)
+    known = with_layout(options, layout)
+    image = named_format(path, format).read is None
+    if image != (mm_per_pixel is not None) and mm_per_pixel is not None:
+        raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     with output_folder(out) as folder:
-        tell(0.5, "drawing")
-        captions = {
-            "pressure": (figure_pressure(feet), "Maximum pressure picture of each foot and CoP path of each step"),
-            "force": (figure_force(recording, feet), "Vertical force of each foot over time with its events"),
-            "steps": (figure_steps(recording, feet), "Vertical force over the stance of all complete steps"),
-        }
-        embedded: list[tuple[Path, str]] = []
-        for i, (name, (figure, caption)) in enumerate(captions.items()):
-            if figure is not None:
-                embedded.append((save_figure(figure, folder / f"{name}.png"), caption))
-                save_figure(figure, folder / f"{name}.svg")
-            tell(0.5 + 0.15 * (i + 1), "drawing")
-        (folder / "steps.csv").write_text(_steps_csv(feet), encoding="utf-8")
-        (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-        page = report_page(metrics, embedded, title=recording.path.name)
-        (folder / "report.html").write_text(page, encoding="utf-8")
+        if image:
+            metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side)
+        else:
+            analysis = analyse(path, format, known, tell)
+            metrics = dict(analysis.metrics)
+            write_analysis(analysis, folder, lambda fraction, text: tell(0.5 + 0.5 * fraction, text))
         names = sorted(p.name for p in folder.iterdir())
     tell(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in names]}
+
+
+def with_layout(options: ReadOptions | None, layout: str | os.PathLike[str] | None) -> ReadOptions:
+    """The options with the layout of a file."""
+    options = options or ReadOptions()
+    return options if layout is None else dataclasses.replace(options, layout=read_layout(layout))
+
+
+def analyse(
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    options: ReadOptions | None = None,
+    progress: Callable[[float, str], None] | None = None,
+) -> Analysis:
+    """Read a recording and measure it; nothing is written.
+
+    Args:
+        path: The recording.
+        format: Name of the file's format; recognised from its content where None.
+        options: What the user knows about the file.
+        progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
+
+    Raises:
+        FormatError: If the file is not a recording that can be read.
+    """
+    tell = progress or (lambda fraction, text: None)
+    recording, prints = told_apart(read_recording(path, format, options=options))
+    tell(0.3, "finding steps")
+    feet = analyse_feet(recording, prints)
+    tell(0.5, "drawing")
+    return Analysis(recording, feet, metrics_of(recording, feet))
+
+
+def write_analysis(analysis: Analysis, folder: Path, progress: Callable[[float, str], None] | None = None) -> None:
+    """Write the tables, figures and report of an analysis.
+
+    Args:
+        analysis: The analysis.
+        folder: Folder to write to, which exists.
+        progress: Called with a fraction 0..1 and what is being done.
+    """
+    tell = progress or (lambda fraction, text: None)
+    recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
+    captions = {
+        "pressure": (
+            figure_pressure(recording, feet),
+            "Maximum pressure picture of each foot and CoP path of each step",
+        ),
+        "regions": (figure_regions(recording, feet), "Regions of each foot, its axis, and the thirds of its print"),
+        "force": (figure_force(recording, feet), "Vertical force of each foot over time with its events"),
+        "steps": (
+            figure_steps(recording, feet),
+            "Vertical force over the stance of all complete steps, mean and ± 1 SD",
+        ),
+        "symmetry": (
+            figure_symmetry(symmetry(feet)),
+            "Symmetry index of the main measures: the bars point to the foot whose value is larger",
+        ),
+        "wrench": (figure_wrench(recording, feet), "Wrench of the ground on each sole over time"),
+    }
+    embedded: list[tuple[Path, str]] = []
+    for i, (name, (figure, caption)) in enumerate(captions.items()):
+        if figure is not None:
+            embedded.append((save_figure(figure, folder / f"{name}.png"), caption))
+            save_figure(figure, folder / f"{name}.svg")
+        tell((i + 1) / (len(captions) + 2), "drawing")
+    (folder / "steps.csv").write_text(_steps_csv(feet, recording.raw), encoding="utf-8")
+    if any(step.regions for gait in feet.values() for step in gait.steps):
+        (folder / "regions.csv").write_text(_regions_csv(feet, recording.raw), encoding="utf-8")
+    (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    player = player_data(recording, feet)
+    page = report_page(metrics, embedded, title=recording.path.name, player=player)
+    (folder / "report.html").write_text(page, encoding="utf-8")
 
 
 def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
@@ -94,7 +184,8 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         feet: The gait of each of its feet.
 
     Returns:
-        format, frames, rate_hz, duration_s, feet, gait, warnings; see docs/metrics.md.
+        format, kind, frames, rate_hz, duration_s, raw, grid, feet, gait, warnings; see docs/metrics.md. In a recording
+        of raw counts the keys end in "_raw" where they would else name a unit of force or pressure.
     """
     warnings = list(recording.warnings)
     for side, gait in feet.items():
@@ -102,21 +193,32 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
             warnings.append(f"the {side} foot carries no load above its noise: no steps")
         elif not gait.steps:
             warnings.append(f"the {side} foot has no complete step: each contact is cut by the recording")
+        warnings += gait.warnings
+    named = _keys(recording.raw)
+    indices = symmetry(feet)
     return {
         "format": recording.format,
-        "frames": len(recording.time),
+        "kind": recording.kind,
+        "frames": recording.metadata.get("frames", len(recording.time)),
         "rate_hz": recording.rate_hz,
         "duration_s": float(recording.time[-1] - recording.time[0]),
+        "raw": recording.raw,
+        "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
         "feet": {side: _foot(recording, gait) for side, gait in feet.items()},
-        "gait": {**gait_of_feet(feet), "symmetry_percent": symmetry(feet)},
-        "warnings": warnings,
+        "gait": {**gait_of_feet(feet), "symmetry_percent": {named(key): value for key, value in indices.items()}},
+        "warnings": list(dict.fromkeys(warnings)),
     }
 
 
+def _keys(raw: bool) -> Callable[[str], str]:
+    return raw_name if raw else lambda key: key
+
+
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
-    levels = gait.levels
+    levels, foot, named = gait.levels, gait.foot, _keys(recording.raw)
     landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
-    impacts = [landing_impact(recording.time, gait.foot.vertical_force, strike) for strike in landings]
+    impacts = [landing_impact(recording.time, foot.vertical_force, strike) for strike in landings]
+    layout = foot.layout
     return {
         "steps": len(gait.steps),
         "events": [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete],
@@ -124,26 +226,48 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
             {"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if not c.complete
         ],
         "landings_s": landings,
-        "landing_impacts_N": [_plain(impact) for impact in impacts],
-        "cells": gait.foot.force.shape[1],
-        "event_level_N": None if levels is None else levels.release,
-        "contact_level_N": None if levels is None else levels.contact,
-        "measures": {name: dataclasses.asdict(value) for name, value in summary_of_foot(gait).items()},
+        named("landing_impacts_N"): [_plain(impact) for impact in impacts],
+        "cells": foot.force.shape[1],
+        "cell_area_m2": None if layout is None else float(layout.areas.mean()),
+        "missing_percent": 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()),
+        named("event_level_N"): None if levels is None else levels.release,
+        named("contact_level_N"): None if levels is None else levels.contact,
+        named("toe_off_level_N"): None if levels is None else min(levels.lift, levels.contact),
+        "measures": _spreads(summary_of_foot(gait), named),
+        "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
     }
+
+
+def _spreads(values: Mapping[str, Spread], named: Callable[[str], str]) -> dict[str, Any]:
+    return {named(key): dataclasses.asdict(value) for key, value in values.items()}
 
 
 def _plain(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _steps_csv(feet: Mapping[Side, FootGait]) -> str:
+def _steps_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
     """One row a complete step of either foot, in the order of time; empty where a value is not known."""
     steps = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
+    rows = [[s.side, s.number, s.heel_strike_s, s.toe_off_s, *(s[name] for name in MEASURES)] for s in steps]
+    return _csv(["side", "number", "heel_strike_s", "toe_off_s", *(_keys(raw)(name) for name in MEASURES)], rows)
+
+
+def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
+    """One row a region of a complete step."""
+    steps = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
+    rows = [
+        [s.side, s.number, region, *(values.get(name, math.nan) for name in REGION_MEASURES)]
+        for s in steps
+        for region, values in s.regions.items()
+    ]
+    return _csv(["side", "number", "region", *(_keys(raw)(name) for name in REGION_MEASURES)], rows)
+
+
+def _csv(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    names = [f.name for f in dataclasses.fields(Step)]
     writer.writerow(names)
-    for step in steps:
-        values = (getattr(step, name) for name in names)
-        writer.writerow("" if isinstance(v, float) and not math.isfinite(v) else v for v in values)
+    for row in rows:
+        writer.writerow("" if isinstance(v, float) and not math.isfinite(v) else v for v in row)
     return text.getvalue()

@@ -1,37 +1,58 @@
 """Gait events: when a foot strikes the ground and when it leaves it, from its vertical force.
 
 A foot's load is measured against its own range: from the level it rests at in swing (shoes press on insoles, and
-noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above 10 % of that
-range and ends when it falls below 5 %; the time of either event is where the force crosses the 5 % level, between
-samples by a straight line. Fractions of the range serve a child's insole and a robot of 86 kg alike; the 5 % is the
-customary share of body weight, and two levels keep noise from splitting a contact. Where noise is large the levels
-are raised to 4 and 8 of its standard deviations.
+noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above one share of
+that range and ends when it falls below another; two levels keep noise from splitting a contact, and where noise is
+large they are raised to 4 and 8 of its standard deviations. The time of an event is where the force crosses its level,
+between samples by a straight line. Shares serve a child's insole and a robot alike. They depend on what measures
+(`EVENT_LEVELS`): a shoe presses on its insole after the foot has left the ground, a platform does not.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.pressure_recording import Kind
+
 __all__ = [
-    "CONTACT_FRACTION",
+    "EVENT_LEVELS",
     "MINIMUM_STANCE",
     "MINIMUM_SWING",
-    "RELEASE_FRACTION",
     "Contact",
+    "EventLevels",
     "Levels",
     "find_contacts",
     "force_levels",
 ]
 
-CONTACT_FRACTION = 0.10
-"""Share of the force range above which a foot is in contact."""
 
-RELEASE_FRACTION = 0.05
-"""Share of the force range below which it is not any more, and whose crossing is the time of an event."""
+@dataclass(frozen=True)
+class EventLevels:
+    """Shares of the force range at which events lie.
+
+    Attributes:
+        strike: Share below which a foot is not in contact any more, and whose rising crossing is the heel strike.
+        contact: Share that a contact has to reach.
+        lift: Share whose last falling crossing is the toe off.
+    """
+
+    strike: float
+    contact: float
+    lift: float
+
+
+EVENT_LEVELS: Mapping[Kind, EventLevels] = {
+    "insole": EventLevels(0.05, 0.10, 0.10),
+    "robot": EventLevels(0.05, 0.10, 0.05),
+    "platform": EventLevels(0.02, 0.05, 0.02),
+    "plate": EventLevels(0.02, 0.05, 0.02),
+}
+"""Levels of the events by what measures."""
 
 MINIMUM_STANCE = 0.1
 """Shortest contact in s; shorter ones are a brush of the ground or a disturbance and are dropped."""
@@ -52,8 +73,9 @@ class Levels:
     Attributes:
         rest: What the foot carries in swing.
         peak: Its robust peak.
-        release: Level of the events.
+        release: Level of the heel strike, below which a foot is off the ground.
         contact: Level that a contact has to reach.
+        lift: Level of the toe off.
         noise: Standard deviation of the force in swing.
     """
 
@@ -62,6 +84,7 @@ class Levels:
     release: float
     contact: float
     noise: float
+    lift: float
 
 
 @dataclass(frozen=True)
@@ -86,11 +109,12 @@ class Contact:
         return self.heel_strike is not None and self.toe_off is not None
 
 
-def force_levels(force: NDArray[np.float64]) -> Levels | None:
+def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | None:
     """Levels of one foot's vertical force.
 
     Args:
         force: Vertical force (n,) in N; NaN where it was not measured.
+        kind: What measured it.
 
     Returns:
         The levels, or None where the foot never carries anything above its noise.
@@ -112,7 +136,8 @@ def force_levels(force: NDArray[np.float64]) -> Levels | None:
     if rest > 0.3 * peak:  # the foot never leaves the ground: nothing tells what it would rest at
         rest = 0.0
     rest = max(rest, 0.0)
-    quiet = force < rest + CONTACT_FRACTION * (peak - rest)
+    share = EVENT_LEVELS[kind]
+    quiet = force < rest + share.contact * (peak - rest)
     steps = np.diff(force)[quiet[:-1] & quiet[1:]]
     noise = float(np.median(np.abs(steps))) / (0.6745 * np.sqrt(2.0)) if len(steps) >= 20 else 0.0
     if len(steps) >= 20:  # the middle of the swing samples is the better zero
@@ -123,9 +148,10 @@ def force_levels(force: NDArray[np.float64]) -> Levels | None:
     return Levels(
         rest=rest,
         peak=peak,
-        release=rest + max(RELEASE_FRACTION * span, _NOISE_RELEASE * noise),
-        contact=rest + max(CONTACT_FRACTION * span, _NOISE_CONTACT * noise),
+        release=rest + max(share.strike * span, _NOISE_RELEASE * noise),
+        contact=rest + max(share.contact * span, _NOISE_CONTACT * noise),
         noise=noise,
+        lift=rest + max(share.lift * span, _NOISE_RELEASE * noise),
     )
 
 
@@ -206,7 +232,10 @@ def _contacts_of_span(
     contacts: list[Contact] = []
     for a, b in merged:
         strike = _crossing(time, force, a, levels.release) if a > 0 else None
-        lift = _crossing(time, force, b, levels.release) if b < len(force) else None
+        lift = None
+        if b < len(force):
+            b = a + int(np.flatnonzero(force[a:b] >= min(levels.lift, levels.contact))[-1]) + 1
+            lift = _crossing(time, force, b, min(levels.lift, levels.contact))
         if strike is not None and lift is not None and lift - strike < minimum_stance:
             continue
         contacts.append(Contact(strike, lift, a + offset, b + offset))
