@@ -173,7 +173,14 @@ def _print_shoe(summary: dict[str, Any]) -> None:
 
 @app.command()
 def analyze(
-    recording: Annotated[Path, typer.Argument(help="The recording; its format is recognised from its content.")],
+    recording: Annotated[
+        Path | None,
+        typer.Argument(help="The recording or footprint image; recognised from its content.", show_default=False),
+    ] = None,
+    compare: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option("--compare", metavar="A B", help="Two recordings to put side by side instead of one."),
+    ] = None,
     format: Annotated[
         str | None, typer.Option(help="Name of the format, where recognition fails: see plantar list formats.")
     ] = None,
@@ -181,36 +188,77 @@ def analyze(
         Path | None,
         typer.Option(help="Layout file to use instead of the format's own geometry; mirrored for the other foot."),
     ] = None,
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")
+    ] = None,
+    rate: Annotated[float | None, typer.Option(help="Frames a second, instead of the file's.")] = None,
+    side: Annotated[str | None, typer.Option(help="Which foot a file of one foot holds: left or right.")] = None,
+    mm_per_pixel: Annotated[float | None, typer.Option(help="Footprint images: size of a pixel in mm.")] = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/analysis"),
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
 ) -> None:
-    """Find the steps in a recording of plantar pressure, from insoles or a robot's soles, and measure them.
+    """Measure feet: recordings of insoles, platforms, robot soles and force plates, or an image of a footprint.
 
-    Writes metrics.json, steps.csv (a row a step), figures (PNG and SVG) and report.html, which opens anywhere. What
-    had to be assumed stands in "warnings"; what each measure means in docs/metrics.md.
+    Finds the steps and writes metrics.json, steps.csv (a row a step), regions.csv, figures (PNG and SVG) and
+    report.html, which opens anywhere. What had to be assumed stands in "warnings"; what each measure means in
+    docs/metrics.md.
 
     Example: plantar analyze walk.asc -o out/walk
 
     Example: plantar analyze out/demo/run.mcap --json
-    """
-    from gait.analysis.analyse import analyse_recording
 
+    Example: plantar analyze table.csv --layout insole.json --unit kPa
+
+    Example: plantar analyze scan.png --mm-per-pixel 0.5
+
+    Example: plantar analyze --compare before.mcap after.mcap -o out/both
+    """
+    from plantar.formats import ReadOptions
+
+    if (recording is None) == (compare is None):
+        raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
+    if side not in (None, "left", "right"):
+        raise InputError(f"--side is '{side}'; allowed: left, right")
+    options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side))
     with _progress() as tell:
-        result = analyse_recording(recording, output, format=format, layout=layout, progress=tell)
+        if compare is not None:
+            from gait.analysis.compare import compare_recordings
+
+            if mm_per_pixel is not None:
+                raise InputError("--mm-per-pixel is for footprint images; --compare takes recordings over time")
+            result = compare_recordings(*compare, output, format, layout, tell, options=options)
+        else:
+            from gait.analysis.analyse import analyse_recording
+
+            result = analyse_recording(
+                cast(Path, recording), output, format, layout, tell, options=options, mm_per_pixel=mm_per_pixel
+            )
     if as_json:
         print(json.dumps(result))
         return
-    print(f"{result['format']}: {result['frames']} frames at {result['rate_hz']:g} Hz")
-    for side, foot in result["feet"].items():
-        contact = foot["measures"]["contact_time_s"]["mean"]
-        print(f"  {side}: {foot['steps']} complete steps" + (f", contact {contact:.3f} s" if contact else ""))
-    cadence = result["gait"]["cadence_steps_per_min"]
-    if cadence is not None:
-        print(f"  cadence {cadence:.1f} steps/min")
-    for warning in result["warnings"]:
-        print(f"  note: {warning}", file=sys.stderr)
+    for name, metrics in {"A": result["a"], "B": result["b"]}.items() if compare is not None else [("", result)]:
+        _print_analysis(metrics, name)
     for name in result["files"]:
         print(f"  {name}")
+
+
+def _print_analysis(metrics: dict[str, Any], name: str) -> None:
+    """The main figures of an analysis for people, and what was assumed on stderr."""
+    rate = "" if metrics["rate_hz"] is None else f" at {metrics['rate_hz']:.6g} Hz"
+    print(f"{name + ': ' if name else ''}{metrics['format']}: {metrics['frames']} frame(s){rate}")
+    for side, foot in metrics["feet"].items():
+        if "footprint" in foot:
+            print_, arch = foot["footprint"], foot["footprint"]["arch_index"]
+            length = "" if print_["length_m"] is None else f"{1e3 * print_['length_m']:.0f} mm long, "
+            print(f"  {side} footprint: {length}arch index {'-' if arch is None else f'{arch:.3f}'}")
+            continue
+        contact = foot["measures"]["contact_time_s"]["mean"]
+        print(f"  {side}: {foot['steps']} complete steps" + (f", contact {contact:.3f} s" if contact else ""))
+    cadence = metrics["gait"].get("cadence_steps_per_min")
+    if cadence is not None:
+        print(f"  cadence {cadence:.1f} steps/min")
+    for warning in metrics["warnings"]:
+        print(f"  note: {warning}", file=sys.stderr)
 
 
 @app.command()

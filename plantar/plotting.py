@@ -7,6 +7,7 @@ cheap; matplotlib is loaded by the first figure.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from plantar.atomic import replacing
 from plantar.errors import InputError
 from plantar.layout import SoleLayout
 
-__all__ = ["COLOURS", "FORMATS", "draw_cells", "new_figure", "save_figure", "thinned"]
+__all__ = ["COLOURS", "FORMATS", "draw_cells", "draw_classes", "draw_raster", "new_figure", "save_figure", "thinned"]
 
 FORMATS: tuple[str, ...] = ("pdf", "png", "svg")
 """Formats that a figure is saved in, by the suffix of its path."""
@@ -34,6 +35,9 @@ COLOURS = {
     "cop": "#e4572e",
 }
 """Colours with one meaning each across all figures."""
+
+
+_EDGES: dict[str, Any] = {"edgecolors": "#ffffff", "linewidths": 0.6}
 
 
 def new_figure(
@@ -96,12 +100,35 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     Returns:
         The drawn collection, for a colour bar.
     """
+    from matplotlib import colormaps
+
+    cells = _cells(axes, layout, cmap=colormaps["viridis"].with_extremes(bad=COLOURS["cell"]), **_EDGES)
+    cells.set_array(np.ma.masked_invalid(values))
+    cells.set_clim(0.0, highest if highest > 0.0 else 1.0)
+    return cells
+
+
+def draw_classes(axes: Any, layout: SoleLayout, index: NDArray[np.int64], colours: Sequence[str]) -> Any:
+    """Draw a sole from above, toes up, its cells coloured by the class they belong to.
+
+    Args:
+        axes: The axes, as in `draw_cells`.
+        layout: The sole, n cells.
+        index: Class (n,) of each cell, an index into the colours; below 0 is drawn empty.
+        colours: Colour of each class.
+
+    Returns:
+        The drawn collection.
+    """
+    faces = [colours[i] if i >= 0 else COLOURS["cell"] for i in index]
+    return _cells(axes, layout, facecolors=faces, **_EDGES)
+
+
+def _cells(axes: Any, layout: SoleLayout, **style: Any) -> Any:
     from matplotlib.collections import PolyCollection
 
     polygons = [layout.cell_polygon(i)[:, ::-1] * (-1.0, 1.0) for i in range(len(layout))]
-    cells = PolyCollection(polygons, cmap="viridis", edgecolors="#ffffff", linewidths=0.6)
-    cells.set_array(np.ma.masked_invalid(values))
-    cells.set_clim(0.0, highest if highest > 0.0 else 1.0)
+    cells = PolyCollection(polygons, **style)
     axes.add_collection(cells)
     ring = np.vstack([layout.outline, layout.outline[:1]])
     axes.plot(-ring[:, 1], ring[:, 0], color=COLOURS["edge"], linewidth=1.0)
@@ -109,6 +136,21 @@ def draw_cells(axes: Any, layout: SoleLayout, values: NDArray[np.float64], highe
     axes.autoscale_view()
     axes.locator_params(axis="x", nbins=3, steps=[1, 5, 10])
     return cells
+
+
+def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
+    """Draw an image, its axes in the unit of a pixel's size.
+
+    Args:
+        axes: The axes; x to the right, y up from the lower edge.
+        picture: The image (h, w, 3).
+        pixel: Size of a pixel.
+
+    Returns:
+        The drawn image.
+    """
+    height, width = picture.shape[:2]
+    return axes.imshow(picture, extent=(0.0, width * pixel, 0.0, height * pixel))
 
 
 def thinned(

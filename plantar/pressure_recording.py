@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,11 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.layout import Side, SoleLayout, mirrored
 
-__all__ = ["FootRecording", "PressureRecording", "layout_for", "sampling"]
+__all__ = ["FootRecording", "Kind", "PressureRecording", "layout_for", "sampling"]
+
+
+Kind = Literal["insole", "platform", "robot", "plate"]
+"""What measured: insoles in shoes, a platform that is walked over, a robot's soles, or force plates without cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,8 +27,14 @@ class FootRecording:
 
     Attributes:
         side: "left" or "right".
-        force: Normal force (n, k) of each cell in N; NaN where a cell or a frame was not measured.
+        force: Normal force (n, k) of each cell in N; NaN where a cell or a frame was not measured. Counts where the
+            recording is raw.
         layout: Where the cells are, in the order of the columns of `force`; None where nothing says so.
+        total: Vertical force (n,) in N that the device itself states, where its cells do not cover the foot; NaN where
+            not measured. None where the cells' sum is all there is.
+        cop: Centre of pressure (n, 2) in m that the device itself states, NaN without load; None as above.
+        wrench: Wrench (n, 6) on the foot in N and N m about the frame's origin, where the device measures one.
+        placement: Where the sole frame is on the ground (n, 3): x and y in m and the turn about z in rad, where known.
 
     Raises:
         FormatError: If the layout has another number of cells.
@@ -33,6 +43,10 @@ class FootRecording:
     side: Side
     force: NDArray[np.float64]
     layout: SoleLayout | None = None
+    total: NDArray[np.float64] | None = None
+    cop: NDArray[np.float64] | None = None
+    wrench: NDArray[np.float64] | None = None
+    placement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         if self.layout is not None and len(self.layout) != self.force.shape[1]:
@@ -42,19 +56,34 @@ class FootRecording:
             )
 
     @cached_property
-    def _measured(self) -> NDArray[np.float64]:
-        """Forces with 0 in place of NaN: the forces themselves where nothing is missing."""
+    def missing(self) -> NDArray[np.bool_] | None:
+        """Which values (n, k) are missing; None where all were measured."""
         missing = np.isnan(self.force)
-        return np.where(missing, 0.0, self.force) if missing.any() else self.force
+        return missing if missing.any() else None
+
+    @cached_property
+    def measured(self) -> NDArray[np.float64]:
+        """Forces (n, k) with 0 in place of NaN: the forces themselves where nothing is missing."""
+        return self.force if self.missing is None else np.where(self.missing, 0.0, self.force)
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:
-        """Vertical force (n,) in N, summed over the cells that were measured; NaN where none was."""
+        """Vertical force (n,) in N; NaN where it was not measured.
+
+        The device's own total where it states one, else the sum over the cells that were measured. Cells that never
+        measure do not count; a frame that lacks more than a tenth of the others was not measured.
+        """
+        if self.total is not None:
+            return self.total
         rise = np.ones(self.force.shape[1]) if self.layout is None else self.layout.rotations[:, 2, 2]
-        total = self._measured @ rise
-        if self._measured is not self.force:
-            total[np.isnan(self.force).all(axis=1)] = np.nan
-        return np.asarray(total)
+        total = np.asarray(self.measured @ rise)
+        if self.missing is not None:
+            dead = self.missing.all(axis=0)
+            lacking = self.missing[:, ~dead].sum(axis=1)
+            total[lacking > 0.1 * max(1, int((~dead).sum()))] = np.nan
+            if dead.all():
+                total[:] = np.nan
+        return total
 
     def pressure(self, frames: slice = slice(None)) -> NDArray[np.float64] | None:
         """Pressure (m, k) in Pa of some frames, NaN where not measured; None where the cell areas are not known."""
@@ -69,13 +98,18 @@ class FootRecording:
         Returns:
             Positions (n, 2) in the sole frame in m, NaN in frames without one; None where the geometry is not known.
         """
-        if self.layout is None:
-            return None
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
-        moments = self._measured @ (self.layout.positions[:, :2] * self.layout.rotations[:, 2, 2][:, None])
-        out = np.full(moments.shape, np.nan)
-        out[loaded] = moments[loaded] / self.vertical_force[loaded, None]
+        if self.cop is not None:
+            return np.where(loaded[:, None], self.cop, np.nan)
+        if self.layout is None:
+            return None
+        normal = self.layout.rotations[:, 2, 2]
+        # With the force itself as a third column its sum is that of the cells, not the device's.
+        sums = self.measured @ np.column_stack([self.layout.positions[:, :2] * normal[:, None], normal])
+        out = np.full((len(sums), 2), np.nan)
+        loaded &= sums[:, 2] > 0.0
+        out[loaded] = sums[loaded, :2] / sums[loaded, 2:]
         return out
 
 
@@ -88,9 +122,13 @@ class PressureRecording:
         format: Name of its format.
         rate_hz: Frames a second.
         time: Times (n,) in s.
-        feet: The feet that were measured, by side.
+        feet: The feet that were measured, by side. A platform stands under one entry as a whole until
+            `gait.analysis.platform` has told its footprints apart.
         metadata: What the file says beside the data.
         warnings: What was assumed, repaired or left out, one line each.
+        kind: What measured.
+        raw: Whether the values are counts that nobody calibrated: no force or pressure follows from them.
+        grid: Rows and columns of the sensor's matrix, where it is one.
     """
 
     path: Path
@@ -100,6 +138,9 @@ class PressureRecording:
     feet: Mapping[Side, FootRecording]
     metadata: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    kind: Kind = "insole"
+    raw: bool = False
+    grid: tuple[int, int] | None = None
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
@@ -133,7 +174,10 @@ def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArra
     warnings: list[str] = []
     steps = np.diff(time)
     forward = steps[np.isfinite(steps) & (steps > 0.0)]
-    measured = 1.0 / float(np.median(forward)) if len(forward) else None
+    measured = None
+    if len(forward):  # the mean of the usual steps: times may be rounded to ms, and frames may be lost
+        usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
+        measured = 1.0 / float(usual.mean())
     stated = stated_hz if stated_hz is not None and 0.0 < stated_hz < 1e6 else None
     rate = measured or stated
     if rate is None or not np.isfinite(rate):

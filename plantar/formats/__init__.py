@@ -3,17 +3,32 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
-from plantar.errors import FormatError
-from plantar.formats.format import Format
+from plantar.errors import FormatError, InputError
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.plausibility import doubts
+from plantar.formats.units import find_unit
 from plantar.layout import SoleLayout
 from plantar.pressure_recording import PressureRecording
 
-__all__ = ["Format", "detect_format", "formats", "read_recording"]
+__all__ = ["Format", "ReadOptions", "detect_format", "formats", "named_format", "read_recording"]
 
-_MODULES = ("mcap_recording", "novel_pedar")
+_MODULES = (
+    "mcap_recording",
+    "novel_pedar",
+    "novel_emed",
+    "tekscan",
+    "xsensor",
+    "moticon",
+    "c3d_force_plates",
+    "ros_bag",
+    "footprint_image",
+    "array_file",
+    "csv_table",
+)
 _HEAD = 65536
 
 
@@ -21,18 +36,30 @@ def formats() -> dict[str, Format]:
     """All formats by name, in the order in which they are tried.
 
     Example:
-        >>> sorted(formats())
-        ['mcap', 'pedar']
+        >>> list(formats())[:4]
+        ['mcap', 'pedar', 'emed', 'tekscan']
     """
     found: list[Format] = [import_module(f"plantar.formats.{module}").FORMAT for module in _MODULES]
     return {f.name: f for f in found}
 
 
+def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:
+    """The format of a name, or that of a file's content where the name is None.
+
+    Raises:
+        FormatError: If there is no format of this name, or the file is of none.
+    """
+    known = formats()
+    if name is not None and name not in known:
+        raise FormatError(f"unknown format {name!r}; allowed: {', '.join(known)}")
+    return detect_format(path) if name is None else known[name]
+
+
 def detect_format(path: str | os.PathLike[str]) -> Format:
-    """Recognise a file by its content.
+    """Recognise a file, or a folder that holds a recording, by its content.
 
     Args:
-        path: The file.
+        path: The file or folder.
 
     Returns:
         Its format.
@@ -40,23 +67,32 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
     Raises:
         FormatError: If the file cannot be read, is empty, or is of no known format.
     """
+    known = formats()
+    names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
+    if Path(path).is_dir():
+        for candidate in known.values():
+            if candidate.folders is not None and (Path(path) / candidate.folders).is_file():
+                return candidate
+        raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag); known: {names}")
     try:
         with open(path, "rb") as stream:
             head = stream.read(_HEAD)
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    except (OSError, ValueError) as error:
+        raise FormatError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error})") from None
     if not head:
         raise FormatError(f"{path}: the file is empty")
-    known = formats()
     for candidate in known.values():
         if candidate.recognises(head):
             return candidate
-    names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 
 def read_recording(
-    path: str | os.PathLike[str], format: str | None = None, layout: SoleLayout | None = None
+    path: str | os.PathLike[str],
+    format: str | None = None,
+    layout: SoleLayout | None = None,
+    *,
+    options: ReadOptions | None = None,
 ) -> PressureRecording:
     """Read a recording of any known format.
 
@@ -64,19 +100,31 @@ def read_recording(
         path: The file.
         format: Name of its format; recognised from the content where None.
         layout: Sole layout to use instead of the format's own geometry; its mirror image serves the other foot.
+        options: All that the user knows about the file; `layout` is put into it.
 
     Returns:
-        The recording, in SI units.
+        The recording, in SI units, or in counts where it says so.
 
     Raises:
         FormatError: If the format's name is unknown, or the file is not of it.
+        InputError: If an option is not valid.
     """
-    known = formats()
-    if format is not None and format not in known:
-        raise FormatError(f"unknown format {format!r}; allowed: {', '.join(known)}")
-    chosen = detect_format(path) if format is None else known[format]
+    chosen = named_format(path, format)
+    known = options or ReadOptions()
+    known = known if layout is None else replace(known, layout=layout)
+    if known.unit is not None and find_unit(known.unit) is None:
+        raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
+    if known.rate_hz is not None and not 0.1 <= known.rate_hz <= 1e5:
+        raise InputError(f"a rate of {known.rate_hz} Hz is not possible; allowed: 0.1 to 100000")
+    if chosen.read is None:
+        if not Path(path).is_file():
+            raise FormatError(f"{path}: cannot be read (no such file)")
+        raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        return chosen.read(Path(path), layout)
+        recording = chosen.read(Path(path), known)
     except FormatError as error:
-        text = str(error)
+        text = " ".join(str(error).split())
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None
+    except (MemoryError, RecursionError):
+        raise FormatError(f"{path}: the file asks for more memory than there is") from None
+    return replace(recording, warnings=tuple(dict.fromkeys([*recording.warnings, *doubts(recording)])))

@@ -3,13 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from plantar.layout import SoleLayout
+from plantar.layout import Side, SoleLayout
 from plantar.pressure_recording import PressureRecording
 
-__all__ = ["Format"]
+__all__ = ["Format", "ReadOptions"]
+
+
+@dataclass(frozen=True)
+class ReadOptions:
+    """What the user knows about a file and the file may not say. What is given here is used instead of the file's word.
+
+    Attributes:
+        layout: Sole layout to use instead of the format's own geometry; mirrored for the other foot.
+        unit: Unit of the values, for example "kPa", "N" or "raw"; see `plantar.formats.units`.
+        rate_hz: Frames a second.
+        side: Which foot the file holds, where it holds one.
+    """
+
+    layout: SoleLayout | None = None
+    unit: str | None = None
+    rate_hz: float | None = None
+    side: Side | None = None
 
 
 @dataclass(frozen=True)
@@ -21,11 +38,13 @@ class Format:
         title: What it is, in a few words.
         suffixes: File names usually end so; only for listing, files are recognised by their content.
         recognises: Tells from a file's first bytes whether it is of this format.
-        read: Reads a file; takes its path and a sole layout to use instead of the format's own geometry, or None.
+        read: Reads a file; None for footprint images, which are no recordings.
+        folders: File that a folder of this format holds, where the format is a folder.
     """
 
     name: str
     title: str
     suffixes: tuple[str, ...]
     recognises: Callable[[bytes], bool]
-    read: Callable[[Path, SoleLayout | None], PressureRecording]
+    read: Callable[[Path, ReadOptions], PressureRecording] | None
+    folders: str | None = field(default=None)

@@ -6,12 +6,13 @@ from pathlib import Path
 from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
-from plantar.errors import FormatError
-from plantar.formats.format import Format
-from plantar.layout import Side, SoleLayout
+from plantar.errors import DependencyError, FormatError
+from plantar.formats.format import Format, ReadOptions
+from plantar.layout import Side
 from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
-from plantar.recording import MCAP_MAGIC, Table, read_mcap
+from plantar.recording import MCAP_MAGIC, Recording, Table, read_mcap
 
 __all__ = ["FORMAT"]
 
@@ -22,8 +23,8 @@ def _recognises(head: bytes) -> bool:
     return head.startswith(MCAP_MAGIC)
 
 
-def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
-    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N.
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read the skin topics "/skin/left" and "/skin/right", whose field "force" is in N; else any topics with arrays.
 
     Raises:
         FormatError: If the file is no MCAP recording or has no skin in it.
@@ -36,8 +37,7 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
         if table is not None and "force" in table.fields and len(table) > 0:
             tables[side] = table
     if not tables:
-        topics = ", ".join(recording.topics) or "none"
-        raise FormatError(f"{path}: no taxel forces (/skin/left, /skin/right) in the recording; its topics: {topics}")
+        return _other_bag(path, options, ", ".join(recording.topics) or "none")
     first = next(iter(tables.values()))
     time, rate, notes = sampling(first.time, None)
     warnings += notes
@@ -47,12 +47,12 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
         if len(table.time) != len(first.time) or np.abs(table.time - first.time).max() > 1e-6:
             warnings.append(f"the {side} sole has its own frame times: interpolated to those of the other")
             force = np.column_stack([np.interp(time, table.time, column) for column in force.T])
-        own = layout_for(side, layout) or recording.layouts.get(side)
+        own = layout_for(side, options.layout) or recording.layouts.get(side)
         if own is None:
             warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
         elif len(own) != force.shape[1]:
             raise FormatError(f"{path}: the {side} sole has {force.shape[1]} taxels, layout '{own.name}' {len(own)}")
-        feet[side] = FootRecording(side, force, own)
+        feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
     missing = [side for side in _SIDES if side not in feet]
     if missing:
         warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")
@@ -64,7 +64,34 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
         feet=feet,
         metadata=dict(recording.metadata),
         warnings=tuple(warnings),
+        kind="robot",
     )
+
+
+def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """Where the sole is on the ground (n, 3), from the simulator's "/truth/<side>"; None where it is not recorded."""
+    truth = recording.topics.get(f"/truth/{side}")
+    if truth is None or not {"position", "rotation"} <= set(truth.fields) or len(truth) < 2:
+        return None
+    position, rotation = truth.fields["position"], truth.fields["rotation"]
+    if position.shape[1] != 3 or rotation.shape[1] != 9:
+        return None
+    turn = np.unwrap(np.arctan2(rotation[:, 3], rotation[:, 0]))
+    columns = (position[:, 0], position[:, 1], turn)
+    return np.column_stack([np.interp(time, truth.time, column) for column in columns])
+
+
+def _other_bag(path: Path, options: ReadOptions, topics: str) -> PressureRecording:
+    """Read an MCAP file that is not the project's own as a ROS bag."""
+    from plantar.formats.ros_bag import read_bag
+
+    try:
+        return read_bag(path, options)
+    except (FormatError, DependencyError):
+        raise FormatError(
+            f"{path}: no taxel forces (/skin/left, /skin/right) in the recording, nor another topic with an array of "
+            f"numbers; its topics: {topics}"
+        ) from None
 
 
 FORMAT = Format(name="mcap", title="Plantar recording", suffixes=(".mcap",), recognises=_recognises, read=_read)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from plantar.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
-__all__ = ["CELL_AREA", "DEFAULT_SIZE", "ROWS", "nominal_insole"]
+__all__ = ["CELL_AREA", "DEFAULT_SIZE", "ROWS", "insole_outline", "nominal_insole"]
 
 ROWS: tuple[int, ...] = (5, *(7,) * 12, 6, 4)
 """Cells in each row, heel to toe; in a row they are counted from the medial to the lateral edge."""
@@ -34,6 +34,20 @@ DEFAULT_SIZE = "x"
 _STATIONS = np.array([0.0, 0.04, 0.12, 0.22, 0.35, 0.48, 0.62, 0.72, 0.82, 0.91, 0.97, 1.0])
 _WIDTH = np.array([0.130, 0.185, 0.225, 0.240, 0.235, 0.240, 0.285, 0.310, 0.300, 0.250, 0.170, 0.110])
 _CENTRE = np.array([0.0, 0.0, 0.0, 0.0, -0.004, -0.008, -0.004, 0.004, 0.014, 0.024, 0.030, 0.032])
+
+
+def insole_outline(length: float) -> NDArray[np.float64]:
+    """Outline (k, 2) in m of a right insole, counter-clockwise, with the origin in the middle of its heel edge.
+
+    Args:
+        length: Its length in m.
+    """
+    stations = np.linspace(0.0, 1.0, 41)
+    half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
+    centre = np.interp(stations, _STATIONS, _CENTRE)
+    lateral, medial = centre - half, centre + half
+    ring = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
+    return np.asarray(ring * length)
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:

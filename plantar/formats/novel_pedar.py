@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.formats.format import Format
+from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREA, DEFAULT_SIZE, nominal_insole
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
-from plantar.formats.units import PASCALS
+from plantar.formats.units import Unit, find_unit, plain
 from plantar.layout import Side, SoleLayout
 from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 
@@ -32,7 +32,8 @@ _COLUMNS = re.compile(r"\s*time\s*\[\s*s(?:ecs?)?\s*\]", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
 _LARGEST_HEADER = 400
-_PLAUSIBLE = 5e6
+_WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")
+"""Units that the exporting programs write."""
 _BLOCK = 2048
 
 
@@ -42,7 +43,7 @@ def _recognises(head: bytes) -> bool:
     return columns and b"\0" not in head and ("pressure values" in text or "scanning rate" in text)
 
 
-def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """Read a .asc export.
 
     Raises:
@@ -57,17 +58,17 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
         raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
     text = "\n".join(header)
     warnings: list[str] = list(rows.warnings)
-    pascals = _unit(path, text, warnings)
-    time, rate, notes = sampling(rows.time, _rate(text))
+    layout = options.layout
+    unit = _unit(path, text, options, warnings)
+    time, rate, notes = sampling(rows.time, options.rate_hz or _rate(text))
     warnings += notes
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
-    sides = _sides(text, columns, warnings)
+    sides = _sides(text, columns, options, warnings)
     for (side, span), values in zip(sides, rows.take([span for _, span in sides]), strict=True):
         sole = _layout(path, side, columns[span.start : span.stop], layout, geometry, text, warnings)
-        if pascals * max(np.nanmax(values, initial=0.0), -np.nanmin(values, initial=0.0)) > _PLAUSIBLE:
-            warnings.append(f"the {side} foot holds pressures above {_PLAUSIBLE / 1e6:g} MPa: check the unit")
-        values *= pascals * sole.areas
+        if unit.kind == "pressure":
+            values *= unit.factor * sole.areas
         feet[side] = FootRecording(side, values, sole)
     if len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
@@ -77,8 +78,13 @@ def _read(path: Path, layout: SoleLayout | None) -> PressureRecording:
         rate_hz=rate,
         time=time,
         feet=feet,
-        metadata={"sensor": _field(text, r"(?:sensor|mat)\s+type:?\s*(\S.*)") or "", "pressure_unit_pa": pascals},
+        metadata={
+            "sensor": _field(text, r"(?:sensor|mat)\s+type:?\s*(\S.*)") or "",
+            "unit": unit.name,
+            "pressure_unit_pa": unit.factor,
+        },
         warnings=tuple(dict.fromkeys(warnings)),
+        raw=unit.kind == "raw",
     )
 
 
@@ -196,15 +202,17 @@ def _field(text: str, pattern: str) -> str | None:
     return match[1].strip() if match else None
 
 
-def _unit(path: Path, text: str, warnings: list[str]) -> float:
-    stated = _field(text, r"pressure\s+values\s+in:?[ \t]*([^\n]*)")
+def _unit(path: Path, text: str, options: ReadOptions, warnings: list[str]) -> Unit:
+    stated = options.unit or _field(text, r"pressure\s+values\s+in:?[ \t]*([^\n]*)")
     if not stated:
-        warnings.append("the header states no unit of pressure: kPa is assumed, as pedar writes")
-        return PASCALS["kpa"]
-    name = stated.split()[0].lower().replace("²", "2").replace("^", "").replace("[", "").replace("]", "")
-    if name not in PASCALS:
-        raise FormatError(f"{path}: unknown unit of pressure {stated!r}; allowed: {', '.join(PASCALS)}")
-    return PASCALS[name]
+        warnings.append("the header states no unit of pressure: kPa is assumed, as pedar writes (--unit overrides)")
+        return Unit("pressure", 1e3, "kPa")
+    unit = find_unit(stated.split()[0])
+    if options.unit is None and plain(stated.split()[0]) not in _WRITTEN:  # "hPa" is a damaged "kPa", not hectopascal
+        unit = None
+    if unit is None or unit.kind == "force":
+        raise FormatError(f"{path}: unknown unit of pressure {stated!r}; allowed: {', '.join(_WRITTEN)}")
+    return unit
 
 
 def _rate(text: str) -> float | None:
@@ -217,7 +225,7 @@ def _rate(text: str) -> float | None:
     return None
 
 
-def _sides(text: str, columns: list[int], warnings: list[str]) -> list[tuple[Side, range]]:
+def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[str]) -> list[tuple[Side, range]]:
     """Which columns belong to which foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
@@ -238,13 +246,15 @@ def _sides(text: str, columns: list[int], warnings: list[str]) -> list[tuple[Sid
         raise FormatError(f"the column names count {len(restarts) + 1} sensors; one or two feet can be read")
     if listed.get("left") and listed.get("right") and sum(listed.values()) == len(columns):
         return [("left", range(listed["left"])), ("right", range(listed["left"], len(columns)))]
+    if options.side is not None:
+        return [(options.side, range(len(columns)))]
     if len(listed) == 1:
         return [(next(iter(listed)), range(len(columns)))]
     sensor = _field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or ""
     marks = set(re.findall(r"\d([lr])(?![a-z])", sensor.lower()))
     if len(marks) == 1:
         return [("left" if marks == {"l"} else "right", range(len(columns)))]
-    warnings.append("the file does not say which foot it is: taken as the left one")
+    warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
     return [("left", range(len(columns)))]
 
 

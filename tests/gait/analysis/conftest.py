@@ -68,7 +68,7 @@ def make_walk(
         force = weight * share[side][:, None] * (layout.areas / layout.areas.sum())
         force = force + random.normal(0.0, noise, force.shape) if noise else force
         feet[own.side] = FootRecording(own.side, np.maximum(force, 0.0) if clip else force, own)
-    recording = PressureRecording(Path("walk"), "synthetic", rate, time, feet)
+    recording = PressureRecording(Path("walk"), "synthetic", rate, time, feet, kind="robot")
     return Walk(recording, touchdowns, liftoffs, weight)
 
 

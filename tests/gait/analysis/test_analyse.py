@@ -23,8 +23,9 @@ from plantar.formats import read_recording
 from plantar.plotting import thinned
 from plantar.recorder import Recorder
 
-FILES = {"metrics.json", "steps.csv", "report.html"} | {
-    f"{name}.{kind}" for name in ("pressure", "force", "steps") for kind in ("png", "svg")
+FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench")
+FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html"} | {
+    f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg")
 }
 
 
@@ -75,10 +76,10 @@ def test_report_stands_alone(tmp_path: Path, run: tuple[Path, Any]) -> None:
     assert len(page) < 3_000_000
     assert "a &lt;b&gt; &amp; c.mcap" in page
     assert "<b>" not in page
-    assert not re.findall(r'(?:src|href)="(?!data:)', page)
+    assert not re.findall(r'(?:src|href)="(?!data:|#)', page)
     assert "http" not in re.sub(r'base64,[^"]*', "", page)
-    assert page.count("<img alt=") == page.count("<img ") == 3
-    assert "prefers-color-scheme:dark" in page
+    assert page.count("<img alt=") == page.count("<img ") == len(FIGURES)
+    assert "prefers-color-scheme: dark" in page
     assert "@media print" in page
 
 

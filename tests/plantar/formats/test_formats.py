@@ -14,7 +14,7 @@ def test_each_format_is_registered_under_its_own_name() -> None:
     for name, entry in formats().items():
         assert name == entry.name
         assert entry.title
-        assert all(suffix.startswith(".") for suffix in entry.suffixes)
+        assert all(suffix.startswith(".") or suffix == "folder" for suffix in entry.suffixes)
         assert not entry.recognises(b"")
         assert not entry.recognises(b"\x00" * 64)
 

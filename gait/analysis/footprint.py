@@ -1,0 +1,235 @@
+"""The shape of a footprint: its axis, length and width, thirds, and the arch index.
+
+A footprint is a set of convex cells (of a sensor, or pixels of an image) that are loaded. The foot frame used here has
+its origin at the back of the heel: u runs along the foot's axis to the toes, v across it to the medial side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import Side, SoleLayout
+from plantar.polygon import convex_hull
+
+__all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
+
+_HEEL, _FOREFOOT = (0.0, 0.25), (0.55, 0.80)
+"""Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot."""
+
+
+@dataclass(frozen=True, eq=False)
+class Footprint:
+    """A footprint in its foot frame.
+
+    Attributes:
+        side: "left" or "right".
+        origin: Back of the heel on the axis, in m in the frame that the cells came in.
+        axis: Unit vector (2,) of the axis in that frame, from heel to toes.
+        rings: Corners (n, c, 2) of the cells as (u, v) in m; the last one is repeated where a cell has fewer than c.
+        areas: Area (n,) in m^2 that each cell stands for.
+        pressure: Largest pressure (n,) of each cell, or 1 where none is known.
+        toe_line: u in m at which the toes begin, as (v, u) points from lateral to medial; None where no gap or
+            valley of pressure tells toes from forefoot.
+    """
+
+    side: Side
+    origin: NDArray[np.float64]
+    axis: NDArray[np.float64]
+    rings: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    pressure: NDArray[np.float64]
+    toe_line: NDArray[np.float64] | None = None
+
+    @cached_property
+    def centres(self) -> NDArray[np.float64]:
+        """Middles (n, 2) of the cells as (u, v) in m."""
+        return np.asarray(0.5 * (self.rings.min(axis=1) + self.rings.max(axis=1)))
+
+    @property
+    def length(self) -> float:
+        """Length in m, toes included."""
+        return float(self.rings[:, :, 0].max())
+
+    @property
+    def width(self) -> float:
+        """Largest width in m."""
+        return float(np.ptp(self.rings[:, :, 1]))
+
+    @cached_property
+    def is_toe(self) -> NDArray[np.bool_]:
+        """Which cells (n,) are toes."""
+        if self.toe_line is None:
+            return np.zeros(len(self.areas), dtype=bool)
+        return np.asarray(self.centres[:, 0] > np.interp(self.centres[:, 1], *self.toe_line.T))
+
+    @property
+    def toeless_length(self) -> float:
+        """Length in m from the heel to the front of the metatarsal heads."""
+        return float(self.rings[~self.is_toe][:, :, 0].max()) if (~self.is_toe).any() else self.length
+
+    def area_between(self, low: float, high: float) -> float:
+        """Area in m^2 of the print without its toes between two lines across the axis, cells cut exactly."""
+        keep = ~self.is_toe
+        rings, areas = self.rings[keep], self.areas[keep]
+        first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
+        total = float(areas[(first >= low) & (last <= high)].sum())
+        for ring, cell in zip(
+            rings[~((first >= low) & (last <= high)) & (last > low) & (first < high)],
+            areas[~((first >= low) & (last <= high)) & (last > low) & (first < high)],
+            strict=True,
+        ):
+            whole = _area(ring)
+            total += float(cell) * (_area(_cut(_cut(ring, low, 1.0), high, -1.0)) / whole if whole > 0.0 else 0.0)
+        return total
+
+    def arch_index(self) -> float:
+        """Middle third of the toeless footprint over all of it (Cavanagh & Rodgers 1987); NaN for an empty print."""
+        length = self.toeless_length
+        thirds = [self.area_between(i * length / 3.0, (i + 1) * length / 3.0) for i in range(3)]
+        return thirds[1] / sum(thirds) if sum(thirds) > 0.0 else float("nan")
+
+    def width_at(self, u: float) -> float:
+        """Width in m of the print's convex hull at a line across the axis; 0 where it crosses none."""
+        across = _crossing(convex_hull(self.rings.reshape(-1, 2)), u)
+        return 0.0 if across is None else across[1] - across[0]
+
+    def in_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points (m, 2) of the cells' frame as (u, v)."""
+        across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)
+        return np.asarray((points - self.origin) @ np.column_stack([self.axis, across]))
+
+    def from_foot(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Points (m, 2) as (u, v) in the cells' frame."""
+        across = np.array([-self.axis[1], self.axis[0]]) * (1.0 if self.side == "right" else -1.0)
+        return np.asarray(self.origin + points @ np.vstack([self.axis, across]))
+
+
+def footprint_of_cells(
+    layout: SoleLayout,
+    pressure: NDArray[np.float64],
+    loaded: NDArray[np.bool_],
+    side: Side,
+    forward: NDArray[np.float64] | None = None,
+) -> Footprint | None:
+    """The footprint of a sensor's loaded cells.
+
+    Args:
+        layout: The sensor, n cells.
+        pressure: Largest pressure (n,) of each cell.
+        loaded: Which cells (n,) are part of the print.
+        side: The foot.
+        forward: Direction (2,) from heel to toes, from which the print's own axis is found; the sole's x axis, as it
+            is, where None.
+
+    Returns:
+        The footprint; None without a loaded cell.
+    """
+    chosen = np.flatnonzero(loaded)
+    if len(chosen) == 0:
+        return None
+    rings = _padded([layout.cell_polygon(int(i)) for i in chosen])
+    return _footprint(rings, layout.areas[chosen], pressure[chosen], side, forward)
+
+
+def footprint_of_pixels(
+    centres: NDArray[np.float64], pixel: float, side: Side, forward: NDArray[np.float64]
+) -> Footprint:
+    """The footprint of an image's pixels.
+
+    Args:
+        centres: Middles (n, 2) of the pixels in m, x and y as in the sole frame.
+        pixel: Their size in m.
+        side: The foot.
+        forward: Direction (2,) from heel to toes, about.
+    """
+    box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    rings = centres[:, None, :] + box
+    return _footprint(rings, np.full(len(centres), pixel**2), np.ones(len(centres)), side, forward)
+
+
+def _padded(polygons: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    most = max(len(p) for p in polygons)
+    return np.array([np.vstack([p, np.repeat(p[-1:], most - len(p), axis=0)]) for p in polygons])
+
+
+def _footprint(
+    rings: NDArray[np.float64],
+    areas: NDArray[np.float64],
+    pressure: NDArray[np.float64],
+    side: Side,
+    forward: NDArray[np.float64] | None,
+) -> Footprint:
+    axis = np.array([1.0, 0.0]) if forward is None else np.asarray(forward, dtype=float) / np.hypot(*forward)
+    middle = 0.5 * (rings.min(axis=1) + rings.max(axis=1))
+    through = np.average(middle, axis=0, weights=areas) if forward is not None else np.zeros(2)
+    for _ in range(4 if forward is not None else 0):
+        along = rings @ axis
+        low, high = float(along.min()), float(along.max())
+        ends = [
+            _middle_of_band(rings, axis, low + a * (high - low), low + b * (high - low)) for a, b in (_HEEL, _FOREFOOT)
+        ]
+        if ends[0] is None or ends[1] is None or np.hypot(*(ends[1] - ends[0])) < 0.2 * (high - low):
+            break
+        step = ends[1] - ends[0]
+        axis, through = step / np.hypot(*step), ends[0]
+    back = float((rings @ axis).min())
+    origin = through + (back - float(through @ axis)) * axis
+    print_ = Footprint(side, origin, axis, rings, areas, pressure)
+    turned = print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape)
+    return replace(print_, rings=turned)
+
+
+def _middle_of_band(
+    rings: NDArray[np.float64], axis: NDArray[np.float64], low: float, high: float
+) -> NDArray[np.float64] | None:
+    """The point halfway between the medial-most and the lateral-most cell between two lines across an axis."""
+    across = rings @ np.array([-axis[1], axis[0]])
+    along = rings @ axis
+    centre = 0.5 * (along.min(axis=1) + along.max(axis=1))
+    inside = (centre >= low) & (centre <= high)
+    if not inside.any():
+        return None
+    middle = 0.5 * float(across[inside].min() + across[inside].max())
+    return np.asarray(0.5 * (low + high) * axis + middle * np.array([-axis[1], axis[0]]))
+
+
+def _area(ring: NDArray[np.float64]) -> float:
+    if len(ring) < 3:
+        return 0.0
+    x, y = (ring - ring[0]).T
+    return 0.5 * abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
+
+
+def _cut(ring: NDArray[np.float64], at: float, sign: float) -> NDArray[np.float64]:
+    """The part of a convex ring with sign * (u - at) >= 0."""
+    if len(ring) == 0:
+        return ring
+    height = sign * (ring[:, 0] - at)
+    out: list[NDArray[np.float64]] = []
+    for i in range(len(ring)):
+        j = (i + 1) % len(ring)
+        if height[i] >= 0.0:
+            out.append(ring[i])
+        if (height[i] >= 0.0) != (height[j] >= 0.0):
+            share = height[i] / (height[i] - height[j])
+            out.append(ring[i] + share * (ring[j] - ring[i]))
+    return np.array(out).reshape(-1, 2)
+
+
+def _crossing(ring: NDArray[np.float64], u: float) -> tuple[float, float] | None:
+    """Where a line across the axis passes through a cell: lowest and highest v."""
+    height = ring[:, 0] - u
+    if height.min() > 0.0 or height.max() < 0.0:
+        return None
+    found: list[float] = [float(v) for h, v in zip(height, ring[:, 1], strict=True) if h == 0.0]
+    for i in range(len(ring)):
+        j = (i + 1) % len(ring)
+        if height[i] * height[j] < 0.0:
+            share = height[i] / (height[i] - height[j])
+            found.append(float(ring[i, 1] + share * (ring[j, 1] - ring[i, 1])))
+    return (min(found), max(found)) if found else None

@@ -1,0 +1,105 @@
+"""The vertical force of one contact: its two peaks, the valley between them, loading rate and impulse."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["force_measures", "landing_impact"]
+
+IMPACT_WINDOW = 0.05
+"""Time in s after touchdown in which the landing impact is looked for."""
+
+_DEPTH = 0.02
+"""How deep a valley has to be, as a share of the lower peak, to tell two peaks apart."""
+
+_UNKNOWN = dict.fromkeys(
+    (
+        "first_peak_N",
+        "valley_N",
+        "second_peak_N",
+        "first_peak_percent",
+        "valley_percent",
+        "second_peak_percent",
+        "loading_rate_N_s",
+        "loading_rate_max_N_s",
+    ),
+    float("nan"),
+)
+
+
+def force_measures(
+    time: NDArray[np.float64], force: NDArray[np.float64], strike: float, lift: float
+) -> dict[str, float]:
+    """Measures of the force curve of one contact.
+
+    The impulse runs from strike to lift; the pieces before the first and after the last frame count as triangles.
+
+    Args:
+        time: Times (m,) in s of the frames in contact that were measured, 2 or more.
+        force: Vertical force (m,) in N.
+        strike: Time of the heel strike in s.
+        lift: Time of the toe off in s.
+
+    Returns:
+        The measures by their key; NaN for peaks and valley where the curve has no two peaks.
+
+    Example:
+        >>> t = np.linspace(0.0, 1.0, 201)
+        >>> two_humps = 800.0 * np.sin(np.pi * t) + 200.0 * np.sin(3.0 * np.pi * t)
+        >>> m = force_measures(t, two_humps, 0.0, 1.0)
+        >>> round(m["first_peak_percent"]), round(m["valley_N"]), round(m["impulse_Ns"], 1)
+        (28, 600, 551.7)
+    """
+    duration = lift - strike
+    impulse = float(np.trapezoid(force, time))
+    impulse += 0.5 * max(0.0, float(time[0]) - strike) * float(force[0])
+    impulse += 0.5 * max(0.0, lift - float(time[-1])) * float(force[-1])
+    top = int(np.argmax(force))
+    out = {
+        **_UNKNOWN,
+        "peak_force_N": float(force[top]),
+        "mean_force_N": impulse / duration if duration > 0.0 else np.nan,
+        "impulse_Ns": impulse,
+    }
+    share = (time - strike) / duration
+    early, late = np.flatnonzero(share <= 0.5), np.flatnonzero(share > 0.5)
+    rise = top
+    if len(early) >= 3 and len(late) >= 3:
+        first, second = int(early[np.argmax(force[early])]), int(late[np.argmax(force[late])])
+        low = first + int(np.argmin(force[first : second + 1]))
+        if force[low] < (1.0 - _DEPTH) * min(force[first], force[second]) and first < low < second:
+            rise = first
+            for name, at in (("first_peak", first), ("valley", low), ("second_peak", second)):
+                out[f"{name}_N"] = float(force[at])
+                out[f"{name}_percent"] = 100.0 * float(share[at])
+    out |= _loading(time[: rise + 1], force[: rise + 1], strike)
+    return out
+
+
+def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:
+    """Loading rates up to the first peak: mean slope between 20 and 80 % of the rise's time, and the largest one."""
+    if len(time) < 3 or time[-1] <= strike:
+        return {}
+    begin, end = strike + 0.2 * (time[-1] - strike), strike + 0.8 * (time[-1] - strike)
+    low, high = np.interp([begin, end], time, force)
+    return {
+        "loading_rate_N_s": float((high - low) / (end - begin)),
+        "loading_rate_max_N_s": float((np.diff(force) / np.diff(time)).max()),
+    }
+
+
+def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
+    """Largest vertical force in N within 50 ms of a heel strike; NaN where none was measured.
+
+    Args:
+        time: Times (n,) in s.
+        force: Vertical force (n,) in N.
+        strike: Time of the heel strike in s.
+
+    Returns:
+        The force in N.
+    """
+    window = force[np.searchsorted(time, strike) : np.searchsorted(time, strike + IMPACT_WINDOW, side="right")]
+    window = window[np.isfinite(window)]
+    return float(window.max()) if len(window) else float("nan")

@@ -1,0 +1,116 @@
+"""What is measured of a step: name, title, unit and how readers are shown it. Definitions: docs/metrics.md."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "raw_name"]
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One measure.
+
+    Attributes:
+        title: What it is, for people.
+        unit: Unit that people are shown.
+        factor: From SI to that unit.
+        group: Heading that it stands under.
+    """
+
+    title: str
+    unit: str
+    factor: float
+    group: str
+
+
+_TIME, _FORCE, _PRESSURE, _COP, _FOOT, _ROBOT = (
+    "Time",
+    "Vertical force",
+    "Pressure and area",
+    "Centre of pressure",
+    "Footprint and walk",
+    "Robot sole",
+)
+
+MEASURES: Mapping[str, Measure] = {
+    "contact_time_s": Measure("Contact time", "s", 1.0, _TIME),
+    "stride_time_s": Measure("Stride time", "s", 1.0, _TIME),
+    "step_time_s": Measure("Step time", "s", 1.0, _TIME),
+    "swing_time_s": Measure("Swing time", "s", 1.0, _TIME),
+    "stance_percent": Measure("Stance", "% of stride", 1.0, _TIME),
+    "swing_percent": Measure("Swing", "% of stride", 1.0, _TIME),
+    "double_support_percent": Measure("Double support", "% of stride", 1.0, _TIME),
+    "single_support_percent": Measure("Single support", "% of stride", 1.0, _TIME),
+    "peak_force_N": Measure("Peak force", "N", 1.0, _FORCE),
+    "mean_force_N": Measure("Mean force over the contact", "N", 1.0, _FORCE),
+    "first_peak_N": Measure("First peak (loading)", "N", 1.0, _FORCE),
+    "valley_N": Measure("Valley (mid-stance)", "N", 1.0, _FORCE),
+    "second_peak_N": Measure("Second peak (push-off)", "N", 1.0, _FORCE),
+    "first_peak_percent": Measure("First peak at", "% of stance", 1.0, _FORCE),
+    "valley_percent": Measure("Valley at", "% of stance", 1.0, _FORCE),
+    "second_peak_percent": Measure("Second peak at", "% of stance", 1.0, _FORCE),
+    "loading_rate_N_s": Measure("Loading rate, 20 to 80 % of the rise", "kN/s", 1e-3, _FORCE),
+    "loading_rate_max_N_s": Measure("Largest loading rate", "kN/s", 1e-3, _FORCE),
+    "impulse_Ns": Measure("Impulse (force-time integral)", "N·s", 1.0, _FORCE),
+    "landing_impact_N": Measure("Landing impact (50 ms)", "N", 1.0, _FORCE),
+    "peak_pressure_Pa": Measure("Peak pressure", "kPa", 1e-3, _PRESSURE),
+    "mean_pressure_Pa": Measure("Mean pressure, largest of a frame", "kPa", 1e-3, _PRESSURE),
+    "pressure_time_integral_Pas": Measure("Pressure-time integral, of each frame's peak", "kPa·s", 1e-3, _PRESSURE),
+    "pressure_time_integral_cell_Pas": Measure("Pressure-time integral, largest of a cell", "kPa·s", 1e-3, _PRESSURE),
+    "contact_area_m2": Measure("Contact area, largest of a frame", "cm²", 1e4, _PRESSURE),
+    "footprint_area_m2": Measure("Footprint area, all of the contact", "cm²", 1e4, _PRESSURE),
+    "support_polygon_area_m2": Measure("Support polygon, largest of a frame", "cm²", 1e4, _PRESSURE),
+    "support_polygon_mean_m2": Measure("Support polygon, mean over the contact", "cm²", 1e4, _PRESSURE),
+    "cop_path_m": Measure("Path length", "mm", 1e3, _COP),
+    "cop_excursion_ap_m": Measure("Excursion, back to front", "mm", 1e3, _COP),
+    "cop_excursion_ml_m": Measure("Excursion, side to side", "mm", 1e3, _COP),
+    "cop_velocity_m_s": Measure("Velocity", "mm/s", 1e3, _COP),
+    "cop_velocity_max_m_s": Measure("Largest velocity", "mm/s", 1e3, _COP),
+    "cpei_percent": Measure("Excursion index (CPEI)", "% of width", 1.0, _COP),
+    "cop_margin_m": Measure("Margin to the sole's edge", "mm", 1e3, _COP),
+    "arch_index": Measure("Arch index", "", 1.0, _FOOT),
+    "foot_length_m": Measure("Footprint length", "mm", 1e3, _FOOT),
+    "foot_width_m": Measure("Footprint width", "mm", 1e3, _FOOT),
+    "foot_progression_deg": Measure("Foot progression angle, outward", "°", 1.0, _FOOT),
+    "step_length_m": Measure("Step length", "mm", 1e3, _FOOT),
+    "step_width_m": Measure("Step width", "mm", 1e3, _FOOT),
+    "stride_length_m": Measure("Stride length", "mm", 1e3, _FOOT),
+    "stride_velocity_m_s": Measure("Stride velocity", "m/s", 1.0, _FOOT),
+    "cop_margin_polygon_m": Measure("CoP margin to the support polygon, smallest", "mm", 1e3, _ROBOT),
+    "cop_margin_polygon_mean_m": Measure("CoP margin to the support polygon, mean", "mm", 1e3, _ROBOT),
+    "fx_peak_N": Measure("Wrench: largest |fx|", "N", 1.0, _ROBOT),
+    "fy_peak_N": Measure("Wrench: largest |fy|", "N", 1.0, _ROBOT),
+    "tx_peak_Nm": Measure("Wrench: largest |tx|", "N·m", 1.0, _ROBOT),
+    "ty_peak_Nm": Measure("Wrench: largest |ty|", "N·m", 1.0, _ROBOT),
+    "tz_peak_Nm": Measure("Wrench: largest |tz|", "N·m", 1.0, _ROBOT),
+}
+"""Measures of a step that have a mean and a spread, by their key, which names the SI unit."""
+
+REGION_MEASURES: Mapping[str, Measure] = {
+    "peak_force_N": Measure("Peak force", "N", 1.0, ""),
+    "peak_pressure_Pa": Measure("Peak pressure", "kPa", 1e-3, ""),
+    "impulse_Ns": Measure("Force-time integral", "N·s", 1.0, ""),
+    "impulse_percent": Measure("Share of impulse", "%", 1.0, ""),
+    "pressure_time_integral_Pas": Measure("Pressure-time integral", "kPa·s", 1e-3, ""),
+    "contact_area_m2": Measure("Contact area", "cm²", 1e4, ""),
+    "contact_time_s": Measure("Contact time", "s", 1.0, ""),
+    "contact_percent": Measure("Contact", "% of stance", 1.0, ""),
+}
+"""Measures of a region of the foot in a step."""
+
+_RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s1"), ("_Nm", "_raw_m"), ("_N", "_raw"))
+
+
+def raw_name(key: str) -> str:
+    """A measure's key in a recording of counts, which have no unit of force.
+
+    Example:
+        >>> raw_name("peak_force_N"), raw_name("contact_time_s")
+        ('peak_force_raw', 'contact_time_s')
+    """
+    for end, instead in _RAW:
+        if key.endswith(end):
+            return key.removesuffix(end) + instead
+    return key

@@ -1,0 +1,147 @@
+"""Pressure of one contact: peaks, pressure-time integrals in both definitions, areas, regions, and a robot's wrench."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.batch import support_polygons
+from plantar.layout import SoleLayout
+from plantar.polygon import signed_margin
+
+__all__ = ["StepLoad", "pressure_measures", "region_measures", "robot_measures"]
+
+_MOST_FRAMES = 200
+"""Frames of a contact in which support polygons are looked at; of more, every n-th."""
+
+
+@dataclass(frozen=True, eq=False)
+class StepLoad:
+    """What the cells carried in one contact.
+
+    Attributes:
+        time: Times (m,) in s.
+        force: Force (m, k) of each cell in N.
+        pressure: Pressure (m, k) in Pa, counts of a raw recording; None where no areas are known.
+        loaded: Which cells (m, k) count as loaded.
+        areas: Area (k,) of each cell in m^2; None without geometry.
+    """
+
+    time: NDArray[np.float64]
+    force: NDArray[np.float64]
+    pressure: NDArray[np.float64] | None
+    loaded: NDArray[np.bool_]
+    areas: NDArray[np.float64] | None
+
+
+def _integral(values: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Integral over time (trapezoids) of each column; of (m,) or (m, k) values."""
+    if len(time) < 2:
+        return np.zeros(values.shape[1:])
+    step = np.diff(time)
+    weight = 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
+    return np.asarray(weight @ values)
+
+
+def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> dict[str, float]:
+    """Measures of a contact's pressures.
+
+    Args:
+        load: The contact, with pressures.
+        layout: Where the cells are; None where only the values are known.
+
+    Returns:
+        The measures by their key.
+    """
+    assert load.pressure is not None
+    highest = load.pressure.max(axis=1)
+    out = {
+        "peak_pressure_Pa": float(highest.max()),
+        "pressure_time_integral_Pas": float(_integral(highest, load.time)),
+        "pressure_time_integral_cell_Pas": float(_integral(load.pressure, load.time).max()),
+    }
+    if load.areas is None or layout is None:
+        return out
+    area = load.loaded @ load.areas
+    force = np.where(load.loaded, load.force, 0.0)
+    pressure = np.divide(force.sum(axis=1), area, out=np.zeros(len(area)), where=area > 0.0)
+    every = -(-len(area) // _MOST_FRAMES)
+    polygons = support_polygons(layout, force[::every], 0.0).area
+    return out | {
+        "mean_pressure_Pa": float(pressure.max()),
+        "contact_area_m2": float(area.max()),
+        "footprint_area_m2": float(load.areas[load.loaded.any(axis=0)].sum()),
+        "support_polygon_area_m2": float(polygons.max()),
+        "support_polygon_mean_m2": float(polygons.mean()),
+    }
+
+
+def region_measures(
+    load: StepLoad, region: NDArray[np.int64], names: Sequence[str], duration: float
+) -> dict[str, dict[str, float]]:
+    """Measures of each region of the foot in one contact.
+
+    Args:
+        load: The contact, with pressures.
+        region: Index (k,) into `names` of each cell, -1 for none.
+        names: Names of the regions.
+        duration: Contact time of the whole foot in s.
+
+    Returns:
+        The measures of each region that has cells; those of `gait.analysis.measures.REGION_MEASURES`.
+    """
+    assert load.pressure is not None
+    whole = float(_integral(load.force.sum(axis=1), load.time))
+    out: dict[str, dict[str, float]] = {}
+    for index, name in enumerate(names):
+        cells = np.flatnonzero(region == index)
+        if len(cells) == 0:
+            continue
+        force = load.force[:, cells].sum(axis=1)
+        pressure = load.pressure[:, cells].max(axis=1)
+        loaded = load.loaded[:, cells]
+        impulse = float(_integral(force, load.time))
+        on = loaded.any(axis=1)
+        step = float(np.median(np.diff(load.time))) if len(load.time) > 1 else 0.0
+        contact = min(float(on.sum()) * step, duration)
+        out[name] = {
+            "peak_force_N": float(force.max()),
+            "peak_pressure_Pa": float(pressure.max()),
+            "impulse_Ns": impulse,
+            "impulse_percent": 100.0 * impulse / whole if whole > 0.0 else np.nan,
+            "pressure_time_integral_Pas": float(_integral(pressure, load.time)),
+            "contact_time_s": contact,
+            "contact_percent": 100.0 * contact / duration if duration > 0.0 else np.nan,
+        }
+        if load.areas is not None:
+            out[name]["contact_area_m2"] = float((loaded @ load.areas[cells]).max())
+    return out
+
+
+def robot_measures(load: StepLoad, layout: SoleLayout, cop: NDArray[np.float64]) -> dict[str, float]:
+    """Wrench of a sole of taxels, and margin of its centre of pressure to the support polygon.
+
+    Args:
+        load: The contact.
+        layout: The sole.
+        cop: Centre of pressure (m, 2) of its frames in m, NaN where there is none.
+
+    Returns:
+        Largest magnitudes of the wrench's components about the sole frame's origin, and the smallest and mean margin.
+    """
+    wrench = np.abs(load.force @ layout.wrench_map.T)
+    fx, fy, _, tx, ty, tz = wrench.max(axis=0)
+    out = {"fx_peak_N": fx, "fy_peak_N": fy, "tx_peak_Nm": tx, "ty_peak_Nm": ty, "tz_peak_Nm": tz}
+    every = -(-len(cop) // _MOST_FRAMES)
+    force = np.where(load.loaded, load.force, 0.0)[::every]
+    polygons = support_polygons(layout, force, 0.0, vertices=True)
+    margins: list[float] = []
+    for i, point in enumerate(cop[::every]):
+        if np.isfinite(point[0]) and polygons.size[i] >= 3:
+            margins.append(signed_margin(polygons.polygon(i), point))
+    if margins:
+        out |= {"cop_margin_polygon_m": min(margins), "cop_margin_polygon_mean_m": float(np.mean(margins))}
+    return out

@@ -1,0 +1,89 @@
+"""What all steps say together: mean and spread of each measure, symmetry, and the walk as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from gait.analysis.measures import MEASURES, REGION_MEASURES
+from gait.analysis.parameters import FootGait
+from gait.analysis.regions import REGIONS
+from gait.analysis.spread import Spread, spread
+from plantar.layout import Side
+
+__all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
+
+
+def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
+    """Each measure of a foot over its complete steps; an insole's footprint is that of its mean picture (n is 1)."""
+    out = {name: spread([step[name] for step in gait.steps]) for name in MEASURES}
+    if gait.footprint is not None and gait.steps:
+        print_ = gait.footprint
+        of_print = {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
+        out |= {name: spread([value]) for name, value in of_print.items()}
+    return out
+
+
+def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
+    """Each measure of each region over the complete steps of a foot; regions that no step has are left out."""
+    out: dict[str, dict[str, Spread]] = {}
+    for region in REGIONS:
+        rows = [step.regions[region] for step in gait.steps if region in step.regions]
+        if rows:
+            out[region] = {name: spread([row.get(name, np.nan) for row in rows]) for name in REGION_MEASURES}
+    return out
+
+
+def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]:
+    """Measures of the walk as a whole.
+
+    Args:
+        feet: The feet that were recorded.
+
+    Returns:
+        landings (heel strikes of all feet), stride_time_s (mean), cadence_steps_per_min (two steps in the mean stride),
+        double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
+        walking_speed_m_s (means); None where the recording cannot tell.
+    """
+    steps = [step for g in feet.values() for step in g.steps]
+    stride = spread([s["stride_time_s"] for s in steps]).mean
+
+    def mean(key: str) -> float | None:
+        return spread([s[key] for s in steps]).mean
+
+    return {
+        "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
+        "stride_time_s": stride,
+        "cadence_steps_per_min": None if stride is None else 120.0 / stride,
+        "double_support_percent": mean("double_support_percent"),
+        "single_support_percent": mean("single_support_percent"),
+        "step_length_m": mean("step_length_m"),
+        "step_width_m": mean("step_width_m"),
+        "stride_length_m": mean("stride_length_m"),
+        "walking_speed_m_s": mean("stride_velocity_m_s"),
+    }
+
+
+def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:
+    """Symmetry index of each measure in percent: 100 (L - R) / ((L + R) / 2) of the feet's means (Robinson 1987).
+
+    Args:
+        feet: The feet that were recorded.
+        names: The measures.
+
+    Returns:
+        0 for symmetry, above 0 where the left foot's value is larger; None where a foot has no value, or the two have
+        opposite signs.
+    """
+    names = list(names)
+    if "left" not in feet or "right" not in feet:
+        return dict.fromkeys(names)
+    left, right = summary_of_foot(feet["left"]), summary_of_foot(feet["right"])
+    out: dict[str, float | None] = {}
+    for name in names:
+        a, b = left[name].mean, right[name].mean
+        out[name] = None
+        if a is not None and b is not None and a * b >= 0.0 and a + b != 0.0:
+            out[name] = 200.0 * (a - b) / (a + b)
+    return out

@@ -1,0 +1,89 @@
+"""Where steps are set: their length and width, the stride, and the angle of the foot to the line of walking."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import Side
+
+__all__ = ["Place", "step_geometry"]
+
+_LEAST_STRIDE = 0.05
+"""Distance in m under which two footprints of one foot give no direction."""
+
+_LONGEST_STRIDE = 3.0
+"""Time in s after which a footprint is not the next one of a walk."""
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """Where one step stands.
+
+    Attributes:
+        time: Time of its heel strike in s.
+        heel: Position (2,) of the back of the heel on the ground in m.
+        axis: Direction (2,) of the foot, from heel to toes.
+        forward: Direction (2,) of walking, where it is known apart from the steps.
+    """
+
+    time: float
+    heel: NDArray[np.float64]
+    axis: NDArray[np.float64]
+    forward: NDArray[np.float64] | None = None
+
+
+def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dict[str, float]]]:
+    """Measures of each step from where it stands and where those before it stood.
+
+    The line of walking of a step joins the heels of this foot's footprint before it and of this one (its stride);
+    without one, it is the direction that the place states. Step length is measured along it from the other foot's last
+    heel, step width is that heel's distance from it (Huxham et al. 2006).
+
+    Args:
+        places: The steps of each foot, in order.
+
+    Returns:
+        step_length_m, step_width_m, stride_length_m, stride_velocity_m_s and foot_progression_deg (outward positive)
+        of each step, as far as they are known.
+
+    Example:
+        >>> x = np.array([1.0, 0.0])
+        >>> left = [Place(0.0, np.array([0.0, 0.1]), x), Place(1.0, np.array([1.2, 0.1]), x)]
+        >>> right = [Place(0.5, np.array([0.6, 0.0]), x)]
+        >>> out = step_geometry({"left": left, "right": right})["left"][1]
+        >>> round(out["step_length_m"], 6), round(out["step_width_m"], 6), round(out["stride_length_m"], 6)
+        (0.6, 0.1, 1.2)
+    """
+    out: dict[Side, list[dict[str, float]]] = {}
+    for side, own in places.items():
+        others = places.get("right" if side == "left" else "left", ())
+        out[side] = [_step(side, place, own[i - 1] if i else None, others) for i, place in enumerate(own)]
+    return out
+
+
+def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place]) -> dict[str, float]:
+    out: dict[str, float] = {}
+    forward = place.forward
+    if before is not None and place.time - before.time <= _LONGEST_STRIDE:
+        stride = place.heel - before.heel
+        length = float(np.hypot(*stride))
+        out["stride_length_m"] = length
+        out["stride_velocity_m_s"] = length / (place.time - before.time)
+        if length >= _LEAST_STRIDE:
+            forward = stride / length
+    if forward is None:
+        return out
+    left = np.array([-forward[1], forward[0]])
+    outward = 1.0 if side == "left" else -1.0
+    out["foot_progression_deg"] = outward * float(np.degrees(np.arctan2(place.axis @ left, place.axis @ forward)))
+    earlier = [o for o in others if o.time < place.time and place.time - o.time <= _LONGEST_STRIDE]
+    between = before is None or not earlier or earlier[-1].time > before.time
+    if earlier and between:
+        step = place.heel - earlier[-1].heel
+        out["step_length_m"] = float(step @ forward)
+        out["step_width_m"] = abs(float(step @ left))
+    return out

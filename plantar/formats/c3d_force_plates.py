@@ -1,0 +1,201 @@
+"""Force plates in C3D files: the force, its moment and the centre of pressure of each plate, without cells.
+
+ezc3d reads the file in a process of its own: its native code was seen to crash and to ask for any amount of memory on
+damaged files, which must not take this process with it.
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import DependencyError, FormatError
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.units import FORCES, LENGTHS
+from plantar.layout import Side
+from plantar.pressure_recording import FootRecording, PressureRecording
+
+__all__ = ["FORMAT", "plates_of_file"]
+
+_SECONDS = 120.0
+_LEAST = 20.0
+"""Vertical force in N from which a plate counts as stepped on."""
+
+
+def _recognises(head: bytes) -> bool:
+    return len(head) >= 512 and head[1] == 0x50 and 2 <= head[0] < 200
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read the force plates.
+
+    Raises:
+        FormatError: If the file is damaged or holds no force plate.
+        DependencyError: If ezc3d is not installed.
+    """
+    if find_spec("ezc3d") is None:
+        raise DependencyError("ezc3d", "formats")
+    if not path.is_file():
+        raise FormatError(f"{path}: cannot be read (no such file)")
+    held = _in_other_process(path)
+    rate = options.rate_hz or float(held["rate"])
+    count = int(held["plates"])
+    if count == 0:
+        raise FormatError(f"{path}: the C3D file holds no force plate (group FORCE_PLATFORM)")
+    if not 0.1 <= rate <= 1e5:
+        raise FormatError(f"{path}: an analog rate of {rate} Hz is not possible")
+    warnings: list[str] = []
+    plates = [_Plate(held, i, warnings) for i in range(count)]
+    used = [p for p in plates if (p.force[:, 2] > _LEAST).any()]
+    if not used:
+        raise FormatError(f"{path}: no force plate carries more than {_LEAST:g} N")
+    if len(used) < count:
+        warnings.append(f"{count - len(used)} of {count} force plates are never stepped on")
+    if any(p.turned for p in used):
+        warnings.append("the plates' forces point down: taken as those on the plate, and turned to those on the foot")
+    feet = {side: _foot(side, own) for side, own in _sides(used, options, warnings).items()}
+    time = np.arange(len(used[0].force)) / rate
+    warnings.append("force plates have no cells: no pressures, areas and regions; the CoP is in the laboratory's axes")
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata={"plates": count},
+        warnings=tuple(dict.fromkeys(warnings)),
+        kind="plate",
+    )
+
+
+class _Plate:
+    """One force plate: force on the foot (n, 3) in N, CoP (n, 2) and centre (2,) in m, free moment (n,) in N m."""
+
+    def __init__(self, held: dict[str, NDArray[Any]], number: int, warnings: list[str]) -> None:
+        units = [str(u) for u in held[f"units_{number}"]]
+        force_unit, moment_unit, length_unit = (u.strip().lower() for u in units)
+        if force_unit not in FORCES:
+            warnings.append(f"a plate's unit of force {force_unit!r} is not known: N is assumed")
+        if length_unit not in LENGTHS:
+            warnings.append(f"a plate's unit of length {length_unit!r} is not known: mm is assumed")
+        length = LENGTHS.get(length_unit, 1e-3)
+        self.force = held[f"force_{number}"].T * FORCES.get(force_unit, 1.0)
+        self.force[~np.isfinite(self.force)] = np.nan
+        loaded = self.force[np.abs(self.force[:, 2]) > _LEAST, 2]
+        self.turned = len(loaded) > 0 and float(np.median(loaded)) < 0.0
+        moment_length = 1.0 if moment_unit in ("nm", "n.m", "n*m") else 1e-3
+        self.free_moment = held[f"tz_{number}"].T[:, 2] * moment_length
+        if self.turned:
+            self.force, self.free_moment = -self.force, -self.free_moment
+        self.cop = held[f"cop_{number}"].T[:, :2] * length
+        self.cop[~np.isfinite(self.cop).all(axis=1) | ~(self.force[:, 2] > _LEAST)] = np.nan
+        self.centre = held[f"corners_{number}"][:2].mean(axis=1) * length
+
+
+def _sides(plates: list[_Plate], options: ReadOptions, warnings: list[str]) -> dict[Side, list[_Plate]]:
+    """Which plates are of which foot: by their place across the direction of walking."""
+    if len(plates) == 1:
+        side = options.side or "left"
+        if options.side is None:
+            warnings.append(
+                "the file does not say which foot steps on the plate: taken as the left one (--side overrides)"
+            )
+        return {side: plates}
+    onset = [float(np.argmax(p.force[:, 2] > _LEAST)) for p in plates]
+    order = np.argsort(onset)
+    travel = plates[int(order[-1])].centre - plates[int(order[0])].centre
+    path = np.vstack([p.cop[np.isfinite(p.cop).all(axis=1)][[0, -1]] for p in plates if np.isfinite(p.cop).any()])
+    along = sum((path[i + 1] - path[i] for i in range(0, len(path), 2)), np.zeros(2))
+    direction = along if np.hypot(*along) > 0.02 else travel
+    direction = direction / max(float(np.hypot(*direction)), 1e-9)
+    places = [np.nanmean(p.cop, axis=0) if np.isfinite(p.cop).any() else p.centre for p in plates]
+    leftward = np.array([place @ np.array([-direction[1], direction[0]]) for place in places])
+    middle = 0.5 * (leftward.max() + leftward.min())
+    warnings.append("which plate is stepped on by which foot is told from their places across the direction of walking")
+    if np.ptp(leftward) < 0.02:
+        warnings.append("the plates lie in one line: taken as stepped on by left and right in turns")
+        return {
+            "left": [plates[int(i)] for i in order[0::2]],
+            "right": [plates[int(i)] for i in order[1::2]],
+        }
+    left = [p for p, y in zip(plates, leftward, strict=True) if y >= middle]
+    right = [p for p, y in zip(plates, leftward, strict=True) if y < middle]
+    return {"left": left, "right": right}
+
+
+def _foot(side: Side, plates: list[_Plate]) -> FootRecording:
+    force = np.sum([np.nan_to_num(p.force) for p in plates], axis=0)
+    load = np.array([np.where(np.isfinite(p.cop[:, 0]), np.nan_to_num(p.force[:, 2]), 0.0) for p in plates])
+    places = np.array([np.nan_to_num(p.cop) for p in plates])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cop = (load[:, :, None] * places).sum(axis=0) / load.sum(axis=0)[:, None]
+    free = np.sum([np.nan_to_num(p.free_moment) for p in plates], axis=0)
+    x, y = np.nan_to_num(cop).T
+    moment = np.column_stack([y * force[:, 2], -x * force[:, 2], x * force[:, 1] - y * force[:, 0] + free])
+    return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=np.column_stack([force, moment]))
+
+
+def _in_other_process(path: Path) -> dict[str, NDArray[Any]]:
+    code = "import sys; from plantar.formats.c3d_force_plates import plates_of_file; plates_of_file(sys.argv[1])"
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", code, str(path.absolute())],
+            capture_output=True,
+            timeout=_SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise FormatError(f"{path}: not a C3D file that can be read (it takes longer than {_SECONDS:g} s)") from None
+    try:
+        with np.load(io.BytesIO(done.stdout), allow_pickle=False) as held:
+            return {name: held[name] for name in held.files}
+    except (ValueError, OSError, EOFError, KeyError):
+        last = done.stderr.decode(errors="replace").strip().splitlines()
+        why = last[-1][:160] if last else f"the library ended with {done.returncode}"
+        raise FormatError(f"{path}: not a C3D file that can be read ({why})") from None
+
+
+def plates_of_file(path: str) -> None:
+    """Write the force plates of a C3D file to stdout as an NPZ; run in a process of its own.
+
+    Args:
+        path: The file.
+    """
+    try:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+    except (ImportError, ValueError, OSError):  # no such limit on this system: the time limit remains
+        pass
+    import ezc3d  # 0.08 s
+
+    with open(path, "rb") as stream:
+        head = stream.read(512)
+    if len(head) < 512 or head[1] != 0x50:
+        raise ValueError("no C3D header")
+    first, last = struct.unpack_from("<HH", head, 6)
+    content = ezc3d.c3d(path, extract_forceplat_data=True)
+    out: dict[str, Any] = {"rate": float(content["header"]["analogs"]["frame_rate"]), "frames": np.array([first, last])}
+    plates = content["data"]["platform"]
+    out["plates"] = len(plates)
+    for i, plate in enumerate(plates):
+        out[f"force_{i}"] = np.asarray(plate["force"], dtype=float)
+        out[f"cop_{i}"] = np.asarray(plate["center_of_pressure"], dtype=float)
+        out[f"tz_{i}"] = np.asarray(plate["Tz"], dtype=float)
+        out[f"corners_{i}"] = np.asarray(plate["corners"], dtype=float)
+        out[f"units_{i}"] = np.array([plate["unit_force"], plate["unit_moment"], plate["unit_position"]])
+    buffer = io.BytesIO()
+    np.savez(buffer, **out)
+    sys.stdout.buffer.write(buffer.getvalue())
+
+
+FORMAT = Format(name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read)
+"""The entry of the registry."""

@@ -1,0 +1,99 @@
+"""Columns of cells, from formats that hold numbers and no geometry, as the recording of one foot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.format import ReadOptions
+from plantar.formats.polygon_layout import subset
+from plantar.formats.units import Unit, find_unit
+from plantar.layout import Side, SoleLayout
+from plantar.pressure_recording import FootRecording, layout_for
+
+__all__ = ["cells_of_foot", "halves", "unit_of_values"]
+
+
+def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
+    """The unit of the values: the user's word, else the file's, else raw counts with a warning.
+
+    Args:
+        stated: Unit that the file states, None where it states none.
+        options: What the user says.
+        warnings: Where an assumption is put.
+        what: What states nothing, for the warning.
+
+    Raises:
+        FormatError: If the stated unit is not known.
+    """
+    text = options.unit or stated
+    if not text:
+        warnings.append(f"{what} states no unit: the values are kept as raw counts (--unit says what they are)")
+        return Unit("raw", 1.0, "raw")
+    unit = find_unit(text)
+    if unit is None:
+        raise FormatError(f"unknown unit {text!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
+    return unit
+
+
+def cells_of_foot(
+    side: Side,
+    values: NDArray[np.float64],
+    unit: Unit,
+    options: ReadOptions,
+    warnings: list[str],
+    ids: Sequence[int] | None = None,
+    own: SoleLayout | None = None,
+) -> FootRecording:
+    """One foot's forces from values in a unit.
+
+    Args:
+        side: The foot.
+        values: Values (n, k), NaN where not measured.
+        unit: What they are.
+        options: With the layout that the user gave, which comes before the file's own.
+        warnings: Where an assumption is put.
+        ids: Cell ids of the columns, where the file names them.
+        own: Layout that the file itself holds.
+
+    Raises:
+        FormatError: If the layout has another number of cells, or pressures have no cell areas to make forces of.
+    """
+    layout = layout_for(side, options.layout) or own
+    if layout is not None and ids is not None and len(set(ids)) == len(ids) and set(ids) <= set(layout.ids.tolist()):
+        index = {int(v): i for i, v in enumerate(layout.ids)}
+        order = [index[i] for i in ids]
+        layout = layout if order == list(range(len(layout))) else subset(layout, order)
+    elif layout is not None and len(layout) == values.shape[1] and ids is not None:
+        warnings.append("the cells' names are not the layout's ids: taken in the layout's order")
+    if layout is not None and len(layout) != values.shape[1]:
+        raise FormatError(f"the {side} foot has {values.shape[1]} cells, layout '{layout.name}' {len(layout)}")
+    if layout is None and unit.kind == "pressure":
+        raise FormatError(
+            f"pressures in {unit.name} need the cells' areas to become forces: give a layout with --layout"
+        )
+    if layout is None:
+        warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
+    factor = unit.factor
+    force = values * (factor * layout.areas) if unit.kind == "pressure" and layout is not None else values * factor
+    return FootRecording(side, force, layout)
+
+
+def halves(
+    values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
+) -> list[tuple[Side, NDArray[np.float64]]]:
+    """Columns that name no foot: both feet where there are twice the layout's cells, else one."""
+    k = values.shape[1]
+    if options.layout is not None and k == 2 * len(options.layout):
+        warnings.append(
+            "there are twice the layout's cells: the first half is taken as the left foot, the second as the right"
+        )
+        return [("left", values[:, : k // 2]), ("right", values[:, k // 2 :])]
+    side = options.side
+    if side is None:
+        side = "left" if options.layout is None else options.layout.side
+        warnings.append(f"the file does not say which foot it is: taken as the {side} one (--side overrides)")
+    return [(side, values)]

@@ -1,0 +1,229 @@
+"""Tables of any origin (CSV, TSV): a column of times, a column a cell, a row of names that may state sides and units.
+
+Names such as "time [ms]", "left 12 [kPa]", "R_3", "force_7" are understood: a name's last number is the cell's id.
+Lines that start with "#" may state "unit: kPa", "rate: 100" or "side: left".
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.side import side_of
+from plantar.formats.text import number, number_in, open_text, row_of_numbers
+from plantar.formats.units import find_unit
+from plantar.layout import Side
+from plantar.pressure_recording import FootRecording, PressureRecording, sampling
+
+__all__ = ["FORMAT"]
+
+_TIME = re.compile(
+    r"\s*(?:t|time|timestamp|zeit|secs?|seconds)(?:[_ ]?(?:s|ms|us|ns|sec|secs|seconds))?\s*(?:[\[(].*[\])])?\s*$",
+    re.I,
+)
+_SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_USUAL_RATE = 100.0
+
+
+def _recognises(head: bytes) -> bool:
+    """Printable lines of which the last whole ones are rows of three numbers or more."""
+    if b"\0" in head.replace(b"\xff\xfe", b"")[:64]:
+        return False
+    text = head.decode("latin-1")
+    lines = [x for x in text.splitlines() if x.strip() and not x.startswith("#")]
+    lines = lines[1:-1] if len(lines) > 3 else lines[1:]
+    if not lines:
+        return False
+    delimiter = _delimiter(lines)
+    rows = [x.split(delimiter) for x in lines[:50]]
+    good = [len(r) >= 3 and sum(number(c) is not None or not c.strip() for c in r) >= 0.9 * len(r) for r in rows]
+    return sum(good) >= 0.9 * len(good)
+
+
+def _delimiter(lines: list[str]) -> str | None:
+    """The sign between cells: the one that all lines share most often; None for blanks."""
+    best = max("\t;,", key=lambda d: (min(x.count(d) for x in lines[:50]) > 0, d != ","))
+    return best if min(x.count(best) for x in lines[:50]) > 0 else None
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read a table.
+
+    Raises:
+        FormatError: If it holds no rows of numbers, or a unit that is not known.
+    """
+    warnings: list[str] = []
+    with open_text(path) as stream:
+        lines = [line.rstrip("\n") for line in stream]
+    facts = _facts([x for x in lines if x.startswith("#")])
+    whole = bool(lines) and len(lines) > 1
+    lines = [x for x in lines if x.strip() and not x.startswith("#")]
+    if not whole or len(lines) < 2:
+        raise FormatError(f"{path}: the table has no rows")
+    delimiter = _delimiter(lines[1:])
+    first = [c.strip().strip('"') for c in lines[0].split(delimiter)]
+    named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
+    table = _table(path, lines[1:] if named else lines, delimiter, len(first), warnings)
+    names = first if named else []
+    if not named:
+        warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
+    at = next((i for i, n in enumerate(names) if _TIME.match(n)), None)
+    if at is None and (not named or not names[0]):
+        column = table[:, 0]
+        at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
+    time, rate, notes = _times(table, names, at, facts, options, warnings)
+    cells = [i for i in range(table.shape[1]) if i != at]
+    feet = _feet(table, names, cells, facts, options, warnings)
+    if len(feet) == 1 and side_of(*names) is not None:
+        warnings.append(f"the file holds the {next(iter(feet))} foot only")
+    raw = bool(facts.pop("_raw", ""))
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata=facts,
+        warnings=(*warnings, *notes),
+        raw=raw,
+    )
+
+
+def _facts(comments: list[str]) -> dict[str, str]:
+    out: dict[str, str] = {}
+    for line in comments:
+        match = re.match(r"#+\s*([A-Za-z_ ]+?)\s*[:=]\s*(.*)", line)
+        if match:
+            out[match[1].strip().lower()] = match[2].strip()
+    return out
+
+
+def _table(path: Path, lines: list[str], delimiter: str | None, width: int, warnings: list[str]) -> NDArray[np.float64]:
+    out = np.full((len(lines), width), np.nan)
+    bad = short = 0
+    for i, line in enumerate(lines):
+        cells = line.split(delimiter)
+        while len(cells) > width and not cells[-1].strip():
+            cells.pop()
+        if len(cells) != width:
+            short += 1
+            continue
+        try:
+            out[i] = np.array(cells, dtype=float)
+        except ValueError:
+            out[i], wrong = row_of_numbers(cells)
+            bad += wrong
+    out[~np.isfinite(out)] = np.nan
+    last = lines[-1].split(delimiter)
+    if len(last) != width and len(lines) > 1:
+        out, short = out[:-1], short - 1
+        warnings.append("the last row is cut short: left out")
+    if short > 0.2 * len(lines) or bad > 0.2 * out.size:
+        raise FormatError(f"{path}: not a table of numbers: {short} rows of another width, {bad} cells of text")
+    if short:
+        warnings.append(f"{short} damaged row(s) count as not measured")
+    if bad:
+        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
+    return out
+
+
+def _times(
+    table: NDArray[np.float64],
+    names: list[str],
+    at: int | None,
+    facts: dict[str, str],
+    options: ReadOptions,
+    warnings: list[str],
+) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
+    stated = options.rate_hz or next((number_in(v) for k, v in facts.items() if "rate" in k or "frequency" in k), None)
+    if at is None or options.rate_hz is not None:
+        if stated is None:
+            warnings.append(
+                f"the table has no times and states no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)"
+            )
+        rate = stated or _USUAL_RATE
+        return np.arange(len(table)) / rate, rate, ()
+    name = names[at] if names else ""
+    match = re.search(r"[\[(]\s*(\w+)\s*[\])]|[_ ](s|ms|us|ns|secs?|seconds)\"?\s*$", name, re.IGNORECASE)
+    unit = (match[1] or match[2]).lower() if match else ""
+    factor = _SECONDS.get(unit)
+    if factor is None:
+        factor = 1.0
+        step = np.nanmedian(np.diff(table[:, at])) if len(table) > 1 else 0.0
+        if step >= 1.0:  # a frame a second is no gait; whole numbers are milliseconds
+            factor = 1e-3 if step < 1e3 else 1e-6 if step < 1e6 else 1e-9
+        warnings.append(f"the times state no unit: {'s' if factor == 1.0 else f'{factor:g} s'} is assumed")
+    time = table[:, at] * factor
+    known = time[np.isfinite(time)]
+    return sampling(time - (known[0] if len(known) and abs(known[0]) > 1e5 else 0.0), stated)
+
+
+def _feet(
+    table: NDArray[np.float64],
+    names: list[str],
+    cells: list[int],
+    facts: dict[str, str],
+    options: ReadOptions,
+    warnings: list[str],
+) -> dict[Side, FootRecording]:
+    stated = facts.get("unit", facts.get("units"))
+    columns: dict[Side | None, list[tuple[int, int | None]]] = {}
+    found: list[str] = []
+    for i in cells:
+        name = names[i] if names else ""
+        bracket = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]\s*$", name) or re.search(r"_(kPa|N|Pa|mmHg|psi|raw)$", name)
+        if bracket:
+            found.append(bracket[1])
+            name = name[: bracket.start()]
+        last = re.findall(r"\d+", name)
+        if names and not last:
+            if name.strip():
+                warnings.append(f"column {names[i]!r} is no cell: left out")
+            continue
+        columns.setdefault(side_of(re.sub(r"\d+", " ", name)), []).append((i, int(last[-1]) if last else None))
+    unit_text = stated or (max(set(found), key=found.count) if found else None)
+    if len({find_unit(u) for u in found}) > 1:
+        raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
+    unit = unit_of_values(unit_text, options, warnings, "the table")
+    facts["_raw"] = "raw" if unit.kind == "raw" else ""
+    if not columns:
+        raise FormatError("no column of the table is a cell")
+    feet: dict[Side, FootRecording] = {}
+    sides: tuple[Side, Side] = ("left", "right")
+    if None in columns and len(columns) == 1:
+        own = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
+        indices = [i for i, _ in columns[None]]
+        ids = [c for _, c in columns[None] if c is not None]
+        split: list[tuple[Side, NDArray[np.float64]]] = (
+            [(own, table[:, indices])] if own else halves(table[:, indices], options, warnings)
+        )
+        for side, values in split:
+            ordered = ids if len(ids) == values.shape[1] else None
+            feet[side] = cells_of_foot(side, values, unit, options, warnings, ordered)
+        return feet
+    if None in columns:
+        warnings.append(f"{len(columns[None])} column(s) name no foot: left out")
+    for side in sides:
+        if side in columns:
+            ids = [c for _, c in columns[side] if c is not None]
+            values = table[:, [i for i, _ in columns[side]]]
+            feet[side] = cells_of_foot(
+                side, values, unit, options, warnings, ids if len(ids) == values.shape[1] else None
+            )
+    return feet
+
+
+FORMAT = Format(
+    name="csv",
+    title="table of any origin, with --layout and --unit",
+    suffixes=(".csv", ".tsv", ".txt"),
+    recognises=_recognises,
+    read=_read,
+)
+"""The entry of the registry."""

@@ -1,0 +1,244 @@
+"""Footprints in images: a scan, an ink print or a pressure plot (PNG, JPEG, TIFF, BMP), found against the background.
+
+An image is no recording over time: `read_footprints` gives what is in it, and `Format.read` is None.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import DependencyError, FormatError, InputError
+from plantar.formats.format import Format
+
+__all__ = ["FORMAT", "FootprintImage", "Print", "read_footprints"]
+
+_MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
+_MOST_PIXELS = 200_000_000
+_WORKING = 1600
+"""Longer side in pixels that is enough to outline a foot; larger images are reduced."""
+
+
+@dataclass(frozen=True, eq=False)
+class Print:
+    """One footprint.
+
+    Attributes:
+        mask: Which pixels (h, w) belong to it.
+        contours: Outlines (k, 2) of its parts as (column, row) in pixels of the mask: the foot, and toes apart from it.
+    """
+
+    mask: NDArray[np.bool_]
+    contours: tuple[NDArray[np.float64], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class FootprintImage:
+    """An image with one or two footprints, from left to right.
+
+    Attributes:
+        path: The file.
+        pixel: Size of a pixel of the masks in m; None where nothing says so.
+        picture: The image (h, w, 3) in RGB, of the masks' size.
+        prints: The footprints.
+        warnings: What was assumed.
+    """
+
+    path: Path
+    pixel: float | None
+    picture: NDArray[np.uint8]
+    prints: tuple[Print, ...]
+    warnings: tuple[str, ...]
+
+
+def _recognises(head: bytes) -> bool:
+    return head.startswith(_MAGIC)
+
+
+def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintImage:
+    """Find the footprints in an image.
+
+    Args:
+        path: The image.
+        mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
+
+    Raises:
+        FormatError: If the file is no image, or no footprint stands out from its background.
+        InputError: If mm_per_pixel is not possible.
+        DependencyError: If OpenCV is not installed.
+    """
+    if mm_per_pixel is not None and not (np.isfinite(mm_per_pixel) and 0.001 <= mm_per_pixel <= 50.0):
+        raise InputError(f"--mm-per-pixel {mm_per_pixel} is not possible; allowed: 0.001 to 50")
+    try:
+        import cv2  # 0.1 s: only where an image is read
+    except ImportError:
+        raise DependencyError("cv2", "formats") from None
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    warnings: list[str] = []
+    image = _decoded(cv2, path, data)
+    if mm_per_pixel is None:
+        mm_per_pixel = _stated_resolution(data)
+        if mm_per_pixel is None:
+            warnings.append("the image states no resolution: no lengths and areas; give --mm-per-pixel")
+        else:
+            warnings.append(f"{mm_per_pixel:.4g} mm a pixel, from the resolution that the image states")
+    factor = min(1.0, _WORKING / max(image.shape[:2]))
+    if factor < 1.0:
+        size = max(1, round(image.shape[1] * factor)), max(1, round(image.shape[0] * factor))
+        factor = size[0] / image.shape[1]
+        image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    pixel = None if mm_per_pixel is None else mm_per_pixel * 1e-3 / factor
+    mask = _foreground(cv2, image)
+    prints = _prints(cv2, mask, pixel, warnings)
+    if not prints:
+        raise FormatError(f"{path}: no footprint stands out from the background of the image")
+    picture = np.ascontiguousarray(image[:, :, ::-1])
+    return FootprintImage(path, pixel, picture, tuple(prints), tuple(warnings))
+
+
+def _decoded(cv2: Any, path: Path, data: bytes) -> NDArray[np.uint8]:
+    """The image as BGR over white, upright whatever its bit depth."""
+    size = _stated_size(data)
+    if size is not None and (size[0] * size[1] > _MOST_PIXELS or min(size) < 1):
+        raise FormatError(f"{path}: an image of {size[0]} x {size[1]} pixels is too large to read")
+    previous = cv2.utils.logging.getLogLevel() if hasattr(cv2, "utils") else None
+    try:
+        if previous is not None:
+            cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+        raw = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        raw = None
+    finally:
+        if previous is not None:
+            cv2.utils.logging.setLogLevel(previous)
+    if raw is None or raw.size == 0 or min(raw.shape[:2]) < 16:
+        raise FormatError(f"{path}: not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)")
+    if raw.dtype != np.uint8:
+        low, high = float(np.nanmin(raw)), float(np.nanmax(raw))
+        raw = ((np.nan_to_num(raw.astype(float)) - low) * (255.0 / max(high - low, 1e-9))).clip(0, 255).astype(np.uint8)
+    if raw.ndim == 2:
+        return np.asarray(cv2.cvtColor(raw, cv2.COLOR_GRAY2BGR))
+    if raw.shape[2] == 4:
+        alpha = raw[:, :, 3:].astype(float) / 255.0
+        return np.asarray((raw[:, :, :3] * alpha + 255.0 * (1.0 - alpha)).astype(np.uint8))
+    return np.asarray(raw[:, :, :3])
+
+
+def _stated_size(data: bytes) -> tuple[int, int] | None:
+    """Width and height of a PNG before it is decoded: a damaged one may announce any amount of memory."""
+    if data.startswith(_MAGIC[0]) and len(data) >= 24:
+        width, height = struct.unpack_from(">II", data, 16)
+        return int(width), int(height)
+    return None
+
+
+def _stated_resolution(data: bytes) -> float | None:
+    """mm a pixel as PNG (pHYs) or JPEG (JFIF) state it; None where they do not, or state a screen's 72 or 96 dpi."""
+    per_metre = 0.0
+    if data.startswith(_MAGIC[0]):
+        at = data.find(b"pHYs", 0, 4096)
+        if at > 0 and len(data) >= at + 13 and data[at + 12] == 1:
+            per_metre = float(struct.unpack_from(">I", data, at + 4)[0])
+    elif data.startswith(_MAGIC[1]) and data[6:10] == b"JFIF" and len(data) > 16:
+        unit, density = data[13], float(struct.unpack_from(">H", data, 14)[0])
+        per_metre = density / 0.0254 if unit == 1 else density * 100.0 if unit == 2 else 0.0
+    dpi = per_metre * 0.0254
+    if dpi < 20.0 or dpi > 4800.0 or min(abs(dpi - 72.0), abs(dpi - 96.0)) < 0.6:
+        return None
+    return 1e3 / per_metre
+
+
+def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Pixels whose colour is far from that of the image's border, by Otsu's threshold."""
+    smooth = cv2.GaussianBlur(image, (0, 0), max(1.0, max(image.shape[:2]) / 500.0))
+    lab = cv2.cvtColor(smooth, cv2.COLOR_BGR2LAB).astype(np.float32)
+    rim = max(2, min(image.shape[:2]) // 60)
+    border = np.concatenate([lab[:rim].reshape(-1, 3), lab[-rim:].reshape(-1, 3), lab[:, :rim].reshape(-1, 3)])
+    border = np.concatenate([border, lab[:, -rim:].reshape(-1, 3)])
+    distance = np.sqrt(((lab - np.median(border, axis=0)) ** 2).sum(axis=2))
+    scaled = np.clip(distance * (255.0 / max(float(distance.max()), 1e-6)), 0, 255).astype(np.uint8)
+    if float(distance.max()) < 12.0:
+        return np.zeros(image.shape[:2], dtype=np.uint8)
+    level, _ = cv2.threshold(scaled, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
+    noise = float(np.percentile(scaled[:rim], 99.0))
+    mask = (scaled > max(0.7 * level, min(noise + 6.0, level))).astype(np.uint8)
+    kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (3, 3))
+    return np.asarray(cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_OPEN, kernel), cv2.MORPH_CLOSE, kernel))
+
+
+def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: list[str]) -> list[Print]:
+    """Parts of the foreground gathered to feet: toes and a heel that stand apart belong to the part they are near."""
+    count, labels, stats, centres = cv2.connectedComponentsWithStats(mask, connectivity=8)
+    areas = stats[1:, cv2.CC_STAT_AREA].astype(float)
+    if not len(areas):
+        return []
+    big = [i + 1 for i in range(count - 1) if areas[i] >= 0.02 * areas.max() and areas[i] >= 0.0002 * mask.size]
+    big = [i for i in big if not (stats[i, 2] > 0.98 * mask.shape[1] and stats[i, 3] > 0.98 * mask.shape[0])]
+    if not big:
+        return []
+    boxes = {i: stats[i, :4].astype(float) for i in big}
+    length = max(max(b[2], b[3]) for b in boxes.values())
+    upright = mask.shape[0] >= mask.shape[1] or _tall(boxes, length)
+    groups: list[list[int]] = []
+    for i in sorted(big, key=lambda k: -stats[k, cv2.CC_STAT_AREA]):
+        near = [g for g in groups if _belongs(boxes, stats, g, i, upright, length)]
+        if near:
+            best = min(near, key=lambda g: float(np.hypot(*(centres[i] - centres[g[0]]))))
+            best.append(i)
+        else:
+            groups.append([i])
+    groups = [
+        g for g in groups if sum(areas[i - 1] for i in g) >= 0.25 * max(sum(areas[i - 1] for i in h) for h in groups)
+    ]
+    if len(groups) > 2:
+        warnings.append(f"{len(groups)} shapes stand out: the two largest are taken as feet")
+        groups = sorted(groups, key=lambda g: -sum(areas[i - 1] for i in g))[:2]
+    out: list[Print] = []
+    for group in sorted(groups, key=lambda g: float(centres[g[0]][0])):
+        own = np.isin(labels, group)
+        found, _ = cv2.findContours(own.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+        contours = tuple(c.reshape(-1, 2).astype(float) for c in found if len(c) >= 3)
+        out.append(Print(own, contours))
+    return out
+
+
+def _tall(boxes: dict[int, NDArray[np.float64]], length: float) -> bool:
+    """Whether the longest part stands upright."""
+    longest = max(boxes.values(), key=lambda b: float(max(b[2], b[3])))
+    return bool(longest[3] >= longest[2])
+
+
+def _belongs(
+    boxes: dict[int, NDArray[np.float64]], stats: Any, group: list[int], part: int, upright: bool, length: float
+) -> bool:
+    """Whether a part is of the foot that a group is: in line with it, and apart by less than 0.4 of its length."""
+    across, along = (0, 1) if upright else (1, 0)
+    low = min(boxes[i][across] for i in group)
+    high = max(boxes[i][across] + boxes[i][across + 2] for i in group)
+    box = boxes[part]
+    middle = box[across] + 0.5 * box[across + 2]
+    if not low - 0.25 * (high - low) <= middle <= high + 0.25 * (high - low):
+        return False
+    first = min(boxes[i][along] for i in group)
+    last = max(boxes[i][along] + boxes[i][along + 2] for i in group)
+    gap = max(first - (box[along] + box[along + 2]), box[along] - last)
+    whole = max(last, box[along] + box[along + 2]) - min(first, box[along])
+    return bool(gap < 0.4 * length and whole < 4.5 * max(high - low, box[across + 2]))
+
+
+FORMAT = Format(
+    name="image",
+    title="footprint image, with --mm-per-pixel",
+    suffixes=(".png", ".jpg", ".tif", ".bmp"),
+    recognises=_recognises,
+    read=None,
+)
+"""The entry of the registry."""

@@ -1,0 +1,248 @@
+"""Moticon OpenGo text exports (.txt): tab-separated channels of two sensor insoles of 16 cells each.
+
+Lines that start with "#" are the header; the last of them names the channels with their units in brackets. Empty values
+are dropouts of the radio link and stay missing. The insole's total force and centre of pressure are the device's own:
+its cells cover a part of the sole.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.moticon_insole import LENGTH, WIDTH, moticon_insole
+from plantar.formats.text import number, open_text
+from plantar.formats.units import Unit, find_unit
+from plantar.layout import Side, SoleLayout
+from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+
+__all__ = ["FORMAT"]
+
+_CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
+_USUAL_UNIT = "N/cm2"
+
+
+def _recognises(head: bytes) -> bool:
+    text = head.replace(b"\0", b"").decode("latin-1")
+    return re.search(r"^\W*#?\s*time[^\n]*(left|right) pressure 1", text, re.MULTILINE | re.IGNORECASE) is not None
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read a text export.
+
+    Raises:
+        FormatError: If no line names the channels, no row fits it, or a unit is not known.
+    """
+    warnings: list[str] = []
+    with open_text(path) as stream:
+        header, names, delimiter, rows = _take(path, list(stream))
+    table = _numbers(path, rows, delimiter, names, warnings)
+    time, rate, notes = sampling(table[:, 0], options.rate_hz)
+    size = _size(header, warnings)
+    feet: dict[Side, FootRecording] = {}
+    sides: tuple[Side, Side] = ("left", "right")
+    units: set[str] = set()
+    raw = False
+    for side in sides:
+        columns = _columns(names, side)
+        cells = sorted(
+            (int(key.split()[-1]), i) for key, (i, _) in columns.items() if re.fullmatch(r"pressure \d+", key)
+        )
+        if not cells or np.isnan(table[:, [i for _, i in cells]]).all():
+            continue
+        unit = _unit(path, options, [columns[f"pressure {c}"][1] for c, _ in cells], warnings)
+        raw = raw or unit.kind == "raw"
+        units.add(unit.name)
+        pressure = table[:, [i for _, i in cells]]
+        total = _total(path, columns, table, side, warnings)
+        layout = _layout(path, side, size, pressure, unit, total, options, warnings)
+        cop = _device_cop(columns, table, size, side) if options.layout is None else None
+        if unit.kind == "raw":
+            total, cop = None, None
+        force = pressure if unit.kind == "raw" else pressure * (unit.factor * layout.areas)
+        feet[side] = FootRecording(side, force, layout, total=total, cop=cop)
+    if not feet:
+        raise FormatError(f"{path}: no channel 'left pressure 1' or 'right pressure 1' holds values")
+    if len(units) > 1:
+        warnings.append(f"the feet are in different units ({', '.join(sorted(units))})")
+    if len(feet) == 1:
+        warnings.append(f"the file holds the {next(iter(feet))} foot only")
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata={**header, "unit": next(iter(units))},
+        warnings=(*warnings, *notes),
+        raw=raw,
+    )
+
+
+def _take(path: Path, lines: list[str]) -> tuple[dict[str, str], list[str], str, list[str]]:
+    """Facts of the header, names of the channels, the delimiter, and the lines of data."""
+    header: dict[str, str] = {}
+    names: list[str] = []
+    delimiter = "\t"
+    for i, line in enumerate(lines):
+        text = line.lstrip("\ufeff").rstrip("\n")
+        content = text.lstrip("# ")
+        if re.match(r"\"?time\b.*(left|right) ", content, re.IGNORECASE):
+            delimiter = next((d for d in "\t;," if d in content), "\t")
+            names = [c.strip().strip('"') for c in content.split(delimiter)]
+            return header, names, delimiter, [x for x in lines[i + 1 :] if x.strip() and not x.startswith("#")]
+        if text.startswith("#") and ":" in content:
+            key, value = content.split(":", 1)
+            header[key.strip().lower()] = value.strip()
+    raise FormatError(f"{path}: not a Moticon export: no line names the channels ('# time', 'left pressure 1', ...)")
+
+
+def _numbers(path: Path, rows: list[str], delimiter: str, names: list[str], warnings: list[str]) -> NDArray[np.float64]:
+    """The table (n, channels); NaN where a value is missing or is none, such as the labels of events."""
+    wanted = [i for i, n in enumerate(names) if i == 0 or _CHANNEL.match(n)]
+    wanted = [i for i in wanted if i == 0 or not re.search(r"label|events|steps", names[i], re.IGNORECASE)]
+    if not rows:
+        raise FormatError(f"{path}: the file holds no row of data")
+    if len(rows) > 1 and (rows[-1].count(delimiter) != rows[0].count(delimiter) or not rows[-1].endswith("\n")):
+        full = rows[-1].count(delimiter) == rows[0].count(delimiter)
+        if not full:
+            rows = rows[:-1]
+            warnings.append("the last row is cut short: left out")
+    out = np.full((len(rows), len(names)), np.nan)
+    bad = short = 0
+    for k, line in enumerate(rows):
+        cells = line.rstrip("\n").split(delimiter)
+        if len(cells) != len(names):
+            if len(cells) > len(names) and not any(c.strip() for c in cells[len(names) :]):
+                cells = cells[: len(names)]
+            else:
+                short += 1
+                continue
+        for i in wanted:
+            text = cells[i]
+            if text and not text.isspace():
+                try:
+                    out[k, i] = float(text)
+                except ValueError:
+                    value = number(text)
+                    bad += value is None
+                    out[k, i] = np.nan if value is None else value
+    out[~np.isfinite(out)] = np.nan
+    if short > 0.2 * len(rows):
+        raise FormatError(f"{path}: {short} of {len(rows)} rows do not have {len(names)} columns; the file is damaged")
+    if short:
+        warnings.append(f"{short} damaged row(s) count as not measured")
+    if bad:
+        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
+    return out
+
+
+def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:
+    """Column and unit of each channel of one foot."""
+    out: dict[str, tuple[int, str]] = {}
+    for i, name in enumerate(names):
+        match = _CHANNEL.match(name)
+        if match and match[1].lower() == side:
+            out.setdefault(match[2].lower(), (i, match[3] or ""))
+    return out
+
+
+def _unit(path: Path, options: ReadOptions, stated: list[str], warnings: list[str]) -> Unit:
+    text = options.unit or max(set(stated), key=stated.count)
+    if len(set(stated)) > 1:
+        warnings.append(f"the cells' units differ ({', '.join(sorted(set(stated)))}): {text} is used")
+    if not text:
+        warnings.append(f"the file states no unit of pressure: {_USUAL_UNIT} is assumed (--unit overrides)")
+        text = _USUAL_UNIT
+    unit = find_unit(text)
+    if unit is None or unit.kind == "force":
+        raise FormatError(
+            f"{path}: unknown unit of pressure {text!r}; allowed: N/cm2, kPa, mmHg, psi, raw and their like"
+        )
+    return unit
+
+
+def _size(header: dict[str, str], warnings: list[str]) -> int | None:
+    value = number(header.get("size", ""))
+    if value is not None and int(value) in LENGTH:
+        warnings.append(
+            f"the file holds no cell geometry: a nominal insole of size {int(value)}, "
+            f"{LENGTH[int(value)] * 1e3:.0f} mm long, is used; CoP and lengths rest on it (--layout overrides)"
+        )
+        return int(value)
+    warnings.append(
+        f"the file names no known insole size: a nominal one of {LENGTH[7] * 1e3:.0f} mm (size 7) is assumed; CoP, "
+        "lengths and areas rest on it (--layout overrides)"
+    )
+    return None
+
+
+def _total(
+    path: Path, columns: dict[str, tuple[int, str]], table: NDArray[np.float64], side: Side, warnings: list[str]
+) -> NDArray[np.float64] | None:
+    if "total force" not in columns:
+        warnings.append(f"the file holds no total force of the {side} foot: it is the sum over the cells")
+        return None
+    index, stated = columns["total force"]
+    unit = find_unit(stated) if stated else Unit("force", 1.0, "N")
+    if not stated:
+        warnings.append(f"the {side} foot's total force states no unit: N is assumed")
+    if unit is None or unit.kind != "force":
+        raise FormatError(f"{path}: unknown unit of force {stated!r}; allowed: N, kN, kg and their like")
+    return table[:, index] * unit.factor
+
+
+def _layout(
+    path: Path,
+    side: Side,
+    size: int | None,
+    pressure: NDArray[np.float64],
+    unit: Unit,
+    total: NDArray[np.float64] | None,
+    options: ReadOptions,
+    warnings: list[str],
+) -> SoleLayout:
+    given = layout_for(side, options.layout)
+    if given is not None:
+        if len(given) != pressure.shape[1]:
+            raise FormatError(f"{path}: the {side} foot has {pressure.shape[1]} cells, '{given.name}' {len(given)}")
+        return given
+    if pressure.shape[1] != 16:
+        raise FormatError(f"{path}: the {side} foot has {pressure.shape[1]} cells, not 16; give a layout with --layout")
+    layout = moticon_insole(size, side)
+    if total is None or unit.kind == "raw":
+        return layout
+    sums = pressure @ (unit.factor * layout.areas)
+    known = np.isfinite(sums) & np.isfinite(total) & (total > 50.0)
+    if known.sum() < 10:
+        return layout
+    ratio = float(np.median(total[known] / sums[known]))
+    if not 0.4 <= ratio <= 2.5:
+        warnings.append(
+            f"the {side} foot's total force is {ratio:.3g} times pressure times area of its cells: check the unit"
+        )
+        return layout
+    return moticon_insole(size, side, layout.areas * ratio)  # this insole's own areas
+
+
+def _device_cop(
+    columns: dict[str, tuple[int, str]], table: NDArray[np.float64], size: int | None, side: Side
+) -> NDArray[np.float64] | None:
+    """The device's centre of pressure, from shares of the insole to m in the sole frame."""
+    if "center of pressure x" not in columns or "center of pressure y" not in columns:
+        return None
+    along, across = (table[:, columns[f"center of pressure {axis}"][0]] for axis in "xy")
+    length = LENGTH[size or 7]
+    outward = 1.0 if side == "right" else -1.0
+    out = np.column_stack([(along + 0.5) * length, outward * across * WIDTH * length])
+    out[(np.abs(along) > 0.75) | (np.abs(across) > 0.75) | ((along == 0.0) & (across == 0.0))] = np.nan
+    return out
+
+
+FORMAT = Format(name="moticon", title="Moticon OpenGo export", suffixes=(".txt",), recognises=_recognises, read=_read)
+"""The entry of the registry."""

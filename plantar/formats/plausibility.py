@@ -1,0 +1,52 @@
+"""Doubts about a recording that was read without an error: a wrong unit, rate or cell size shows in the figures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plantar.pressure_recording import PressureRecording
+
+__all__ = ["doubts"]
+
+_FORCE = (15.0, 6000.0)
+_PRESSURE = (5e3, 3e6)
+_CELL = (1e-6, 4e-3)
+_RATE = (10.0, 5000.0)
+_LONGEST_FOOT = 0.40
+
+
+def doubts(recording: PressureRecording) -> list[str]:
+    """What does not look like feet, one line each; none for a recording that does.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        Warnings about peak force, peak pressure, cell area, insole length, rate and readings below zero.
+    """
+    out: list[str] = []
+    if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
+        out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")
+    for side, foot in recording.feet.items():
+        if recording.raw or len(foot.force) == 0:
+            continue
+        force = foot.vertical_force[np.isfinite(foot.vertical_force)]
+        peak = float(np.percentile(force, 99.0)) if len(force) else 0.0
+        if force.any() and not _FORCE[0] <= peak <= _FORCE[1]:
+            out.append(
+                f"the {side} foot carries up to {peak:.4g} N, which is unusual: check the unit and the cell size"
+            )
+        if len(force) and float(force.min()) < -0.1 * peak - 10.0:
+            out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
+        if foot.layout is None or recording.kind == "plate":
+            continue
+        highest = float(np.max(foot.measured.max(axis=0, initial=0.0) / foot.layout.areas, initial=0.0))
+        if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
+            out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
+        cell = float(np.median(foot.layout.areas))
+        if not _CELL[0] <= cell <= _CELL[1]:
+            out.append(f"the {side} foot's cells of {cell * 1e6:.4g} mm2 are unusual: check the cell size")
+        extent = float(np.ptp(foot.layout.outline, axis=0).max())
+        if recording.kind != "platform" and not 0.05 <= extent <= _LONGEST_FOOT:
+            out.append(f"the {side} sole is {extent * 1e3:.4g} mm long, which is unusual: check the cell size")
+    return out

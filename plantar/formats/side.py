@@ -1,0 +1,34 @@
+"""Which foot a recording of one sensor is of."""
+
+from __future__ import annotations
+
+import re
+
+from plantar.layout import Side
+
+__all__ = ["side_of"]
+
+_MARKS: dict[Side, re.Pattern[str]] = {
+    "left": re.compile(r"left|links|gauche|izquierd|(?:(?<=[\W_\d])|^)(?:l|lf|lt)(?=[\W_\d]|$)", re.IGNORECASE),
+    "right": re.compile(r"right|rechts|droit|derech|(?:(?<=[\W_\d])|^)(?:r|rf|rt)(?=[\W_\d]|$)", re.IGNORECASE),
+}
+
+
+def side_of(*texts: str) -> Side | None:
+    """The foot that the first of some texts names which names one.
+
+    Args:
+        texts: For example a sensor's name, a comment, a file's name.
+
+    Returns:
+        "left" or "right"; None where no text names one foot and not the other.
+
+    Example:
+        >>> side_of("HX210.11.31.M11-DFM-RF S0073"), side_of("walk_left.fsx"), side_of("walk", "left and right")
+        ('right', 'left', None)
+    """
+    for text in texts:
+        found = [side for side, mark in _MARKS.items() if mark.search(text)]
+        if len(found) == 1:
+            return found[0]
+    return None

@@ -1,0 +1,274 @@
+"""Tekscan ASCII exports (.asf, .csv): a header of KEY value lines, then a matrix of readings for each frame.
+
+F-Scan insoles, mats and walkways share the format. "B" marks places of the matrix without a cell. Readings are in the
+unit that UNITS names: a pressure, a force a cell, or raw counts.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.grid_cells import grid_cells
+from plantar.formats.side import side_of
+from plantar.formats.text import number, number_in, open_text, row_of_numbers
+from plantar.formats.units import LENGTHS, Unit, find_unit
+from plantar.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
+
+__all__ = ["FORMAT"]
+
+_KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
+_FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
+_LARGEST_HEADER = 500
+_LARGEST = 2_000_000
+_USUAL_PITCH, _USUAL_RATE = 5.08e-3, 100.0
+_THRESHOLD = 1e3
+_WIDEST_FOOT = 0.16
+_LONGEST_FOOT = 0.36
+
+
+def _recognises(head: bytes) -> bool:
+    text = head.decode("latin-1").upper()
+    keys = sum(re.search(rf"^\W*{k}\b", text, re.MULTILINE) is not None for k in ("ROWS", "COLS", "UNITS", "DATA_TYPE"))
+    return b"\0" not in head and (keys >= 3 or ("TEKSCAN" in text and keys >= 1) or "SECONDS_PER_FRAME" in text)
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read an ASCII export.
+
+    Raises:
+        FormatError: If the file holds no frames, or states a unit that is not known.
+    """
+    warnings: list[str] = []
+    with open_text(path) as stream:
+        lines = iter(stream)
+        header, first = _take_header(path, lines)
+        numbers, matrices = _take_frames(path, first, lines, header, warnings)
+    unit = _unit(path, header, options, warnings)
+    pitch = _pitch(header, warnings)
+    rate = options.rate_hz or _rate(header, warnings)
+    steps = np.diff(numbers)
+    if len(steps) and (steps > 0).all():
+        time = (np.array(numbers, dtype=float) - numbers[0]) / rate
+        if (steps > 1).any():
+            warnings.append(f"{int((steps - 1).sum())} frame(s) are missing in the file: a gap in time")
+    else:
+        time = np.arange(len(numbers)) / rate
+    time, rate, notes = sampling(time, rate)
+    rows, columns = matrices.shape[1:]
+    present = np.asarray(~np.isnan(matrices).all(axis=0))
+    if not present.any():
+        raise FormatError(f"{path}: no cell of the matrix holds a number")
+    flat = matrices.reshape(len(matrices), -1)[:, present.ravel()]
+    kind: Kind = "insole"
+    if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT:
+        kind = "platform"
+    side = options.side or side_of(header.get("FILENAME", ""), header.get("COMMENTS", ""), path.stem)
+    if side is None and kind == "insole":
+        warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
+    layout = layout_for(side or "left", options.layout)
+    if layout is not None and len(layout) != flat.shape[1]:
+        raise FormatError(f"{path}: the sensor has {flat.shape[1]} cells, layout '{layout.name}' {len(layout)}")
+    if layout is None:
+        name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()
+        layout = grid_cells(present, *pitch, side=side or "left", name=name, threshold=_THRESHOLD)
+        if kind == "insole":
+            warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
+    if unit.kind == "pressure":
+        flat = flat * (unit.factor * layout.areas)
+    elif unit.kind == "force":
+        flat = flat * unit.factor
+    foot = FootRecording(side or "left", flat, layout)
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet={foot.side: foot},
+        metadata={"side": side, "sensor": header.get("SENSOR_TYPE", ""), "unit": unit.name},
+        warnings=(*warnings, *notes),
+        kind=kind,
+        raw=unit.kind == "raw",
+        grid=(rows, columns),
+    )
+
+
+def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.Match[str]]:
+    header: dict[str, str] = {}
+    key = ""
+    for count, line in enumerate(lines):
+        frame = _FRAME.match(line)
+        if frame:
+            return header, frame
+        match = _KEY.match(line)
+        if match:
+            key = match[1].upper()
+            header.setdefault(key, match[2].strip().strip(',;" \t'))
+        elif key == "COMMENTS" and line.strip(" ,;\n"):
+            header[key] = f"{header[key]} {line.strip()}".strip()
+        if count > _LARGEST_HEADER:
+            break
+    raise FormatError(f"{path}: not a Tekscan export: no line 'Frame 1' after the header")
+
+
+def _take_frames(
+    path: Path, first: re.Match[str], lines: Iterator[str], header: dict[str, str], warnings: list[str]
+) -> tuple[list[int], NDArray[np.float64]]:
+    """Numbers of the frames and their readings (n, rows, columns); NaN where there is no cell or no number."""
+    numbers: list[int] = []
+    bodies: list[list[str]] = []
+    found: re.Match[str] | None = first
+    while found is not None:
+        numbers.append(int(found[1]))
+        body: list[str] = []
+        found = None
+        for line in lines:
+            found = _FRAME.match(line)
+            if found or line.lstrip().startswith("@@"):
+                break
+            if line.strip(" ,;\t\n"):
+                body.append(line.strip())
+        bodies.append(body)
+    rows = _stated(header, "ROWS") or int(np.median([len(b) for b in bodies]))
+    delimiter = next((d for d in ",;\t" if bodies[0] and d in bodies[0][0]), None)
+    widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in bodies[0]] or [0]
+    columns = _stated(header, "COLS") or int(np.median(widths))
+    if rows < 1 or columns < 1 or rows * columns * len(bodies) > 50 * _LARGEST or rows * columns > _LARGEST:
+        raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read")
+    if int(np.median(widths)) != columns:
+        raise FormatError(f"{path}: the header states {columns} columns, the rows of the matrix have {max(widths)}")
+    out = np.full((len(bodies), rows, columns), np.nan)
+    odd = cut = 0
+    for i, body in enumerate(bodies):
+        whole = len(body) == rows
+        bad = 0
+        values = _fast(body, delimiter, rows, columns) if whole else None
+        if values is None and whole:
+            values = np.full((rows, columns), np.nan)
+            for r, line in enumerate(body):
+                cells = _cells(line, delimiter)[:columns]
+                blank = ["" if c.strip().upper() == "B" else c for c in cells]
+                row, wrong = row_of_numbers(blank)
+                bad += wrong + (len(cells) != columns)
+                values[r, : len(row)] = row
+        if values is not None:
+            out[i] = values
+            odd += bad > 0
+        elif i == len(bodies) - 1:
+            cut += 1
+        else:
+            odd += 1
+    stop = _stated(header, "END_FRAME")
+    if cut:
+        numbers, out = numbers[:-1], out[:-1]
+        warnings.append("the last frame is cut short: left out")
+    elif stop is not None and numbers[-1] != stop:
+        warnings.append(f"the header announces frames up to {stop}, the file ends with frame {numbers[-1]}")
+    if not len(out) or odd > 0.2 * len(out):
+        raise FormatError(f"{path}: {odd} of {len(bodies)} frames are no matrix of {rows} x {columns} numbers")
+    if odd:
+        warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
+    return numbers, out
+
+
+def _cells(line: str, delimiter: str | None) -> list[str]:
+    cells = line.split(delimiter)
+    while cells and not cells[-1].strip():
+        cells.pop()
+    return cells
+
+
+def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> NDArray[np.float64] | None:
+    """A whole matrix at once; None where anything looks odd."""
+    if delimiter is None or (delimiter != "," and "," in body[0]):
+        return None
+    text = delimiter.join(line.rstrip(f"{delimiter} ") for line in body).replace("B", "nan")
+    try:
+        values = np.array(text.split(delimiter), dtype=float)
+    except ValueError:
+        return None
+    if len(values) != rows * columns or np.isinf(values).any() or (values < -1e9).any():
+        return None
+    return values.reshape(rows, columns)
+
+
+def _stated(header: dict[str, str], key: str) -> int | None:
+    value = number(header.get(key, "").split(",")[0].split(";")[0])
+    return int(value) if value is not None and 0 < value == int(value) else None
+
+
+def _unit(path: Path, header: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
+    stated = header.get("UNITS", "")
+    name = options.unit or stated
+    if not name:
+        warnings.append("the header states no unit: the readings are kept as raw counts (--unit overrides)")
+        return Unit("raw", 1.0, "raw")
+    unit = find_unit(name) or find_unit(re.split(r"[\s,;]", name)[0])
+    if unit is None:
+        raise FormatError(f"{path}: unknown unit {name!r}; allowed: KPa, PSI, mmHg, N/cm2, N, Raw and their like")
+    limit = header.get("SATURATION_PRESSURE", "").split()
+    other = find_unit(limit[1]) if len(limit) > 1 else None
+    if options.unit is None and limit and len(limit) > 1 and other != find_unit(stated) and unit.kind == "pressure":
+        warnings.append(f"the readings are stated in {stated}, the saturation pressure in {limit[1]}: check the unit")
+    if unit.kind == "raw":
+        warnings.append("the readings are raw counts: forces and pressures cannot be given")
+    return unit
+
+
+def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
+    """Distances of rows and of columns in m."""
+
+    def length(key: str) -> float | None:
+        text = header.get(key, "")
+        value = number_in(text)
+        words = re.findall(r"[a-z]+", text.lower())
+        unit = next((LENGTHS[w] for w in words if w in LENGTHS), None)
+        if value is not None and value > 0.0 and unit is None:
+            warnings.append(f"{key} states no unit of length: mm is assumed")
+        return None if value is None or value <= 0.0 else value * (unit or 1e-3)
+
+    rows, columns = length("ROW_SPACING"), length("COL_SPACING")
+    area = number_in(header.get("SENSEL_AREA", ""))
+    if area is not None and area > 0.0:
+        text = header["SENSEL_AREA"].lower()
+        area *= 1e-4 if "cm" in text else 0.0254**2 if "in" in text else 1e-6
+    else:
+        area = None
+    if rows is None and columns is None and area is not None:
+        rows = columns = float(np.sqrt(area))
+        warnings.append("the header states no spacing: square cells of its sensel area are assumed")
+    if rows is None and columns is None:
+        rows = columns = _USUAL_PITCH
+        warnings.append("the header states no spacing of rows and columns: 5.08 mm is assumed")
+    elif rows is None or columns is None:
+        rows = columns = rows or columns
+        warnings.append("the header states one spacing of rows and columns: taken for both")
+    assert rows is not None
+    assert columns is not None
+    if area is not None and abs(rows * columns - area) > 0.02 * area:
+        warnings.append(
+            f"spacings of {rows * 1e3:g} x {columns * 1e3:g} mm and a sensel area of {area * 1e6:g} mm2 do not agree: "
+            "the spacings are used, check the forces"
+        )
+    return rows, columns
+
+
+def _rate(header: dict[str, str], warnings: list[str]) -> float:
+    period = number_in(header.get("SECONDS_PER_FRAME", ""))
+    if period is not None and period > 0.0:
+        return 1.0 / period
+    rate = number_in(header.get("FREQUENCY", header.get("FRAMES_PER_SECOND", "")))
+    if rate is not None and rate > 0.0:
+        return rate
+    warnings.append(f"the header states no SECONDS_PER_FRAME: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
+    return _USUAL_RATE
+
+
+FORMAT = Format(name="tekscan", title="Tekscan export", suffixes=(".asf", ".csv"), recognises=_recognises, read=_read)
+"""The entry of the registry."""

@@ -1,0 +1,326 @@
+"""XSENSOR CSV exports: for each frame, for each insole, a header of its own and a matrix of pressures.
+
+After the whole matrix a frame repeats parts of it for groups of cells (heel, toes, ...); those are skipped. Each header
+states load and contact area of its insole, which check the unit and give the cells' area to more digits than the stated
+width and height. In swing the device states a load of 0 whatever the matrix holds.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.grid_cells import grid_cells
+from plantar.formats.side import side_of
+from plantar.formats.text import number, number_in, open_text, seconds_of_clock
+from plantar.formats.units import LENGTHS, Unit, find_unit
+from plantar.layout import Side
+from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+
+__all__ = ["FORMAT"]
+
+_USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
+_LARGEST = 100_000
+_THRESHOLD = 1e3
+_ENOUGH = 50.0
+"""Load in N from which the header's figures are taken to check the unit and the cells' area."""
+
+
+def _recognises(head: bytes) -> bool:
+    text = head.replace(b"\0", b"").decode("latin-1")
+    return re.search(r"^\W*SENSELS\b", text, re.MULTILINE) is not None and "SENSOR" in text and "FRAME" in text
+
+
+@dataclass
+class _Sensor:
+    """One insole over all frames."""
+
+    name: str
+    rows: int = 0
+    columns: int = 0
+    frames: list[int] = field(default_factory=list)
+    values: list[NDArray[np.float64]] = field(default_factory=list)
+    load: list[float] = field(default_factory=list)
+    contact: list[float] = field(default_factory=list)
+    damaged: int = 0
+
+
+@dataclass
+class _Scan:
+    """Everything in the file."""
+
+    facts: dict[str, str] = field(default_factory=dict)
+    clock: list[float | None] = field(default_factory=list)
+    sensors: dict[str, _Sensor] = field(default_factory=dict)
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read a CSV export.
+
+    Raises:
+        FormatError: If the file holds no whole matrix, or states a unit that is not known.
+    """
+    with open_text(path) as stream:
+        scan = _scan(stream)
+    warnings: list[str] = []
+    frames = len(scan.clock)
+    sensors = {name: s for name, s in scan.sensors.items() if s.values}
+    if not frames or not sensors:
+        raise FormatError(f"{path}: the file holds no frame with a matrix of SENSELS")
+    last = max(s.frames[-1] for s in sensors.values())
+    if any(s.frames[-1] < frames - 1 for s in sensors.values()):
+        whole = min(s.frames[-1] for s in sensors.values()) + 1 if len(sensors) > 1 else last + 1
+        if frames - whole == 1:
+            frames = whole
+            warnings.append("the last frame is cut short: left out")
+    unit = _unit(path, scan.facts, options, warnings)
+    time, rate, notes = _times(path, scan.clock[:frames], options, warnings)
+    feet: dict[Side, FootRecording] = {}
+    grid = None
+    for side, sensor in _sides(path, sensors, options, warnings):
+        shape = sensor.rows, sensor.columns
+        values = np.full((frames, shape[0] * shape[1]), np.nan)
+        for i, matrix in zip(sensor.frames, sensor.values, strict=True):
+            if i < frames and matrix.shape == shape:
+                values[i] = matrix.ravel()
+        lost = int(np.isnan(values).all(axis=1).sum())
+        if lost:
+            warnings.append(f"{lost} frame(s) of the {side} insole are missing: they count as not measured")
+        if sensor.damaged:
+            warnings.append(f"{sensor.damaged} row(s) of the {side} insole hold no numbers: they count as not measured")
+        size = _cell(scan.facts, sensor, values, unit, side, warnings)
+        layout = layout_for(side, options.layout)
+        if layout is not None and len(layout) != values.shape[1]:
+            raise FormatError(f"{path}: the {side} foot has {values.shape[1]} cells, '{layout.name}' {len(layout)}")
+        present = np.ones(shape, dtype=bool)
+        layout = layout or grid_cells(present, *size, side=side, name=sensor.name, threshold=_THRESHOLD)
+        if unit.kind == "pressure":
+            _check_load(sensor, values, unit.factor * size[0] * size[1], frames, side, warnings)
+            values *= unit.factor * layout.areas
+        feet[side] = FootRecording(side, values, layout)
+        grid = shape
+    warnings.append("the first row of each matrix is taken as the toes, its columns as seen from above")
+    feet = {s: feet[s] for s in ("left", "right") if s in feet}
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet=feet,
+        metadata={"sensors": [s.name for s in sensors.values()], "unit": unit.name},
+        warnings=(*warnings, *notes),
+        raw=unit.kind == "raw",
+        grid=grid,
+    )
+
+
+def _scan(stream: TextIO) -> _Scan:
+    scan = _Scan()
+    sensor: _Sensor | None = None
+    rows: list[NDArray[np.float64]] | None = None
+    delimiter = ","
+
+    def finish() -> None:
+        nonlocal rows
+        if rows is not None and sensor is not None and rows and len(scan.clock):
+            stated = sensor.rows or len(rows)
+            if len(rows) == stated and len({len(r) for r in rows}) == 1 and stated * len(rows[0]) <= _LARGEST:
+                sensor.rows, sensor.columns = stated, sensor.columns or len(rows[0])
+                if not sensor.frames or sensor.frames[-1] != len(scan.clock) - 1:
+                    sensor.frames.append(len(scan.clock) - 1)
+                    sensor.values.append(np.array(rows))
+        rows = None
+
+    for line in stream:
+        first = line[:1]
+        if rows is not None and sensor is not None and (first.isdigit() or first in '-"'):
+            row = _row(line, delimiter, sensor.columns)
+            if row is None:
+                sensor.damaged += 1
+                row = np.full(sensor.columns or (len(rows[0]) if rows else 1), np.nan)
+            rows.append(row)
+            continue
+        text = line.strip().strip("\ufeff")
+        if not text.strip(",;\t "):
+            continue
+        delimiter = ";" if ";" in text and "," not in text.split(";")[0] else ("\t" if "\t" in text else ",")
+        parts = [p.strip().strip('"') for p in text.split(delimiter)]
+        key = parts[0].rstrip(":").strip()
+        value = next((p for p in parts[1:] if p), "")
+        word = key.upper()
+        if word == "FRAME":
+            finish()
+            sensor = None
+            scan.clock.append(None)
+        elif word == "GROUP":
+            finish()
+            sensor = None
+        elif word == "TIME" and scan.clock:
+            scan.clock[-1] = seconds_of_clock(value)
+        elif word == "SENSOR":
+            finish()
+            sensor = scan.sensors.setdefault(value, _Sensor(value))
+            sensor.load.append(np.nan)
+            sensor.contact.append(np.nan)
+        elif word == "SENSELS":
+            rows = [] if sensor is not None else None
+        elif sensor is None:
+            scan.facts.setdefault(key.lower(), value)
+        else:
+            _take_fact(scan.facts, sensor, key, value)
+    finish()
+    return scan
+
+
+def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> None:
+    low = key.lower()
+    figure = number(value)
+    if low in ("rows", "columns") and figure is not None and 0 < figure <= _LARGEST and figure == int(figure):
+        if low == "rows":
+            sensor.rows = sensor.rows or int(figure)
+        else:
+            sensor.columns = sensor.columns or int(figure)
+    elif low.startswith("est. load") and figure is not None:
+        sensor.load[-1] = figure * (1e3 if "(kn)" in low else 1.0 if "(n)" in low else np.nan)
+    elif low.startswith("contact area") and figure is not None:
+        sensor.contact[-1] = figure * (1e-4 if "cm" in low else 1e-6 if "mm" in low else np.nan)
+    elif low.startswith(("sensel", "average pressure")):
+        facts.setdefault(low if low.startswith("sensel") else "average pressure", f"{value} {key}")
+
+
+def _row(line: str, delimiter: str, columns: int) -> NDArray[np.float64] | None:
+    """One row of the matrix; None where it holds what is no number. A blank cell was not measured."""
+    cells = line.rstrip("\n").split(delimiter)
+    if columns:
+        extra, cells = cells[columns:], cells[:columns]
+        if len(cells) < columns or any(c.strip() for c in extra):
+            return None
+    else:
+        while cells and not cells[-1].strip():
+            cells.pop()
+    try:
+        values = np.array(cells, dtype=float)
+    except ValueError:
+        numbers = [np.nan if not c.strip() else number(c) for c in cells]
+        if any(v is None for v in numbers):
+            return None
+        values = np.array(numbers, dtype=float)
+    return None if np.isinf(values).any() else values
+
+
+def _unit(path: Path, facts: dict[str, str], options: ReadOptions, warnings: list[str]) -> Unit:
+    bracket = re.search(r"\(([^)]*)\)", facts.get("average pressure", ""))
+    name = options.unit or facts.get("units", "") or (bracket[1] if bracket else "")
+    if not name:
+        warnings.append("the file states no unit: the readings are kept as raw counts (--unit overrides)")
+        return Unit("raw", 1.0, "raw")
+    unit = find_unit(name)
+    if unit is None or unit.kind == "force":
+        raise FormatError(
+            f"{path}: unknown unit of pressure {name!r}; allowed: mmHg, kPa, psi, N/cm2, raw and their like"
+        )
+    if options.unit is None and bracket and find_unit(bracket[1]) != unit and facts.get("units"):
+        warnings.append(f"the file states {name} and, at its averages, {bracket[1]}: {name} is used, check the unit")
+    return unit
+
+
+def _times(
+    path: Path, clock: list[float | None], options: ReadOptions, warnings: list[str]
+) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
+    seconds = np.array([np.nan if t is None else t for t in clock])
+    if options.rate_hz is not None:
+        return np.arange(len(seconds)) / options.rate_hz, options.rate_hz, ()
+    if np.isfinite(seconds).sum() < 2:
+        warnings.append(f"the frames have no times: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
+        return np.arange(len(seconds)) / _USUAL_RATE, _USUAL_RATE, ()
+    seconds = seconds - seconds[np.isfinite(seconds)][0]
+    seconds[seconds < -43200.0] += 86400.0  # past midnight
+    return sampling(seconds, None)
+
+
+def _sides(
+    path: Path, sensors: dict[str, _Sensor], options: ReadOptions, warnings: list[str]
+) -> list[tuple[Side, _Sensor]]:
+    if len(sensors) > 2:  # a damaged name makes a sensor of its own; the two that have most frames are the feet
+        kept = sorted(sensors.values(), key=lambda s: -len(s.frames))[:2]
+        lost = sum(len(s.frames) for s in sensors.values()) - sum(len(s.frames) for s in kept)
+        if lost > 0.1 * len(kept[0].frames):
+            raise FormatError(f"{path}: the file holds {len(sensors)} sensors; one or two feet can be read")
+        warnings.append(f"{lost} matrix(es) are of sensors of another name: left out")
+        sensors = {s.name: s for s in kept}
+    named = [(side_of(s.name), s) for s in sensors.values()]
+    if len(named) == 2 and {n for n, _ in named} == {"left", "right"}:
+        return [(side, s) for side, s in named if side is not None]
+    if len(named) == 2:
+        warnings.append("the sensors' names do not say which foot they are: taken as left and right in their order")
+        return [("left", named[0][1]), ("right", named[1][1])]
+    side = options.side or named[0][0]
+    if side is None:
+        warnings.append("the sensor's name does not say which foot it is: taken as the left one (--side overrides)")
+    return [(side or "left", named[0][1])]
+
+
+def _cell(
+    facts: dict[str, str],
+    sensor: _Sensor,
+    values: NDArray[np.float64],
+    unit: Unit,
+    side: Side,
+    warnings: list[str],
+) -> tuple[float, float]:
+    """Height and width of a cell in m."""
+    sides: list[float] = []
+    for name in ("sensel height", "sensel width"):
+        text = next((v for k, v in facts.items() if k.startswith(name)), "")
+        value = number_in(text)
+        length = re.search(r"\((\w+)\)", text)
+        factor = LENGTHS.get(length[1].lower()) if length else None
+        if value is not None and value > 0.0 and factor is not None:
+            sides.append(value * factor)
+    if len(sides) < 2:
+        warnings.append("the file states no sensel width and height: 8.6 x 8.6 mm is assumed")
+        sides = [_USUAL_SIZE, _USUAL_SIZE]
+    height, width = sides
+    contact = np.array([c for c, load in zip(sensor.contact, sensor.load, strict=True) if load > _ENOUGH])
+    loaded = [
+        int((m > 0.0).sum())
+        for m, load in zip(sensor.values, sensor.load[: len(sensor.values)], strict=False)
+        if load > _ENOUGH
+    ]
+    n = min(len(contact), len(loaded))
+    if n and unit.kind != "raw":
+        ratio = float(np.median(contact[:n] / np.maximum(loaded[:n], 1))) / (height * width)
+        if abs(ratio - 1.0) < 0.015:  # the stated width and height are rounded
+            return height * float(np.sqrt(ratio)), width * float(np.sqrt(ratio))
+        if len(sides) == 2 and abs(ratio - 1.0) > 0.05:
+            warnings.append(
+                f"cells of {height * 1e3:g} x {width * 1e3:g} mm do not agree with the {side} insole's stated contact "
+                "area: check the cell size"
+            )
+    return height, width
+
+
+def _check_load(
+    sensor: _Sensor, values: NDArray[np.float64], factor: float, frames: int, side: Side, warnings: list[str]
+) -> None:
+    """The stated load tells a wrong unit or cell size."""
+    sums = np.array([np.nansum(m) * factor for m in sensor.values])
+    load = np.array(sensor.load[: len(sums)])
+    known = (load > _ENOUGH) & (sums > 0.0) if len(load) == len(sums) else np.zeros(0, dtype=bool)
+    if known.any():
+        ratio = float(np.median(sums[known] / load[known]))
+        if abs(ratio - 1.0) > 0.05:
+            warnings.append(
+                f"the {side} insole's load is {ratio:.3g} times the one that the file states: check unit and cell size"
+            )
+
+
+FORMAT = Format(name="xsensor", title="XSENSOR export", suffixes=(".csv",), recognises=_recognises, read=_read)
+"""The entry of the registry."""
