@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceGains, DcmBalance
+from gait.com_height import CoMHeight
 from gait.command_frame import CommandFrame
 from gait.estimator import (
     BaseState,
@@ -19,13 +20,14 @@ from gait.estimator import (
     heading,
     rotation_from_vector,
 )
-from gait.foot_motion import FootMotion, Landing
+from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footsteps import Footstep, other_side
 from gait.landing_compliance import LandingCompliance
 from gait.lip import pendulum_frequency
 from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
 from gait.stance_contact import ContactSettings, StanceContact
+from gait.swing_compliance import ComplianceGains, SwingCompliance
 from gait.vrp_plan import LipReference
 from gait.walk_plan import WalkPlan
 from plantar.layout import Side, SoleLayout
@@ -51,6 +53,7 @@ class ControllerSettings:
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
+        compliance: Preemptive foot compliance; None lands blindly.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Balance gains.
         estimator: Estimator gains.
@@ -66,6 +69,7 @@ class ControllerSettings:
     timing: Timing = field(default_factory=Timing)
     swing_height: float = 0.05
     landing: Landing = field(default_factory=Landing)
+    compliance: ComplianceGains | None = None
     alignment_time: float = 0.3
     gains: BalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
@@ -179,7 +183,15 @@ class WalkingController:
             {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in _SIDES},
             settings.estimator,
         )
-        self.motion = FootMotion(feet, self.schedule, settings.period, settings.swing_height, settings.landing)
+        gains = settings.compliance
+        self.motion = FootMotion(
+            feet,
+            self.schedule,
+            settings.period,
+            settings.swing_height,
+            settings.landing,
+            None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in _SIDES},
+        )
         self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
         self._ticks = 0
         self.replans = 0
@@ -191,7 +203,7 @@ class WalkingController:
         self._replanned, self._replanned_step = -math.inf, -1
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
-        self._ground = float(np.mean([feet[s].z for s in _SIDES]))
+        self._ground = CoMHeight(float(np.mean([feet[s].z for s in _SIDES])), settings.period)
 
     @property
     def end(self) -> float:
@@ -226,7 +238,8 @@ class WalkingController:
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:
             self._align(state)
-        if self.motion.update(phase, sensors.time, state.loads, self._frame):
+        senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in _SIDES}
+        if self.motion.update(phase, sensors.time, state.loads, self._frame, senses):
             self._compensation.start()
             self._lift(phase)
         if feedback and s.footholds != "off" and self._feel(phase, sensors, state, percepts):
@@ -367,9 +380,7 @@ class WalkingController:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: float(self.motion.footholds[side][0][2]) for side in _SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
-        rate = min(1.0, 5.0 * self.settings.period)
-        self._ground += rate * (target - self._ground)
-        return self._ground + self.settings.com_height
+        return self._ground.follow(target) + self.settings.com_height
 
     def _foot_targets(
         self, phase: Phase, zmp: NDArray[np.float64], acceleration: NDArray[np.float64]

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.command_frame import CommandFrame
+from gait.estimator import rotation_from_vector
 from gait.footsteps import Footstep, other_side
 from gait.phases import Phase, WalkSchedule
-from gait.swing import SwingTrajectory
+from gait.swing import SwingTrajectory, minimum_jerk
+from gait.swing_compliance import SwingCompliance, turned_to_ground, vector_from_rotation
 from plantar.layout import Side
+from plantar.percept import Percept
 
-__all__ = ["FootMotion", "Landing"]
+__all__ = ["FootMotion", "Landing", "SoleSense"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+
+
+_GROUND_SHARE = 0.3
+"""Share of a new foothold's height in the height at which the next one is expected."""
+
+
+class SoleSense(NamedTuple):
+    """What is known of a sole: what it senses, and its estimated pose in the world."""
+
+    percept: Percept
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -31,6 +48,9 @@ class Landing:
         speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
         acceleration: Its acceleration in m/s^2.
         reach: Distance in m that it goes down at most.
+        approach_height: Height in m above the expected ground from which a swing goes down slowly (see
+            `SwingTrajectory`); 0 comes down in one move.
+        approach_speed: Speed of that in m/s.
     """
 
     contact_force: float = 70.0
@@ -39,6 +59,8 @@ class Landing:
     speed: float = 0.03
     acceleration: float = 1.0
     reach: float = 0.03
+    approach_height: float = 0.0
+    approach_speed: float = 0.06
 
 
 class FootMotion:
@@ -50,6 +72,7 @@ class FootMotion:
         period: Control period in s.
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
+        compliance: Preemptive compliance of each foot; None lands blindly.
     """
 
     def __init__(
@@ -59,6 +82,7 @@ class FootMotion:
         period: float,
         swing_height: float,
         landing: Landing,
+        compliance: Mapping[Side, SwingCompliance] | None = None,
     ) -> None:
         self.schedule = schedule
         self.footholds: dict[Side, tuple[NDArray[np.float64], float]] = {
@@ -68,6 +92,10 @@ class FootMotion:
         self._period = period
         self._height = swing_height
         self._landing = landing
+        self._compliance = compliance
+        self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in _SIDES}
+        self._lifted_tilt = np.zeros(3)
+        self._expected = float(np.mean([feet[s].z for s in _SIDES]))
         self._swing: SwingTrajectory | None = None
         self._step = -1
         self._lowered = self._lowering = 0.0
@@ -79,14 +107,23 @@ class FootMotion:
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
-        """Feet whose proximity the motion depends on: none, without preemptive compliance."""
-        return ()
+        """Feet whose proximity the motion depends on: the one in the air, with preemptive compliance."""
+        side = self.last_side
+        return () if self._compliance is None or self.landed or side is None else (side,)
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
-        """Rotation (3, 3) from a level sole at its foothold to the command frame."""
-        return Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
+        """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
+        level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
+        return level if self._compliance is None else np.asarray(level @ self._tilts[side])
 
-    def update(self, phase: Phase, time: float, loads: Mapping[Side, float], frame: CommandFrame) -> bool:
+    def update(
+        self,
+        phase: Phase,
+        time: float,
+        loads: Mapping[Side, float],
+        frame: CommandFrame,
+        senses: Mapping[Side, SoleSense] | None = None,
+    ) -> bool:
         """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off.
 
         Args:
@@ -94,6 +131,7 @@ class FootMotion:
             time: Time in s.
             loads: Vertical force on each foot in N.
             frame: Frame that the footholds are commanded in.
+            senses: What the soles sense, for preemptive compliance.
 
         Returns:
             Whether a new swing began.
@@ -104,6 +142,9 @@ class FootMotion:
         if self._swing is None:
             return began
         side = self.schedule.steps[self._step].side
+        if self._compliance is not None and senses is not None:
+            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side])
+            return began
         if phase.swing is not None:
             elapsed = time - phase.start
             if elapsed > 0.5 * self._swing.duration and loads[side] > self._landing.contact_force:
@@ -116,15 +157,69 @@ class FootMotion:
         return began
 
     def _begin(self, phase: Phase, side: Side, frame: CommandFrame) -> None:
+        if self._swing is not None:
+            landed = float(self.footholds[other_side(side)][0][2])
+            self._expected += _GROUND_SHARE * (landed - self._expected)
         step = self.schedule.steps[phase.step]
         position, yaw = self.footholds[side]
-        ground = self.footholds[other_side(side)][0][2]
-        target = np.array([*frame.to_command(step.position[:2]), ground - self._landing.depth])
-        duration = phase.end - phase.start
-        self._swing = SwingTrajectory(position.copy(), target, yaw, step.yaw - frame.turn, self._height, duration)
+        target = np.array([*frame.to_command(step.position[:2]), self._expected - self._landing.depth])
+        self._swing = SwingTrajectory(
+            position.copy(),
+            target,
+            yaw,
+            step.yaw - frame.turn,
+            self._height,
+            phase.end - phase.start,
+            approach_height=self._landing.approach_height,
+            approach_speed=self._landing.approach_speed,
+        )
         self._step = phase.step
         self.landed = False
         self._lowered = self._lowering = 0.0
+        if self._compliance is not None:
+            self._compliance[side].begin()
+            self._lifted_tilt = vector_from_rotation(self._tilts[side])
+
+    def _comply(
+        self, compliance: SwingCompliance, side: Side, phase: Phase, time: float, load: float, sense: SoleSense
+    ) -> None:
+        """Advance a foot that sees the ground: soften its swing, turn it to the slope, hand over to the real load."""
+        assert self._swing is not None
+        swing, period = self._swing, self._period
+        position, yaw = self.footholds[side]
+        elapsed = time - phase.start if phase.swing is not None else math.inf
+        if not self.landed:
+            view = compliance.look(*sense)
+            if elapsed > 0.5 * swing.duration and compliance.feel(load):
+                self.landed = True
+                compliance.touched()
+        if not self.landed:
+            if elapsed < swing.lifted:
+                self.footholds[side] = swing.at(elapsed)
+                share = 1.0 - minimum_jerk(elapsed / swing.lifted)[0]
+                self._tilts[side] = rotation_from_vector(share * self._lifted_tilt)
+                return
+            planned, heading = swing.at(elapsed)
+            falling = (planned[2] - swing.at(elapsed + period)[0][2]) / period
+            if falling <= 0.0 and elapsed >= swing.duration:
+                falling = self._landing.speed
+            remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
+            drop = compliance.descent(view, falling, remaining, elapsed >= swing.duration, period)
+            if view is not None and view.distance < 0.8 * compliance.gains.sensing_range:
+                g = compliance.gains
+                turned = turned_to_ground(
+                    self._tilts[side], view.slope, min(1.0, period / g.turning), g.turn_rate * period
+                )
+                self._tilts[side] = turned
+            self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
+            return
+        hold = compliance.gains.hold_force
+        if phase.swing is not None:
+            drop = compliance.yielding(load, hold, period)
+        else:
+            share = min(1.0, 2.0 * (time - phase.start) / (phase.end - phase.start))
+            drop = max(0.0, compliance.yielding(load, hold + share * (self._landing.press_force - hold), period))
+        self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
 
     def _press(self, side: Side, load: float) -> None:
         """Press down the more gently the more the foot carries; a switch at one force would make it tap."""

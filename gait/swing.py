@@ -1,4 +1,8 @@
-"""Swing foot trajectory: a minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33)."""
+"""Swing foot trajectory: a minimum-jerk path from lift-off to touchdown (T 4.1.3, Fig. 33).
+
+Where the ground is not known to the millimetre the foot comes down to a height above it, and from there on slowly, at
+an even speed: what it meets earlier or later than expected it meets at that speed.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = ["SwingTrajectory", "minimum_jerk"]
+
+_APPROACH_SHARE = 0.44
+"""Share of a swing, at its end, that a slow approach takes."""
+
+_ARRIVED_SHARE = 0.61
+"""Share of such a swing after which the foot moves only downwards."""
+
+_SKEW = 0.8
+"""Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
 
 
 def minimum_jerk(phase: float) -> tuple[float, float]:
@@ -39,6 +52,9 @@ class SwingTrajectory:
         duration: Single support time in s.
         lift_share: Share of the duration spent rising, 0..1.
         lateral_hold: Share of the duration at both ends in which the foot moves only up or down.
+        approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
+            0 comes down in one move.
+        approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
     """
 
     start: NDArray[np.float64]
@@ -49,18 +65,56 @@ class SwingTrajectory:
     duration: float
     lift_share: float = 0.45
     lateral_hold: float = 0.06
+    approach_height: float = 0.0
+    approach_speed: float = 0.06
+
+    @property
+    def lifted(self) -> float:
+        """Time in s since lift-off at which the foot is highest."""
+        return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, 0.34))
+
+    @property
+    def arrived(self) -> float:
+        """Time in s since lift-off at which the foot is above its place and moves only downwards."""
+        if self.approach_height == 0.0:
+            return self.duration * (1.0 - self.lateral_hold)
+        return self.duration * _ARRIVED_SHARE
 
     def at(self, time: float) -> tuple[NDArray[np.float64], float]:
         """Sole position (3,) in m and heading in rad at a time in s since lift-off; held outside 0..duration."""
-        s = min(1.0, max(0.0, time / self.duration))
-        blend, _ = minimum_jerk((s - self.lateral_hold) / (1.0 - 2.0 * self.lateral_hold))
+        time = min(self.duration, max(0.0, time))
+        first = self.lateral_hold * self.duration
+        share = (time - first) / (self.arrived - first)
+        if self.approach_height > 0.0:
+            share = max(0.0, time / self.arrived) ** _SKEW
+        blend, _ = minimum_jerk(share)
         position = self.start + blend * (self.end - self.start)
-        top = max(float(self.start[2]), float(self.end[2])) + self.height
-        if s < self.lift_share:
-            rise, _ = minimum_jerk(s / self.lift_share)
-            position[2] = self.start[2] + rise * (top - self.start[2])
-        else:
-            fall, _ = minimum_jerk((s - self.lift_share) / (1.0 - self.lift_share))
-            position[2] = top + fall * (self.end[2] - top)
+        position[2] = self._height(time)
         turn = math.remainder(self.yaw_end - self.yaw_start, 2.0 * math.pi)
         return position, self.yaw_start + blend * turn
+
+    def _height(self, time: float) -> float:
+        start, end = float(self.start[2]), float(self.end[2])
+        top = max(start, end) + self.height
+        lifted = self.lifted
+        if time < lifted:
+            rise, _ = minimum_jerk(time / lifted)
+            return start + rise * (top - start)
+        if self.approach_height == 0.0:
+            fall, _ = minimum_jerk((time - lifted) / (self.duration - lifted))
+            return top + fall * (end - top)
+        lasting = _APPROACH_SHARE * self.duration
+        speed = max(self.approach_speed, self.approach_height / lasting)
+        since = time - (self.duration - lasting)
+        low = end + min(self.approach_height, 0.8 * (top - end))
+        if since >= 0.0:
+            return low - speed * since
+        # Quintic from rest at the top to the approach's height and speed, with no acceleration at either end.
+        length = self.duration - lasting - lifted
+        s = 1.0 + since / length
+        drop = low - top
+        pull = -speed * length
+        s3 = s * s * s
+        return top + s3 * (
+            (10.0 * drop - 4.0 * pull) + s * ((7.0 * pull - 15.0 * drop) + s * (6.0 * drop - 3.0 * pull))
+        )

@@ -16,8 +16,10 @@ import numpy as np
 
 from gait.balance import BalanceGains
 from gait.controller import Command, ControllerSettings, WalkingController
+from gait.foot_motion import Landing
 from gait.footsteps import Footstep, straight_plan
 from gait.phases import Timing
+from gait.swing_compliance import ComplianceGains
 from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
@@ -87,7 +89,7 @@ class Simulation:
             height=scene.terrain.height,
         )
         self.settings = ControllerSettings(
-            com_height=robot.com_height,
+            com_height=robot.com_height - walk.crouch,
             mass=self.legs.mass,
             period=CONTROL_PERIOD,
             timing=Timing(
@@ -98,6 +100,8 @@ class Simulation:
                 walk.settle,
             ),
             swing_height=walk.swing_height,
+            landing=Landing(approach_height=walk.approach_height, approach_speed=walk.approach_speed),
+            compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
             gains=BalanceGains.from_table(robot.balance),
             feedback=scene.control.feedback,
             footholds=scene.control.footholds,
@@ -118,8 +122,8 @@ class Simulation:
             middle = centroid(robot.layouts[side].outline)
             assert middle is not None
             centers[side] = vrp_of_step(self.feet[side], middle)
-        stand(self.world, self.legs, self.servos, self.feet, centers, robot.com_height)
-        self.judge = Judge(self.world, robot.com_height)
+        stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
+        self.judge = Judge(self.world, self.settings.com_height)
 
     def _planned_feet(self) -> PlannedFeet:
         """The plan's footprints with their times, which the ground is laid out by."""

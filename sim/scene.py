@@ -34,6 +34,7 @@ class Walk:
         single_support: t_ss; 0 takes the robot's own.
         double_support: t_ds; 0 takes the robot's own.
         swing_height: Clearance of the swing foot.
+        crouch: How much lower than its own CoM height the robot walks, to reach ground that is lower than expected.
         approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
             far below it, for ground that is lower than expected.
         approach_speed: Speed of that in m/s.
@@ -51,6 +52,7 @@ class Walk:
     single_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     double_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     swing_height: float = field(default=0.05, metadata=limits(0.005, 0.25))
+    crouch: float = field(default=0.0, metadata=limits(0.0, 0.15))
     approach_height: float = field(default=0.0, metadata=limits(0.0, 0.1))
     approach_speed: float = field(default=0.06, metadata=limits(0.005, 0.5))
     start: float = field(default=1.2, metadata=limits(0.2, 60.0))

@@ -84,6 +84,8 @@ class Stones(Terrain):
 class Uneven(Terrain):
     """Stones whose height under each step is up to chance; where steps are taken in place, the stone moves in the air.
 
+    A footprint that overlaps the last one of the same foot, as those of the first and the last step do, has its height.
+
     Attributes:
         height_range: Largest difference in m to the ground that the plan expects.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
@@ -97,10 +99,13 @@ class Uneven(Terrain):
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         """Lay the ground out (see `Terrain.ground`)."""
         solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth)] for side in _SIDES}
-        place = dict(feet.standing)
+        place, height = dict(feet.standing), dict.fromkeys(_SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
             pitch, roll = _slope(rng, self.slope_range)
+            if _overlap(foot, place[foot.side]) and not _same_place(foot, place[foot.side]):
+                rise, pitch, roll = height[foot.side], 0.0, 0.0
+            height[foot.side] = rise
             if _same_place(foot, place[foot.side]):
                 stone = solids[foot.side][-1]
                 now = stone.position.copy()
@@ -169,6 +174,13 @@ def _slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
 
 def _same_place(foot: Footprint, other: Footprint) -> bool:
     return foot.side == other.side and bool(np.hypot(*(foot.center - other.center)) < 1e-3)
+
+
+def _overlap(foot: Footprint, other: Footprint) -> bool:
+    """Whether the stones of two footprints of the same foot overlap, along the feet."""
+    dx, dy = (other.center - foot.center).tolist()
+    along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
+    return bool(abs(along) < foot.half[0] + other.half[0] + 2.0 * _MARGIN)
 
 
 def _distinct(feet: PlannedFeet) -> list[Footprint]:

@@ -1,0 +1,287 @@
+"""Preemptive foot compliance: a swing that sees the ground before it touches it (T 4.4.1, Fig. 49).
+
+What the taxels measure on their way down is kept as one map of distances, carried along with the sole as it moves, so
+that noise averages out though nothing stands still. A plane through the highest ground under the sole gives how far
+the first contact is and which way the ground slopes.
+
+- Damping: the virtual force f_p = k_p sum(rho_i) of T 4.26 says how near the ground is; the swing slows down in
+  proportion to the distance that is left and touches at a crawl (T 4.31, where the paper stops at f_p > epsilon_stop).
+- Orientation: the sole turns until the ground shows no slope, or until the virtual moment is zero.
+- Hand-over: once the taxels carry load, T 4.30 (corrected) drops the virtual part.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.estimator import rotation_from_vector
+from plantar.layout import SoleLayout
+from plantar.percept import Percept
+from plantar.virtual_wrench import SoleWrenchSwitch, virtual_ground_reaction_wrench
+
+__all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground", "vector_from_rotation"]
+
+
+@dataclass(frozen=True)
+class ComplianceGains:
+    """Settings of preemptive foot compliance.
+
+    Attributes:
+        orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
+        sensing_range: Range of the proximity sensors in m.
+        damping: Time constant in s with which the swing comes to the ground: speed = touch_speed + distance / damping.
+        touch_speed: Speed in m/s at which it touches.
+        margin: Distance in m from the ground at which it is down to that speed.
+        top_speed: Largest speed downwards in m/s.
+        acceleration: Largest acceleration downwards in m/s^2.
+        clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
+        clearance_slope: The same, for each metre that it still has to go.
+        correction: Time constant in s with which the foot follows the distance that it should have.
+        haste: How many times faster a foot touches that the plan puts weight on already.
+        turning: Time constant in s with which the sole turns to the ground.
+        turn_rate: Largest rate of that in rad/s.
+        largest_slope: Slope in rad beyond which the sole does not follow the ground.
+        contact_force: Force in N that counts as touchdown.
+        hold_force: Force in N that a foot carries from its touchdown to the double support.
+        pliancy: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
+        kept: Share of the map of distances that a new reading leaves.
+        kept_moving: The same while the sole moves over the ground.
+        still: Horizontal move in m a control tick below which it does not.
+    """
+
+    orientation: str = "plane"
+    sensing_range: float = 0.05
+    damping: float = 0.05
+    touch_speed: float = 0.003
+    margin: float = 0.0002
+    top_speed: float = 0.3
+    acceleration: float = 4.0
+    clearance: float = 0.012
+    clearance_slope: float = 0.2
+    correction: float = 0.05
+    haste: float = 4.0
+    turning: float = 0.04
+    turn_rate: float = 1.5
+    largest_slope: float = 0.25
+    contact_force: float = 18.0
+    hold_force: float = 28.0
+    pliancy: float = 1.2e-4
+    kept: float = 0.85
+    kept_moving: float = 0.8
+    still: float = 0.0005
+
+
+@dataclass(frozen=True)
+class GroundView:
+    """The ground under a swinging sole.
+
+    Attributes:
+        distance: How far down in m the first contact is.
+        slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by.
+        virtual_force: Virtual force f_p in N.
+    """
+
+    distance: float
+    slope: tuple[float, float]
+    virtual_force: float
+
+
+class SwingCompliance:
+    """What one sole sees and feels from lift-off to the end of its landing.
+
+    Args:
+        layout: The sole.
+        gains: Settings.
+    """
+
+    def __init__(self, layout: SoleLayout, gains: ComplianceGains) -> None:
+        self.layout = layout
+        self.gains = gains
+        self.switch = SoleWrenchSwitch(gains.contact_force)
+        self.bias = 0.0
+        self.force = 0.0
+        self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
+        self._corners = layout.outline
+        self._centre = layout.positions.mean(axis=0)
+        self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
+        self._distance = np.full(len(layout), np.inf)
+        self._readings = 0
+        self._still = False
+        self._pose: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+        self._speed = 0.0
+        self._aim: float | None = None
+
+    def begin(self) -> None:
+        """A swing begins."""
+        self._distance[:] = np.inf
+        self._readings = 0
+        self._pose = None
+        self._speed = 0.0
+        self._aim = None
+        self.switch.reset()
+        self.force = 0.0
+
+    def feel(self, load: float) -> bool:
+        """Whether the foot has landed (T 4.30 corrected).
+
+        Args:
+            load: Vertical force in N on the sole, less its tare.
+        """
+        self.force += 0.5 * (load - self.force)
+        up = np.array([0.0, 0.0, self.force, 0.0, 0.0, 0.0])
+        self.switch.update(up, np.zeros(6))
+        return self.switch.landed
+
+    def look(self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> GroundView | None:
+        """What the sole sees now.
+
+        Args:
+            percept: What the sole senses.
+            position: Sole position (3,) in the world as estimated in m.
+            rotation: Rotation (3, 3) from the sole to the world as estimated.
+
+        Returns:
+            The ground, or None where nothing is seen.
+        """
+        self._carry(position, rotation)
+        reading = percept.reading.proximity
+        if reading is not None:
+            self._readings += 1
+            kept = min(self.gains.kept if self._still else self.gains.kept_moving, 1.0 - 1.0 / self._readings)
+            with np.errstate(invalid="ignore"):
+                mixed = kept * self._distance + (1.0 - kept) * reading
+            self._distance = np.where(np.isfinite(self._distance), mixed, reading)
+        return self._view()
+
+    def descent(self, view: GroundView | None, planned: float, remaining: float, late: bool, period: float) -> float:
+        """How far the foot goes down in one control tick, in m; negative: up.
+
+        Args:
+            view: What the sole sees.
+            planned: Speed downwards in m/s of the swing's own plan, which holds while nothing is seen.
+            remaining: Horizontal distance in m that the foot still has to go.
+            late: Whether the plan puts weight on the foot already.
+            period: Control period in s.
+        """
+        g = self.gains
+        if view is None:
+            self._aim = None
+            self._speed = min(planned, self._speed + g.acceleration * period)
+            return self._speed * period
+        if self._aim is None:
+            self._aim = view.distance
+        left = self._aim - (g.margin if remaining < 0.002 else min(g.clearance, 0.004 + g.clearance_slope * remaining))
+        crawl = g.touch_speed * (g.haste if late else 1.0)
+        wanted = left / g.damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
+        if remaining < 0.002:
+            wanted = max(wanted, crawl)
+        self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
+        self._aim -= self._speed * period
+        return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
+
+    def yielding(self, load: float, target: float, period: float) -> float:
+        """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
+
+        Args:
+            load: Vertical force in N on the sole.
+            target: Force in N that it should have.
+            period: Control period in s.
+        """
+        g = self.gains
+        wanted = g.pliancy * (target - load) if load > 0.3 * g.hold_force else g.haste * 0.5 * g.touch_speed
+        self._speed = min(0.02, max(-0.02, wanted))
+        return self._speed * period
+
+    def touched(self) -> None:
+        """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
+        view = self._view()
+        if view is not None and abs(view.distance) < 0.015:
+            self.bias += 0.5 * view.distance
+
+    def _carry(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
+        """Move the map along with the sole: each taxel's distance changes by how far it rose."""
+        if self._pose is not None:
+            before, turned = self._pose
+            moved = rotation.T @ (position - before)
+            self._still = math.hypot(float(moved[0]), float(moved[1])) < self.gains.still
+            turn = turned.T @ rotation
+            self._distance = self._distance + moved[2] + turn[2, 0] * self._x + turn[2, 1] * self._y
+        self._pose = (position.copy(), rotation.copy())
+
+    def _view(self) -> GroundView | None:
+        seen = np.flatnonzero(np.isfinite(self._distance))
+        if len(seen) < 3:
+            return None
+        x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
+        level, sx, sy = _highest_plane(x, y, d)
+        slope = (sx, sy)
+        limit = self.gains.largest_slope
+        if math.hypot(sx, sy) > limit:
+            slope = (0.0, 0.0)
+        nearest = level - float((self._corners @ np.array([sx, sy])).max())
+        g = self.gains
+        wrench = virtual_ground_reaction_wrench(self.layout, self._distance - self.bias, 50.0, g.sensing_range)
+        if g.orientation == "moment":
+            slope = self._slope_of_moment(wrench, len(seen))
+        return GroundView(nearest, slope, float(wrench[2]))
+
+    def _slope_of_moment(self, wrench: NDArray[np.float64], count: int) -> tuple[float, float]:
+        """Slope that a level sole would see for a virtual moment about its middle."""
+        moment_x = wrench[3] - self._centre[1] * wrench[2]
+        moment_y = wrench[4] + self._centre[0] * wrench[2]
+        return (
+            float(-moment_y / (50.0 * count * self._spread[0])),
+            float(moment_x / (50.0 * count * self._spread[1])),
+        )
+
+
+def _highest_plane(
+    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
+) -> tuple[float, float, float]:
+    """Plane z = -level + sx x + sy y through the highest ground under a sole.
+
+    A least-squares plane; while it leaves out ground that is higher than it by more than noise explains, the fit is
+    repeated with the points above it. Fewer than six points, or points in a row, give a level plane.
+    """
+    for _ in range(4):
+        n = len(x)
+        mx, my, md = x.mean(), y.mean(), d.mean()
+        u, v, w = x - mx, y - my, d - md
+        xx, xy, yy = float(u @ u), float(u @ v), float(v @ v)
+        determinant = xx * yy - xy * xy
+        if n < 6 or determinant < 0.02 * xx * yy + 1e-12 or min(xx, yy) < n * 2e-4:
+            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0
+        xw, yw = float(u @ w), float(v @ w)
+        sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
+        above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
+        if float(above.max()) < 0.003:
+            break
+        higher = above > 0.0
+        x, y, d = x[higher], y[higher], d[higher]
+    return float(md + sx * mx + sy * my), float(sx), float(sy)
+
+
+def turned_to_ground(
+    rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
+) -> NDArray[np.float64]:
+    """Rotation (3, 3) of a sole after turning a share of the way to the ground's slope, by at most `largest` rad."""
+    turn = np.array([share * slope[1], -share * slope[0], 0.0])
+    size = math.hypot(float(turn[0]), float(turn[1]))
+    if size > largest:
+        turn *= largest / size
+    return np.asarray(rotation @ rotation_from_vector(turn))
+
+
+def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation vector (3,) in rad of a rotation (3, 3) by less than half a turn."""
+    axis = 0.5 * np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    sine = math.sqrt(float(axis @ axis))
+    if sine < 1e-9:
+        return axis
+    return np.asarray(axis * (math.atan2(sine, 0.5 * (float(np.trace(rotation)) - 1.0)) / sine))
