@@ -55,7 +55,7 @@ class AnyAngle:
         Args:
             ring: Clean convex ring, counter-clockwise, near the origin; flat.
             n: Number of vertices, 3 or more.
-            work: Room for 6 n + 12 numbers.
+            work: Room for 8 n + 16 numbers.
             out: Receives the 4 corners, flat, counter-clockwise.
 
         Returns:

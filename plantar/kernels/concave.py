@@ -36,7 +36,7 @@ class OutlineRectangles:
         self._make_room(64, 16)
         self._make_many(512)
         self.ring = self._numbers(18)
-        self.work = self._numbers(80)
+        self.work = self._numbers(96)
         self.corner = self._numbers(8)
 
     def _numbers(self, size):

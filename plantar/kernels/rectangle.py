@@ -23,7 +23,7 @@ def largest_rectangle(ring, n, angle, floor, work, out):
         n: Number of vertices, 3 or more.
         angle: Angle of the first side in rad.
         floor: Give up where no rectangle of more than this area is left to find; 0 to find the largest.
-        work: Room for 6 n + 12 numbers.
+        work: Room for 8 n + 16 numbers.
         out: Receives the 4 corners, flat, counter-clockwise; untouched unless the area is above the floor.
 
     Returns:

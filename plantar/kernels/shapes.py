@@ -31,7 +31,7 @@ class ConvexShapes:
     def __init__(self, lists):
         self.lists = lists
         self.ring = self._room(64)
-        self.work = self._room(256)
+        self.work = self._room(512)
         self.out = self._room(8)
         self.turning = any_angle.AnyAngle(lists)
         self.n = 0
