@@ -133,10 +133,11 @@ def analyse_foot(recording: PressureRecording, side: Side, prints: Sequence[Plat
     levels = force_levels(force, recording.kind)
     contacts = find_contacts(recording.time, force, levels) if levels is not None else []
     other: Side = "right" if side == "left" else "left"
-    others: list[Contact] | None = None
+    others: _OtherFoot | None = None
     if other in recording.feet:
         across = recording.feet[other].vertical_force
-        others = find_contacts(recording.time, across, force_levels(across, recording.kind))
+        contacts_across = find_contacts(recording.time, across, force_levels(across, recording.kind))
+        others = _OtherFoot(recording, contacts_across)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
     if cop is not None:
         cop = averaged_path(cop, np.where(np.isfinite(force), force, 1.0), round(COP_WINDOW * recording.rate_hz))
@@ -150,7 +151,7 @@ def analyse_foot(recording: PressureRecording, side: Side, prints: Sequence[Plat
     for k, i in enumerate(complete):
         contact = contacts[i]
         print_, region = _footprint(recording, gait, loads, contact, prints)
-        time = _time_measures(recording, contacts, i, strides[k], others)
+        time = _time_measures(contacts, i, strides[k], others)
         measures, regions = _measure(recording, gait, loads.of(contact), contact, print_, region)
         strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
         own = {**time, **measures}
@@ -298,11 +299,7 @@ def _strides(contacts: Sequence[Contact], complete: Sequence[int]) -> list[float
 
 
 def _time_measures(
-    recording: PressureRecording,
-    contacts: Sequence[Contact],
-    index: int,
-    stride: float,
-    others: Sequence[Contact] | None,
+    contacts: Sequence[Contact], index: int, stride: float, others: _OtherFoot | None
 ) -> dict[str, float]:
     contact = contacts[index]
     strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
@@ -317,27 +314,35 @@ def _time_measures(
         "swing_percent": 100.0 - share,
     }
     if others is not None:
-        between = [
-            c.heel_strike
-            for c in others
-            if c.heel_strike is not None and previous is not None and previous < c.heel_strike < strike
-        ]
+        between = others.strikes_between(strike if previous is None else previous, strike)
         if len(between) == 1:
-            out["step_time_s"] = strike - between[0]
-        both = 100.0 * _overlap(strike, lift, others, recording) / stride
+            out["step_time_s"] = strike - float(between[0])
+        both = 100.0 * others.overlap(strike, lift) / stride
         out["double_support_percent"] = both
         out["single_support_percent"] = share - both
     return out
 
 
-def _overlap(strike: float, lift: float, others: Sequence[Contact], recording: PressureRecording) -> float:
-    """Time in s of one contact in which the other foot is on the ground too."""
-    total = 0.0
-    for other in others:
-        begin = other.heel_strike if other.heel_strike is not None else float(recording.time[other.begin])
-        end = other.toe_off if other.toe_off is not None else float(recording.time[other.end - 1])
-        total += max(0.0, min(lift, end) - max(strike, begin))
-    return total
+class _OtherFoot:
+    """The contacts of the other foot, as arrays that are searched quickly."""
+
+    def __init__(self, recording: PressureRecording, contacts: Sequence[Contact]) -> None:
+        time = recording.time
+        self.strikes = np.array([c.heel_strike for c in contacts if c.heel_strike is not None])
+        begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
+        end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
+        self._begin, self._end = np.array(begin), np.array(end)
+
+    def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
+        """Heel strikes after one time and before another."""
+        first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
+        return self.strikes[first:last]
+
+    def overlap(self, strike: float, lift: float) -> float:
+        """Time in s of one contact in which the other foot is on the ground too."""
+        first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")
+        begin, end = self._begin[first:last], self._end[first:last]
+        return float((np.minimum(end, lift) - np.maximum(begin, strike)).clip(0.0).sum())
 
 
 def _measure(

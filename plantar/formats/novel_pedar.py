@@ -8,7 +8,7 @@ A pedar export holds no geometry; a pliance export may append a table of cell co
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
@@ -49,23 +49,24 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     Raises:
         FormatError: If the file is not such an export, states an unknown unit, or holds no frames.
     """
+    notes: list[str] = []
     try:
         with path.open(encoding="latin-1", newline=None) as stream:
             lines = iter(stream)
             header, columns = _take_header(path, lines)
-            rows, tail = _take_rows(path, lines, len(columns))
+            text = "\n".join(header)
+            sides = _sides(text, columns, options, notes)
+            rows, tail = _take_rows(path, lines, len(columns), [span for _, span in sides])
     except OSError as error:
         raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
-    text = "\n".join(header)
-    warnings: list[str] = list(rows.warnings)
+    warnings = [*rows.warnings, *notes]
     layout = options.layout
     unit = _unit(path, text, options, warnings)
-    time, rate, notes = sampling(rows.time, options.rate_hz or _rate(text))
-    warnings += notes
+    time, rate, doubts = sampling(rows.time, options.rate_hz or _rate(text))
+    warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
-    sides = _sides(text, columns, options, warnings)
-    for (side, span), values in zip(sides, rows.take([span for _, span in sides]), strict=True):
+    for (side, span), values in zip(sides, rows.values, strict=True):
         sole = _layout(path, side, columns[span.start : span.stop], layout, geometry, text, warnings)
         if unit.kind == "pressure":
             values *= unit.factor * sole.areas
@@ -104,65 +105,73 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """The frames: times (n,) in s, values in blocks (m, cells) with NaN in damaged frames, and what was repaired."""
+    """The frames: times (n,) in s, values (n, span) of each span of columns (NaN where damaged), what was repaired."""
 
     time: NDArray[np.float64]
-    blocks: list[NDArray[np.float64]]
+    values: list[NDArray[np.float64]]
     warnings: tuple[str, ...]
 
-    def take(self, spans: list[range]) -> list[NDArray[np.float64]]:
-        """The values (n, span) of each span of columns; a block is dropped once it is copied."""
-        out = [np.empty((len(self.time), len(span))) for span in spans]
-        at = 0
-        self.blocks.reverse()
-        while self.blocks:
-            block = self.blocks.pop()[: len(self.time) - at]
-            for values, span in zip(out, spans, strict=True):
-                values[at : at + len(block)] = block[:, span.start : span.stop]
-            at += len(block)
-        return out
 
+def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[range]) -> tuple[_Rows, list[str]]:
+    """Frames up to the next section; also the lines after them.
 
-def _take_rows(path: Path, lines: Iterator[str], cells: int) -> tuple[_Rows, list[str]]:
-    """Frames up to a blank line or the next section; also the lines after them."""
-    times: list[NDArray[np.float64]] = []
-    blocks: list[NDArray[np.float64]] = []
+    The arrays are made for as many frames as the file's size suggests and written block by block, so that a long
+    recording is in memory once.
+    """
     tail: list[str] = []
+    time = np.empty(0)
+    values = [np.empty((0, len(span))) for span in spans]
+    n = 0
     while not tail:
         block: list[str] = []
         for line in lines:
-            if not line.strip() or _LABELS.match(line):
+            if _LABELS.match(line):
                 tail = [line, *lines]
                 break
-            block.append(line)
+            if line.strip():
+                block.append(line)
             if len(block) == _BLOCK:
                 break
         if not block:
             break
         rows = _frames(block, cells)
-        times.append(rows[:, 0].copy())
-        blocks.append(rows[:, 1:])
-    if not blocks:
+        if n + len(rows) > len(time):
+            room = n + len(rows) + (path.stat().st_size // max(len(line) for line in block) if n == 0 else n // 4)
+            time, values = _larger(time, room), [_larger(v, room) for v in values]
+        time[n : n + len(rows)] = rows[:, 0]
+        for own, span in zip(values, spans, strict=True):
+            own[n : n + len(rows)] = rows[:, 1 + span.start : 1 + span.stop]
+        n += len(rows)
+    if n == 0:
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    time = np.concatenate(times)
-    bad = np.concatenate([np.isnan(block[:, 0]) for block in blocks])
+    bad = np.isnan(values[0][:n, 0])
     warnings: list[str] = []
     if bad[-1]:
-        time, bad = time[:-1], bad[:-1]
+        n -= 1
         warnings.append("the last frame is cut short: left out")
-    damaged = int(bad.sum())
-    if damaged == len(time):
+    damaged = int(bad[:n].sum())
+    if damaged == n:
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    if damaged > 0.2 * len(time):
-        raise FormatError(f"{path}: {damaged} of {len(time)} frames do not have {cells} numbers; the file is damaged")
+    if damaged > 0.2 * n:
+        raise FormatError(f"{path}: {damaged} of {n} frames do not have {cells} numbers; the file is damaged")
     if damaged:
         warnings.append(f"{damaged} damaged frame(s) are treated as not measured")
-    return _Rows(time, blocks, tuple(warnings)), tail
+    return _Rows(time[:n], [v[:n] for v in values], tuple(warnings)), tail
+
+
+def _larger(array: NDArray[np.float64], rows: int) -> NDArray[np.float64]:
+    """An array with more rows, of which only those that are written take memory."""
+    out = np.empty((rows, *array.shape[1:]))
+    out[: len(array)] = array
+    return out
 
 
 def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
     """Numbers (lines, 1 + cells) of lines; NaN in each line that is not made of as many finite numbers."""
     width = 1 + cells
+    rows = _fixed_width(block, cells)
+    if rows is not None:
+        return rows
     tabs = block[0].count("\t")
     if tabs and all(line.count("\t") == tabs for line in block):  # all at once where nothing looks odd
         try:
@@ -181,6 +190,55 @@ def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
         if row is not None:
             out[i] = row
     return out
+
+
+def _fixed_width(block: list[str], cells: int) -> NDArray[np.float64] | None:
+    """Numbers (lines, 1 + cells) of lines that are alike to the column, as the exporting program writes them.
+
+    Digits are weighted where they stand, four times as fast as parsing one number after the other. None where any byte
+    is not what it is in the first line: a digit or blank, a point, a tab.
+    """
+    length = len(block[0])
+    if any(len(line) != length for line in block) or not block[0].endswith("\n"):
+        return None
+    try:
+        raw = np.frombuffer("".join(block).encode("ascii"), dtype=np.uint8).reshape(len(block), length)
+    except UnicodeEncodeError:
+        return None
+    tabs = np.flatnonzero(raw[0] == 9)
+    if len(tabs) not in (cells, cells + 1):
+        return None
+    ends = tabs if len(tabs) == cells + 1 else np.append(tabs, length - 1)
+    wide = np.diff(ends)
+    if not (wide == wide[0]).all() or ends[-1] < length - 2:
+        return None
+    body = raw[:, ends[0] + 1 : ends[-1] + 1].reshape(len(block), cells, wide[0])
+    point = np.flatnonzero(body[0, 0] == 46)
+    if len(point) != 1 or wide[0] > 12 or not (body[:, :, point[0]] == 46).all():
+        return None
+    last = body[:, :, -1]
+    if not ((last == 9) | (last == 10)).all():
+        return None
+    decimals = int(wide[0]) - 2 - int(point[0])
+    powers = [*range(wide[0] - 3, wide[0] - 3 - int(point[0]), -1), *range(decimals - 1, -1, -1)]
+    total = np.zeros((len(block), cells))
+    begun = np.zeros((len(block), cells), dtype=bool)
+    for at, power in zip([i for i in range(wide[0] - 1) if i != point[0]], powers, strict=True):
+        byte = body[:, :, at]
+        digit = (byte >= 48) & (byte <= 57)
+        if not (digit | ((byte == 32) & ~begun & (at < point[0]))).all():
+            return None
+        begun |= digit
+        total += np.where(digit, byte - np.uint8(48), 0) * 10.0**power
+    if not begun.all():
+        return None
+    try:
+        time = np.array([line[: ends[0]] for line in block], dtype=float)
+    except ValueError:
+        return None
+    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
+        return None
+    return np.column_stack([time, total / 10.0**decimals])
 
 
 def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
