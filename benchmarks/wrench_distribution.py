@@ -14,8 +14,8 @@ import qpsolvers
 import quadprog
 from scipy.optimize import minimize
 
-from gait.wrench_cone import Rectangle
-from gait.wrench_distribution import FootContact, WrenchDistribution
+from gait.wrench_cone import FootContact, Rectangle
+from gait.wrench_distribution import WrenchDistribution
 from plantar.atomic import write_text
 
 WEIGHT = 640.0

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.vrp_plan import LipReference
-from gait.wrench_cone import Rectangle
+from gait.wrench_cone import FootContact
 from plantar.errors import InputError
 from plantar.layout import Side
 from plantar.polygon import closest_point
@@ -55,17 +55,12 @@ class FootState:
     """A foot that stands, as a balance law sees it.
 
     Attributes:
-        position: Sole frame origin (3,) in the world frame in m.
-        rotation: Rotation (3, 3) from the sole to the world frame.
-        rectangle: The part of the sole that may be loaded, in the sole frame.
-        center: Point (x, y) of the sole at which the plan likes its centre of pressure in m.
+        contact: Its sole frame in the world, the part of the sole that may be loaded, and where the plan likes its
+            centre of pressure.
         wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot.
     """
 
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    rectangle: Rectangle
-    center: tuple[float, float]
+    contact: FootContact
     wrench: NDArray[np.float64]
 
 

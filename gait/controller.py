@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance import BalanceGains, DcmBalance
+from gait.balance import BalanceGains, FootAction, FootState
+from gait.balance_laws import balance_law
 from gait.com_height import CoMHeight
 from gait.command_frame import CommandFrame
 from gait.estimator import (
@@ -30,6 +32,8 @@ from gait.stance_contact import ContactSettings, StanceContact
 from gait.swing_compliance import ComplianceGains, SwingCompliance
 from gait.vrp_plan import LipReference
 from gait.walk_plan import WalkPlan
+from gait.wrench_cone import FootContact, Rectangle
+from plantar.contact_rectangle import safe_rectangle
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
 from plantar.polygon import centroid, inner_offset
@@ -37,9 +41,13 @@ from plantar.reading import Reading
 from plantar.support import feet_support_polygon, polygon_in_world
 from plantar.zmp import divergent_component
 
+if TYPE_CHECKING:
+    from gait.wrench_balance import WrenchBalanceGains
+
 __all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
 
 
 @dataclass(frozen=True)
@@ -55,7 +63,7 @@ class ControllerSettings:
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
-        gains: Balance gains.
+        gains: Gains of the balance law; their class says which.
         estimator: Estimator gains.
         contact: How footholds are found from the taxels.
         feedback: False walks the plan in open loop, for comparison.
@@ -71,7 +79,7 @@ class ControllerSettings:
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     alignment_time: float = 0.3
-    gains: BalanceGains = field(default_factory=BalanceGains)
+    gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
     feedback: bool = True
@@ -175,7 +183,9 @@ class WalkingController:
         self._vrp_in_sole = vrp_in_sole
         self._center_in_sole = dict(vrp_in_sole)
         self.plan = WalkPlan(feet, self.schedule, vrp_in_sole, self.omega)
-        self.balance = DcmBalance(settings.gains, self.omega, settings.period)
+        self.balance = balance_law(settings.gains, self.omega, settings.mass, settings.period)
+        self._rectangle_of: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
+        self._contact_of: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], FootContact]] = {}
         self.estimator = FloatingBaseEstimator(
             kinematics,
             self.omega,
@@ -246,15 +256,20 @@ class WalkingController:
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
-            balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase))
+            standing = self._foot_states(phase, percepts) if self.balance.wants_feet else {}
+            balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase), standing)
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
+            actions = balance.feet
         else:
+            actions = {}
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
         height = self._com_height(phase)
         yaws = [self.motion.footholds[side][1] for side in _SIDES]
         target = np.array([*self._frame.to_command(com), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
         feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
+        for side, action in actions.items():
+            feet[side] = self._acted(feet[side], side, action)
         if feedback:
             self._compensate(feet, phase, target, torso, state)
         return Command(
@@ -375,6 +390,54 @@ class WalkingController:
             self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
             self._region_of = places
         return self._region
+
+    def _foot_states(self, phase: Phase, percepts: Mapping[Side, Percept]) -> dict[Side, FootState]:
+        """The feet that stand, for a balance law that shares the ground's wrench between them."""
+        states: dict[Side, FootState] = {}
+        for side in _SIDES:
+            if phase.swing == side and not self.motion.landed:
+                continue
+            states[side] = FootState(self._contact(side), percepts[side].wrench_in_sole)
+        return states
+
+    def _contact(self, side: Side) -> FootContact:
+        """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
+        polygon = self._outline[side] if self._support[side] is None else self._contacts[side].polygon_in_sole
+        rectangle = self._rectangle_of.get(side)
+        if rectangle is None or rectangle[0] is not polygon:
+            (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET).tolist()
+            rectangle = self._rectangle_of[side] = (polygon, Rectangle(x0, x1, y0, y1))
+        position, yaw = self.motion.footholds[side]
+        x, y, z = self._frame.offset.tolist()
+        place = (rectangle[1], yaw, round(x, 4), round(y, 4), round(z, 4), round(self._frame.turn, 4))
+        known = self._contact_of.get(side)
+        if known is None or known[0] is not position or known[1] != place:
+            center = self._center_in_sole[side]
+            contact = FootContact(
+                self._frame.to_world(position),
+                Footstep(side, 0.0, 0.0, yaw + self._frame.turn).rotation_sole_to_world,
+                rectangle[1],
+                preferred=(float(center[0]), float(center[1])),
+            )
+            known = self._contact_of[side] = (position, place, contact)
+        return known[2]
+
+    def _acted(self, foot: FootTarget, side: Side, action: FootAction) -> FootTarget:
+        """A foot's target as the balance law wants it: turned about its centre, shifted, and with its own wrench."""
+        position, rotation = foot.position, foot.rotation
+        if action.roll or action.pitch or action.shift:
+            rotation = foot.rotation @ rotation_from_vector(np.array([action.roll, action.pitch, 0.0]))
+            position = foot.position + (foot.rotation - rotation)[:, :2] @ self._center_in_sole[side]
+            position[2] += action.shift
+        fx, fy, fz, tx, ty, _ = action.wrench.tolist()
+        if fz <= 0.0:
+            return replace(foot, position=position, rotation=rotation, force=np.zeros(3))
+        return FootTarget(
+            position,
+            rotation,
+            foot.rotation @ np.array([fx, fy, fz]),
+            foot.position[:2] + foot.rotation[:2, :2] @ np.array([-ty / fz, tx / fz]),
+        )
 
     def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""

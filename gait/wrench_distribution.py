@@ -22,10 +22,10 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.wrench_cone import Rectangle, cone_rows
+from gait.wrench_cone import FootContact, Rectangle, cone_rows
 from plantar.errors import InputError
 
-__all__ = ["DistributionState", "DistributionWeights", "FootContact", "Program", "WrenchDistribution", "WrenchShare"]
+__all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
 
 _LENGTH = 0.1  # m: unit of moments over forces inside the program
 _SCALE = np.array([1.0, 1.0, 1.0, _LENGTH, _LENGTH, _LENGTH])
@@ -47,26 +47,6 @@ class DistributionState(StrEnum):
     """The request holds a number that is not finite; the share is the body's weight in the middle of the contacts."""
     AIRBORNE = "airborne"
     """No contact, no wrench."""
-
-
-@dataclass(frozen=True)
-class FootContact:
-    """A contact of one foot with the ground.
-
-    Attributes:
-        position: Origin (3,) of the contact frame in the world in m, for example the sole frame's.
-        rotation: Rotation (3, 3) from the contact to the world frame.
-        rectangle: The contact area in the contact frame.
-        friction: Coefficient of the friction pyramid, above 0.
-        preferred: Point (x, y) of the contact frame in m at which the foot likes its centre of pressure; the
-            rectangle's middle where None.
-    """
-
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    rectangle: Rectangle
-    friction: float = 0.6
-    preferred: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -147,14 +127,13 @@ class _Workspace:
         self.upper = np.zeros(_ROWS * feet)
         self.lower = np.full(_ROWS * feet, -1e30)
         self.middle = (0.0, 0.0, 0.0)
-        self.poses: list[bytes] = []
-        self.bounds: list[tuple[Rectangle, float, tuple[float, float] | None] | None] = [None] * feet
+        self.contacts: list[FootContact | None] = [None] * feet
         self.ratio = math.nan
         self.solver: daqp.Model | None = None
 
     def forget(self) -> None:
         """Start afresh: a request with numbers that are not finite leaves nothing behind."""
-        self.poses, self.bounds, self.solver = [], [None] * len(self.bounds), None
+        self.contacts, self.solver = [None] * len(self.contacts), None
 
 
 class WrenchDistribution:
@@ -276,30 +255,33 @@ class WrenchDistribution:
         px, py, pz = np.asarray(point, dtype=float).tolist()
         if not math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + ratio):
             return None
-        new_bounds = False
+        moved = limited = False
         for i, contact in enumerate(contacts):
-            bounds = (contact.rectangle, contact.friction, contact.preferred)
-            if bounds != work.bounds[i]:
+            last = work.contacts[i]
+            if contact is last:
+                continue
+            if last is None or contact.limits != last.limits:
                 if not math.isfinite(sum(contact.rectangle) + contact.friction + sum(contact.preferred or ())):
                     work.forget()
                     return None
-                new_bounds = True
-                work.bounds[i] = bounds
+                limited = True
                 self._constrain(work, i, contact)
-        poses = [a.tobytes() for c in contacts for a in (c.position, c.rotation)]
-        if new_bounds or poses != work.poses or ratio != work.ratio:
-            if poses != work.poses:
-                if not _turn(work, contacts):
-                    work.forget()
-                    return None
-                work.poses = poses
+            if last is None or not (
+                np.array_equal(contact.position, last.position) and np.array_equal(contact.rotation, last.rotation)
+            ):
+                moved = True
+            work.contacts[i] = contact
+        if moved and not _turn(work, contacts):
+            work.forget()
+            return None
+        if moved or limited or ratio != work.ratio:
             work.ratio = ratio
             self._weigh(work, ratio)
             if work.solver is None:
                 work.solver = daqp.Model()
                 work.solver.settings = {"primal_tol": 1e-10}
                 work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
-            elif new_bounds:
+            elif limited:
                 work.solver.update(H=work.hessian, A=work.constraints, bupper=work.upper, blower=work.lower)
             else:
                 work.solver.update(H=work.hessian)
@@ -320,7 +302,7 @@ class WrenchDistribution:
         work.constraints[row : row + 16, k : k + 6] = cone_rows(inner, contact.friction)
         work.constraints[row + 16, k + 2] = -1.0
         work.upper[row + 16] = -self.minimum_force / self.weight
-        if len(work.bounds) == 2:
+        if len(work.contacts) == 2:
             # Moments about the preferred point: tx - y fz and ty + x fz.
             x, y = contact.preferred or contact.rectangle.center
             x, y, ankle, own = x / _LENGTH, y / _LENGTH, self.weights.ankle, work.own
@@ -334,7 +316,7 @@ class WrenchDistribution:
         hessian = work.hessian
         np.matmul(work.jacobian.T, self.weights.net * work.jacobian, out=hessian)
         hessian += work.own
-        if len(work.bounds) == 2:
+        if len(work.contacts) == 2:
             pressure, rest = self.weights.pressure, 1.0 - ratio
             hessian[2, 2] += pressure * rest * rest
             hessian[8, 8] += pressure * ratio * ratio

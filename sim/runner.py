@@ -14,7 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gait.balance import BalanceGains
+from gait.balance_laws import balance_gains
 from gait.controller import Command, ControllerSettings, WalkingController
 from gait.foot_motion import Landing
 from gait.footsteps import Footstep, straight_plan
@@ -102,7 +102,7 @@ class Simulation:
             swing_height=walk.swing_height,
             landing=Landing(approach_height=walk.approach_height, approach_speed=walk.approach_speed),
             compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
-            gains=BalanceGains.from_table(robot.balance),
+            gains=balance_gains(robot.balance),
             feedback=scene.control.feedback,
             footholds=scene.control.footholds,
         )

@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.wrench_cone import Rectangle, wrench_cone
+from gait.wrench_cone import FootContact, Rectangle, wrench_cone
 from gait.wrench_distribution import (
     DistributionState,
     DistributionWeights,
-    FootContact,
     Program,
     WrenchDistribution,
 )

@@ -1,0 +1,64 @@
+"""Which balance law a robot has: by the name in its file, each law's modules loaded only where it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from gait.balance import BalanceGains, BalanceLaw, DcmBalance
+from plantar.errors import InputError
+
+if TYPE_CHECKING:
+    from gait.wrench_balance import WrenchBalanceGains
+
+    Gains: TypeAlias = BalanceGains | WrenchBalanceGains
+
+__all__ = ["LAWS", "balance_gains", "balance_law"]
+
+LAWS = ("com_admittance", "wrench_distribution")
+"""Names of the balance laws."""
+
+
+def balance_gains(table: Mapping[str, Any]) -> Gains:
+    """Gains of the law that a robot's `[balance]` table names.
+
+    Args:
+        table: The table: `law` and its gains.
+
+    Returns:
+        The gains; their class is that of the law.
+
+    Raises:
+        InputError: If the law is unknown or a gain not allowed.
+
+    Example:
+        >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
+        3.0
+    """
+    law = table.get("law", LAWS[0])
+    if law == "com_admittance":
+        return BalanceGains.from_table(table)
+    if law == "wrench_distribution":
+        from gait.wrench_balance import WrenchBalanceGains
+
+        return WrenchBalanceGains.from_table(table)
+    raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
+
+
+def balance_law(gains: Gains, omega: float, mass: float, period: float) -> BalanceLaw:
+    """The law that the gains belong to.
+
+    Args:
+        gains: Gains of a law.
+        omega: Pendulum frequency in rad/s.
+        mass: Mass of the robot in kg.
+        period: Control period in s.
+
+    Returns:
+        The law, at its beginning.
+    """
+    if isinstance(gains, BalanceGains):
+        return DcmBalance(gains, omega, period)
+    from gait.wrench_balance import WrenchBalance
+
+    return WrenchBalance(gains, omega, mass, period)

@@ -1,0 +1,123 @@
+import math
+
+import numpy as np
+import pytest
+
+from gait.balance import BalanceGains, DcmBalance, FootState
+from gait.balance_laws import balance_gains, balance_law
+from gait.vrp_plan import LipReference
+from gait.wrench_balance import WrenchBalance, WrenchBalanceGains
+from gait.wrench_cone import FootContact, Rectangle, wrench_cone
+from gait.wrench_distribution import DistributionState
+from plantar.errors import InputError
+from plantar.layout import Side
+
+PERIOD, OMEGA, MASS = 0.005, 3.36, 65.0
+SOLE = Rectangle(-0.1, 0.13, -0.07, 0.07)
+BOX = np.array([[-0.09, -0.17], [0.12, -0.17], [0.12, 0.17], [-0.09, 0.17]])
+MIDDLE = np.array([0.015, 0.0])
+STILL = LipReference(MIDDLE, MIDDLE, np.zeros(2), MIDDLE, np.zeros(2), np.zeros(2))
+
+
+def standing(*sides: Side, fz: float = 300.0) -> dict[Side, FootState]:
+    feet: dict[Side, FootState] = {}
+    for side in sides:
+        place = np.array([0.0, 0.105 if side == "left" else -0.105, 0.0])
+        measured = np.array([0.0, 0.0, fz, 0.0, -0.015 * fz, 0.0])
+        feet[side] = FootState(FootContact(place, np.eye(3), SOLE), measured)
+    return feet
+
+
+def law(**gains: float) -> WrenchBalance:
+    return WrenchBalance(WrenchBalanceGains(**gains), OMEGA, MASS, PERIOD)
+
+
+def zmp_of(actions: dict, feet: dict[Side, FootState]) -> np.ndarray:
+    """ZMP (2,) of what the feet shall carry, by moments on the ground."""
+    total, moment = 0.0, np.zeros(2)
+    for side, foot in feet.items():
+        _, _, fz, tx, ty, _ = actions[side].wrench
+        x, y = foot.contact.position[:2]
+        moment += [x * fz - ty, y * fz + tx]
+        total += fz
+    return moment / total
+
+
+def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18() -> None:
+    feet = standing("left", "right")
+    dcm = MIDDLE + np.array([0.01, -0.02])
+    state = law(dcm_gain=3.0).update(STILL, dcm, MIDDLE, BOX, feet)
+    wanted = MIDDLE + (1.0 + 3.0 / OMEGA) * np.array([0.01, -0.02])
+    assert state.zmp_desired == pytest.approx(wanted)
+    assert zmp_of(dict(state.feet), feet) == pytest.approx(wanted, abs=2e-4)
+    assert sum(state.feet[s].wrench[2] for s in feet) == pytest.approx(MASS * 9.81, rel=1e-3)
+    # The pendulum's horizontal force goes with it.
+    assert sum(state.feet[s].wrench[0] for s in feet) == pytest.approx(MASS * OMEGA**2 * (MIDDLE - wanted)[0], rel=0.02)
+
+
+def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm() -> None:
+    balance = law()
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        sides: tuple[Side, ...] = ("left", "right") if rng.random() < 0.5 else ("left",)
+        feet = standing(*sides)
+        state = balance.update(STILL, rng.normal(0.0, 1.0, 2), rng.normal(0.0, 0.1, 2), BOX, feet)
+        for side in sides:
+            assert (wrench_cone(SOLE, 0.6) @ state.feet[side].wrench).max() < 1e-6
+        assert set(state.feet) == {"left", "right"}
+
+
+def test_a_foot_in_the_air_shall_carry_nothing_and_no_foot_is_no_error() -> None:
+    balance = law()
+    state = balance.update(STILL, MIDDLE, None, BOX, standing("left"))
+    assert not state.feet["right"].wrench.any()
+    state = balance.update(STILL, MIDDLE, None, np.empty((0, 2)), {})
+    assert balance.state == DistributionState.AIRBORNE
+    assert not any(a.wrench.any() for a in state.feet.values())
+    assert np.isfinite(state.com).all()
+
+
+def test_numbers_that_are_not_finite_end_in_a_named_state() -> None:
+    balance = law()
+    state = balance.update(STILL, np.array([math.nan, 0.0]), MIDDLE, np.empty((0, 2)), standing("left", "right"))
+    assert balance.state == DistributionState.INVALID
+    assert all(np.isfinite(a.wrench).all() for a in state.feet.values())
+
+
+def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up() -> None:
+    balance = law()
+    feet = {
+        side: FootState(foot.contact, np.array([0.0, 0.0, 319.0, 0.0, -0.06 * 319.0, 0.0]))
+        for side, foot in standing("left", "right").items()
+    }
+    for _ in range(20):
+        state = balance.update(STILL, MIDDLE, MIDDLE, BOX, feet)
+    # A turn about y by a positive angle puts the toes down.
+    assert state.feet["left"].pitch < 0.0
+    assert state.feet["right"].pitch < 0.0
+    assert abs(state.feet["left"].roll) < 1e-4
+
+
+def test_the_integral_grows_to_its_limit_and_forgets() -> None:
+    balance = law(dcm_integral=1.0, largest_integral=0.01, dcm_forgetting=0.5)
+    dcm = MIDDLE + np.array([0.01, 0.0])
+    first = balance.update(STILL, dcm, MIDDLE, BOX, standing("left", "right")).zmp_desired
+    for _ in range(2000):
+        last = balance.update(STILL, dcm, MIDDLE, BOX, standing("left", "right")).zmp_desired
+    assert last[0] - first[0] == pytest.approx(0.01, rel=0.01)
+    for _ in range(2000):
+        back = balance.update(STILL, MIDDLE, MIDDLE, BOX, standing("left", "right")).zmp_desired
+    assert back == pytest.approx(MIDDLE, abs=2e-4)
+
+
+def test_the_robot_file_names_the_law() -> None:
+    assert isinstance(balance_gains({}), BalanceGains)
+    gains = balance_gains({"law": "wrench_distribution", "dcm_gain": 2.0, "foot_return": 0.5})
+    assert isinstance(gains, WrenchBalanceGains)
+    assert (gains.dcm_gain, gains.feet.foot_return) == (2.0, 0.5)
+    assert isinstance(balance_law(gains, OMEGA, MASS, PERIOD), WrenchBalance)
+    assert isinstance(balance_law(BalanceGains(), OMEGA, MASS, PERIOD), DcmBalance)
+    with pytest.raises(InputError, match="com_admittance, wrench_distribution"):
+        balance_gains({"law": "hope"})
+    with pytest.raises(InputError, match="dcm_gain"):
+        balance_gains({"law": "wrench_distribution", "dcm_gain": -1.0})
