@@ -46,7 +46,7 @@ class ConvexShapes:
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = self._room(4 * k + 2)
-            self.work = self._room(8 * k + 128)
+            self.work = self._room(8 * (2 * k) + 128)  # as many as the ring takes
         # First finite vertex, about which the others are taken.
         i = 0
         while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):
