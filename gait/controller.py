@@ -62,6 +62,8 @@ class ControllerSettings:
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
+        trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
+        lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
         estimator: Estimator gains.
@@ -78,6 +80,8 @@ class ControllerSettings:
     swing_height: float = 0.05
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
+    trunk_lean: float = 0.0
+    lean_reach: float = 0.053
     alignment_time: float = 0.3
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
@@ -128,7 +132,7 @@ class Command:
 
     Attributes:
         com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in.
-        heading: Heading of the upright torso in rad, same frame.
+        rotation_torso: Rotation (3, 3) from the torso to the same frame.
         feet: Target of each sole, same frame.
         phase: Phase of the walk.
         reference: The plan now.
@@ -139,7 +143,7 @@ class Command:
     """
 
     com: NDArray[np.float64]
-    heading: float
+    rotation_torso: NDArray[np.float64]
     feet: Mapping[Side, FootTarget]
     phase: Phase
     reference: LipReference
@@ -267,14 +271,15 @@ class WalkingController:
         yaws = [self.motion.footholds[side][1] for side in _SIDES]
         target = np.array([*self._frame.to_command(com), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
+        posture = self._posture(target, torso)
         feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
         for side, action in actions.items():
             feet[side] = self._acted(feet[side], side, action)
         if feedback:
-            self._compensate(feet, phase, target, torso, state)
+            self._compensate(feet, phase, target, torso, posture, state)
         return Command(
             com=target,
-            heading=torso,
+            rotation_torso=posture,
             feet=feet,
             phase=phase,
             reference=reference,
@@ -285,7 +290,13 @@ class WalkingController:
         )
 
     def _compensate(
-        self, feet: dict[Side, FootTarget], phase: Phase, com: NDArray[np.float64], torso: float, state: BaseState
+        self,
+        feet: dict[Side, FootTarget],
+        phase: Phase,
+        com: NDArray[np.float64],
+        torso: float,
+        posture: NDArray[np.float64],
+        state: BaseState,
     ) -> None:
         """Correct the target of the foot that swings, or has just landed, for the body's lean."""
         side = self.motion.last_side
@@ -293,7 +304,6 @@ class WalkingController:
             return
         foot = feet[side]
         place = self._frame.to_world(foot.position)
-        command = Footstep(side, 0.0, 0.0, torso).rotation_sole_to_world
         back = Footstep(side, 0.0, 0.0, torso - heading(state.rotation_base_to_world)).rotation_sole_to_world
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
         aligned = Footstep(side, 0.0, 0.0, -self._frame.turn).rotation_sole_to_world
@@ -303,11 +313,25 @@ class WalkingController:
             state.com + aligned @ (place - state.com),
             com,
             state.com,
-            command,
+            posture,
             back @ state.rotation_base_to_world,
         )
         rotation = rotation_from_vector(turn) @ foot.rotation
         feet[side] = replace(foot, position=foot.position + shift, rotation=rotation)
+
+    def _posture(self, com: NDArray[np.float64], torso: float) -> NDArray[np.float64]:
+        """Rotation (3, 3) of the torso: along the feet, and leaning over the foot that the CoM moves to.
+
+        A pelvis that stays level carries the body on the stance leg's hip roll joint at a lever of half its width; the
+        lean brings hip and CoM together, as people do whose hip abductors are weak.
+        """
+        s = self.settings
+        middle = 0.5 * (self.motion.footholds["left"][0] + self.motion.footholds["right"][0])
+        c, d = math.cos(torso), math.sin(torso)
+        left = -d * (com[0] - middle[0]) + c * (com[1] - middle[1])
+        roll = -s.trunk_lean * min(s.lean_reach, max(-s.lean_reach, float(left)))
+        e, f = math.cos(roll), math.sin(roll)
+        return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])
 
     def _align(self, state: BaseState) -> None:
         """Let the command frame follow where the carrying foot really stands."""

@@ -25,8 +25,8 @@ __all__ = ["Replan", "WalkPlan", "vrp_of_step"]
 
 _RAMP = 0.15  # of the bridge's time at both ends, in which the VRP moves to where it bridges and back
 _DELAY = 0.05  # s by which a double support that is too short grows at a time
-_MOST_DELAY = 0.6  # s in all
-_SHORT = 0.003  # m of the DCM that the feedback is left to deal with
+_MOST_DELAY = 0.3  # s in all
+_SHORT = 0.012  # m of the DCM that the feedback is left to deal with
 _STANCE_BRIDGE = 0.4  # s in which a change that comes in single support is bridged
 _REBUILT = 4  # stances that a replan builds anew; later ones keep what they have
 _LEAST_BRIDGE = 0.05  # s: with less time left nothing is bridged

@@ -91,6 +91,7 @@ class Simulation:
         self.settings = ControllerSettings(
             com_height=robot.com_height - walk.crouch,
             mass=self.legs.mass,
+            trunk_lean=robot.trunk_lean,
             period=CONTROL_PERIOD,
             timing=Timing(
                 walk.single_support or robot.single_support,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -52,11 +50,10 @@ class LegServos:
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad."""
-        c, s = math.cos(command.heading), math.sin(command.heading)
         feet = command.feet
         joints, _ = self._legs.solve(
             command.com,
-            np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]),
+            command.rotation_torso,
             {side: feet[side].position for side in _SIDES},
             {side: feet[side].rotation for side in _SIDES},
         )
