@@ -49,6 +49,14 @@
     return { x0: low(x), x1: high(x), y0: low(y), y1: high(y) };
   }
   const boxes = data.feet.map(bounds);
+  // Area of a usual cell in mm: how large cells are on the screen decides whether they are outlined.
+  const outlined = data.feet.map(foot => {
+    const areas = foot.cells.map(ring => Math.abs(ring.reduce((sum, p, i) => {
+      const q = ring[(i + 1) % ring.length];
+      return sum + (p[0] * q[1] - q[0] * p[1]) / 2;
+    }, 0))).sort((a, b) => a - b);
+    return areas[areas.length >> 1] || 0;
+  });
 
   function trace(ring, at) {
     context.beginPath();
@@ -80,7 +88,9 @@
         trace(foot.cells[c], at);
         if (level > 0) {
           context.fillStyle = colour((level - 1) / 254); context.fill();
-          context.strokeStyle = ink; context.lineWidth = 0.8; context.stroke();
+          if (outlined[f] * scale * scale > 60) {  // cells of 8 pixels and more; an outline would hide smaller ones
+            context.strokeStyle = ink; context.lineWidth = 0.8; context.stroke();
+          }
           corners.push(...foot.cells[c]);
         } else {
           context.strokeStyle = line; context.lineWidth = 0.5; context.stroke();

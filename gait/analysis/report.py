@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import json
+import math
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
@@ -171,12 +172,15 @@ def number(value: float | None, digits: int = 3) -> str:
     """A value with about as many digits as its size deserves; an en dash where it is not known.
 
     Example:
-        >>> number(1234.5), number(-0.01234), number(None), number(0.0)
-        ('1234', '−0.0123', '–', '0')
+        >>> number(1234.5), number(-0.01234), number(None), number(0.0), number(2.0)
+        ('1234', '−0.0123', '–', '0', '2.00')
     """
     if value is None:
         return "–"
-    return f"{value:.{max(digits, len(str(int(abs(value)))))}g}".replace("-", "−")
+    if value == 0.0:
+        return "0"
+    decimals = min(6, max(0, digits - 1 - math.floor(math.log10(abs(value)))))
+    return f"{value:.{decimals}f}".replace("-", "−")
 
 
 def _figure(path: Path, caption: str) -> str:

@@ -1,0 +1,113 @@
+"""A headless Chromium for tests of pages: opens a page with a probe in it and gives back what the probe found."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Thread
+from typing import Any
+
+import pytest
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+
+
+@dataclass(frozen=True)
+class Visit:
+    """What a visit to a page gave.
+
+    Attributes:
+        found: What the probe gave back.
+        console: Errors and warnings on the browser's console.
+        seconds: How long the browser ran.
+    """
+
+    found: Any
+    console: list[str]
+    seconds: float
+
+
+def browser() -> str:
+    """The browser's command; the test is skipped, with the reason, where there is none."""
+    for name in BROWSERS:
+        path = shutil.which(name)
+        if path:
+            return path
+    pytest.skip("no Chromium on this machine: the page is not opened (Debian: apt-get install chromium)")
+
+
+def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: float = 90.0) -> Visit:
+    """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
+
+    The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.
+
+    Args:
+        page: The page.
+        probe: Body of an async JavaScript function; what it returns comes back as JSON.
+        work: Folder for the browser's profile.
+        dark: Whether the system prefers dark mode.
+        timeout: Longest time in s.
+    """
+    script = (
+        "<script>window.problems = [];"
+        "window.addEventListener('error', e => problems.push(String(e.message)));"
+        "window.addEventListener('unhandledrejection', e => problems.push(String(e.reason)));</script>"
+    )
+    end = (
+        "<script>(async () => { let found; try { found = await (async () => {"
+        + probe
+        + "})(); } catch (e) { found = {failed: String(e && e.stack || e)}; }"
+        "await fetch('/result', {method: 'POST', body: JSON.stringify({found: found, problems: problems})}); })();"
+        "</script>"
+    )
+    text = page.read_text(encoding="utf-8").replace("<head>", "<head>" + script, 1)
+    content = text.replace("</body>", end + "</body>", 1).encode()
+    answers: Queue[dict[str, Any]] = Queue()
+
+    class Server(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            self.send_response(200)
+            self.send_header("Content-Type", "text/html; charset=utf-8")
+            self.send_header("Content-Length", str(len(content)))
+            self.end_headers()
+            self.wfile.write(content)
+
+        def do_POST(self) -> None:
+            body = self.rfile.read(int(self.headers["Content-Length"]))
+            self.send_response(204)
+            self.end_headers()
+            answers.put(json.loads(body))
+
+        def log_message(self, format: str, *arguments: object) -> None:
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Server)
+    Thread(target=server.serve_forever, daemon=True).start()
+    command = [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+    command += [f"--user-data-dir={work / 'profile'}", "--enable-logging=stderr", "--window-size=1000,1400"]
+    command += ["--no-first-run", "--disable-extensions", "--disable-background-networking"]
+    command += ["--blink-settings=preferredColorScheme=0"] if dark else []
+    log = work / "browser.log"
+    begin = time.perf_counter()
+    with log.open("wb") as stream:
+        process = subprocess.Popen([*command, f"http://127.0.0.1:{server.server_port}/"], stdout=stream, stderr=stream)
+    try:
+        answer = answers.get(timeout=timeout)
+    except Empty:
+        pytest.fail(f"the page gave no result in {timeout} s: {log.read_text(errors='replace')[-1500:]}")
+    finally:
+        process.terminate()
+        process.wait(timeout=20)
+        server.shutdown()
+        server.server_close()
+    seconds = time.perf_counter() - begin
+    assert not (isinstance(answer["found"], dict) and "failed" in answer["found"]), answer["found"]
+    console = re.findall(r":CONSOLE[^\n]*", log.read_text(errors="replace")) + list(answer["problems"])
+    return Visit(answer["found"], console, seconds)

@@ -1,0 +1,190 @@
+"""The report in a real browser: it opens, its player moves, and what it shows can be read and reached."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gait.analysis.analyse import analyse_recording
+from gait.analysis.compare import compare_recordings
+
+from .browser import visit
+
+WAIT = """
+const player = document.getElementById('player');
+for (let i = 0; i < 200 && player && player.dataset.ready !== 'true'; i++) await new Promise(r => setTimeout(r, 20));
+const $ = id => document.getElementById(id);
+const said = () => $('player-readout').textContent;
+const typed = key => new KeyboardEvent('keydown', {key: key, bubbles: true, cancelable: true});
+const press = (target, key) => target.dispatchEvent(typed(key));
+"""
+
+PLAY = (
+    WAIT
+    + """
+const canvas = $('player-canvas'), slider = $('player-frame');
+const pixels = () => canvas.toDataURL();
+const first = said(), shown = pixels(), blank = document.createElement('canvas');
+blank.width = canvas.width;
+blank.height = canvas.height;
+slider.value = String(Math.round(Number(slider.max) / 2));
+slider.dispatchEvent(new Event('input'));
+const middle = said(), later = pixels();
+canvas.focus();
+press(canvas, 'ArrowRight');
+const stepped = said(), live = $('player-live').textContent;
+press(canvas, 'ArrowLeft');
+const back = said();
+$('player-next').click();
+const event = said();
+const from = Number(slider.value);
+press(canvas, ' ');
+const playing = $('player-play').getAttribute('aria-pressed');
+for (let i = 0; i < 100 && Number(slider.value) < from + 20; i++) await new Promise(requestAnimationFrame);
+const to = Number(slider.value);
+$('player-play').click();
+return {ready: player.dataset.ready, frames: Number(slider.max) + 1, first, middle, stepped, live, back, event, from,
+  to, playing, paused: $('player-play').getAttribute('aria-pressed'), valuetext: slider.getAttribute('aria-valuetext'),
+  drawn: shown !== blank.toDataURL(), moved: shown !== later, last: said(),
+  enabled: [...player.querySelectorAll('button, input, select')].every(c => !c.disabled)};
+"""
+)
+
+READABLE = (
+    WAIT
+    + """
+const parse = c => { const v = c.match(/[\\d.]+/g).map(Number);
+  return {r: v[0], g: v[1], b: v[2], a: v.length > 3 ? v[3] : 1}; };
+const light = c => { const f = v => (v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  return 0.2126 * f(c.r) + 0.7152 * f(c.g) + 0.0722 * f(c.b); };
+const behind = e => { for (let n = e; n; n = n.parentElement) {
+    const c = parse(getComputedStyle(n).backgroundColor);
+    if (c.a) return c;
+  }
+  return {r: 255, g: 255, b: 255}; };
+const weak = [];
+let texts = 0;
+for (const e of document.body.querySelectorAll('*')) {
+  const own = [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim());
+  if (!own || ['SCRIPT', 'STYLE', 'NOSCRIPT', 'PRE', 'OPTION'].includes(e.tagName)) continue;
+  texts++;
+  const a = light(parse(getComputedStyle(e).color)), b = light(behind(e));
+  const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  if (ratio < 4.5) weak.push(e.tagName + ' ' + e.textContent.slice(0, 30) + ' ' + ratio.toFixed(2));
+}
+const named = e => (e.getAttribute('aria-label') || e.textContent || '').trim() ||
+  (e.id && document.querySelector('label[for="' + e.id + '"]') ? 'label' : '');
+const outline = [];
+for (const e of document.querySelectorAll('a, button, input, select, [tabindex="0"]')) {
+  e.focus({focusVisible: true});
+  if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') outline.push(e.tagName + ' ' + e.id);
+}
+const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+return {weak, texts, wide, outline, background: getComputedStyle(document.body).backgroundColor,
+  unnamed: [...document.querySelectorAll('a, button, input, select, [role]')].filter(e => !named(e)).map(e => e.id)};
+"""
+)
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The report of a walk of 60 s in two insoles of 99 cells at 100 Hz."""
+    folder = tmp_path_factory.mktemp("report")
+    path = folder / "walk.npz"
+    time, left, right = insole_walk(60.0)
+    layout = folder / "layout.json"
+    from plantar import write_layout
+    from plantar.formats.nominal_insole import nominal_insole
+
+    write_layout(nominal_insole("y", "left"), layout)
+    np.savez(path, time=time, left=left, right=right, unit="kPa")
+    analyse_recording(path, folder / "out", layout=layout)
+    return folder / "out" / "report.html"
+
+
+def insole_walk(seconds: float, rate: float = 100.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Times and pressures in kPa of both feet: loads that roll from heel to toe, with noise."""
+    from plantar.formats.nominal_insole import nominal_insole
+
+    layout = nominal_insole("y", "left")
+    random = np.random.default_rng(2)
+    time = np.arange(0.0, seconds, 1.0 / rate)
+    feet = []
+    for offset in (0.0, 0.55):
+        phase = ((time + offset) % 1.1) / 0.7
+        load = np.where(phase < 1.0, 750.0 * np.sin(np.pi * np.clip(phase, 0.0, 1.0)) ** 0.5, 0.0)
+        centre = 0.28 * (0.1 + 0.75 * np.clip(phase, 0.0, 1.0))
+        near = np.exp(-0.5 * ((layout.positions[:, 0] - centre[:, None]) / 0.04) ** 2)
+        pressure = 1e-3 * load[:, None] * near / (near * layout.areas).sum(axis=1, keepdims=True)
+        feet.append(np.maximum(pressure + random.normal(0.0, 1.0, pressure.shape), 0.0))
+    return time, feet[0], feet[1]
+
+
+def test_the_player_moves_by_mouse_and_keyboard_without_errors(report: Path, tmp_path: Path) -> None:
+    assert report.stat().st_size < 3_000_000
+    seen = visit(report, PLAY, tmp_path)
+    found: dict[str, Any] = seen.found
+    assert seen.console == []
+    assert found["ready"] == "true"
+    assert found["enabled"]
+    assert found["frames"] > 1000
+    assert found["drawn"]
+    assert found["moved"]
+    assert found["middle"] != found["first"]
+    assert found["stepped"] != found["middle"] == found["back"]
+    assert found["live"] == found["stepped"]
+    assert found["event"] != found["back"]
+    assert found["to"] > found["from"] + 10
+    assert (found["playing"], found["paused"]) == ("true", "false")
+    assert found["valuetext"] == found["last"]
+    assert re.fullmatch(r"[\d.]+ s; left: \d+ N, \d+ cells loaded; right: \d+ N, \d+ cells loaded", found["first"])
+
+
+@pytest.mark.long
+def test_the_page_is_ready_within_2_seconds(report: Path, tmp_path: Path) -> None:
+    """From navigation to the first frame in the page's own time; the browser's start does not count."""
+    probe = WAIT + "return {at: performance.now(), ready: player.dataset.ready};"
+    best = min(visit(report, probe, tmp_path).found["at"] for _ in range(2))
+    assert best < 2000.0
+
+
+@pytest.mark.parametrize("dark", [False, pytest.param(True, marks=pytest.mark.long)])
+def test_everything_can_be_read_and_reached(report: Path, tmp_path: Path, dark: bool) -> None:
+    found = visit(report, READABLE, tmp_path, dark=dark).found
+    assert found["texts"] > 100
+    assert found["weak"] == []
+    assert found["unnamed"] == []
+    assert found["outline"] == []
+    assert found["wide"] <= 0
+    assert found["background"] == ("rgb(13, 17, 23)" if dark else "rgb(255, 255, 255)")
+
+
+@pytest.mark.long
+def test_the_comparison_opens_without_errors(tmp_path: Path) -> None:
+    paths = []
+    for i, gain in enumerate((1.0, 1.2)):
+        time, left, right = insole_walk(12.0)
+        paths.append(tmp_path / f"{i}.npz")
+        np.savez(paths[-1], time=time, left=gain * left, right=gain * right, unit="N")
+    compare_recordings(*paths, tmp_path / "out")
+    seen = visit(tmp_path / "out" / "report.html", READABLE, tmp_path)
+    assert seen.console == []
+    assert seen.found["weak"] == seen.found["unnamed"] == []
+
+
+@pytest.mark.skipif("PLANTAR_AXE" not in os.environ, reason="PLANTAR_AXE does not name an axe.min.js")
+@pytest.mark.parametrize("dark", [False, True])
+def test_axe_has_no_serious_finding(report: Path, tmp_path: Path, dark: bool) -> None:
+    axe = Path(os.environ["PLANTAR_AXE"]).read_text(encoding="utf-8")
+    page = tmp_path / "with_axe.html"
+    text = report.read_text(encoding="utf-8")
+    page.write_text(text.replace("</main>", "</main><script>" + axe.replace("</script", "<\\/script") + "</script>"))
+    probe = WAIT + "return (await axe.run(document)).violations.map(v => [v.impact, v.id, v.nodes[0].html]);"
+    found = visit(page, probe, tmp_path, dark=dark).found
+    assert found == [], json.dumps(found, indent=1)
