@@ -29,9 +29,10 @@ from gait.lip import pendulum_frequency
 from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
 from gait.stance_contact import ContactSettings, StanceContact
+from gait.support_strip import SupportStrip
 from gait.swing_compliance import ComplianceGains, SwingCompliance
 from gait.vrp_plan import LipReference
-from gait.walk_plan import WalkPlan
+from gait.walk_plan import WalkPlan, vrp_of_step
 from gait.wrench_cone import FootContact, Rectangle
 from plantar.contact_rectangle import safe_rectangle
 from plantar.layout import Side, SoleLayout
@@ -215,6 +216,10 @@ class WalkingController:
         self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
         self._step_of: dict[Side, int | None] = {"left": None, "right": None}
         self._replanned, self._replanned_step = -math.inf, -1
+        way = self.plan.end - self.plan.at(begin - 1.0).com
+        length = float(np.hypot(*way))
+        forward = np.array([math.cos(feet["left"].yaw), math.sin(feet["left"].yaw)])
+        self._strip = SupportStrip(self.plan.at(begin - 1.0).com, way / length if length > 0.05 else forward)
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
         self._ground = CoMHeight(float(np.mean([feet[s].z for s in _SIDES])), settings.period)
@@ -371,6 +376,8 @@ class WalkingController:
             if not contact.update(sensors.readings[side], state.loads[side]):
                 continue
             known = self._support[side] is not None
+            if contact.whole:
+                self._strip.clear()
             if contact.whole and not known:
                 continue  # as planned
             self._support[side] = polygon_in_world(
@@ -378,16 +385,36 @@ class WalkingController:
             )
             self._center_in_sole[side] = contact.center_in_sole
             point = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
+            if not contact.whole:
+                self._strip.add(step, side, point[:2])
             rules = self.settings.contact
             if sensors.time < self._replanned + rules.replan_pause and self._replanned_step == step:
                 continue
-            if math.dist(point[:2], self.plan.stance(step)) < rules.least_move:
+            later = self._follow_strip(step, phase)
+            if max(math.dist(point[:2], self.plan.stance(step)), math.hypot(*later.tolist())) < rules.least_move:
                 continue
             self._replanned, self._replanned_step = sensors.time, step
-            self.plan.move(step, point[:2], sensors.time, self._zmp_region(phase))
+            self.plan.move(step, point[:2], sensors.time, self._zmp_region(phase), later)
             self.replans += 1
             changed = True
         return changed
+
+    def _follow_strip(self, step: int, phase: Phase) -> NDArray[np.float64]:
+        """Move the footsteps to come onto the strip that the ground goes on as; returns by how much (2,) in m the VRPs
+        over them move."""
+        upcoming = step + 1
+        begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
+        if not self._strip.known or begun or upcoming >= len(self.schedule.steps):
+            return np.zeros(2)
+        strip, foot = self._strip, self.schedule.steps[upcoming]
+        center = vrp_of_step(foot, self._vrp_in_sole[foot.side])
+        missing = strip.lateral(float((center - strip.origin) @ strip.along)) - float(
+            (center - strip.origin) @ strip.across
+        )
+        reach = self.settings.contact.largest_shift
+        shift = min(reach, max(-reach, missing)) * strip.across
+        self.schedule.shift_steps(upcoming, shift)
+        return np.asarray(center + missing * strip.across - self.plan.stance(upcoming))
 
     def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards by the

@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gait.footsteps import Footstep, other_side
 from plantar.errors import InputError
 from plantar.layout import Side
@@ -114,6 +117,17 @@ class WalkSchedule:
     def end(self) -> float:
         """Time in s at which the robot has walked and settled."""
         return self.walking_end + self.timing.settle
+
+    def shift_steps(self, first: int, shift: NDArray[np.float64]) -> None:
+        """Move the footsteps from one on.
+
+        Args:
+            first: Index of the first step that moves.
+            shift: By how much (2,) in m.
+        """
+        dx, dy = shift.tolist()
+        moved = [replace(step, x=step.x + dx, y=step.y + dy) for step in self.steps[first:]]
+        self.steps = (*self.steps[:first], *moved)
 
     def delay(self, phase: Phase, by: float) -> None:
         """Make a phase longer; all later ones come later.

@@ -50,6 +50,7 @@ class ContactSettings:
         fit_every: Readings between two looks at a foothold that has settled.
         standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
         least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
+        largest_shift: Distance in m by which one foothold moves the footsteps to come.
         watch: Time in s into the single support until which a foothold is refined.
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
@@ -74,6 +75,7 @@ class ContactSettings:
     fit_every: int = 8
     standing_load: float = 450.0
     least_move: float = 0.004
+    largest_shift: float = 0.02
     watch: float = 0.15
     replan_pause: float = 0.06
 

@@ -1,0 +1,94 @@
+"""Where the ground goes on: a strip that successive partial footholds lie on, such as a beam.
+
+One partial foothold says nothing of the next. Two in a row, of both feet, that lie off the sole's middle on the same
+side say that the ground is a strip along the walk; a line through them, fitted with what is known of the errors, tells
+where the next foothold will carry and where the sole has to go to stay on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import Side
+
+__all__ = ["SupportStrip"]
+
+
+@dataclass
+class SupportStrip:
+    """Middle line of the ground, from the centroids of partial footholds.
+
+    Attributes:
+        origin: A point (2,) of the walk's own line in m.
+        along: Its direction (2,), of length 1.
+        spread: Standard deviation in m of a foothold's centroid.
+        slope: Standard deviation of the strip's slope against the walk before anything is known of it.
+        agreement: Distance in m across the walk within which two footholds lie on the same strip.
+        memory: Number of footholds that count.
+    """
+
+    origin: NDArray[np.float64]
+    along: NDArray[np.float64]
+    spread: float = 0.006
+    slope: float = 0.1
+    agreement: float = 0.04
+    memory: int = 6
+    _footholds: list[tuple[int, Side, float, float]] = field(default_factory=list)
+
+    @property
+    def across(self) -> NDArray[np.float64]:
+        """Unit vector (2,) across the walk, to its left."""
+        return np.array([-self.along[1], self.along[0]])
+
+    @property
+    def known(self) -> bool:
+        """Whether footholds of both feet lie on a strip."""
+        return len(self._footholds) >= 2
+
+    def coordinates(self, point: NDArray[np.float64]) -> tuple[float, float]:
+        """Place along the walk and distance to its left, in m, of a point (2,) in the world."""
+        offset = point - self.origin
+        return float(offset @ self.along), float(offset @ self.across)
+
+    def clear(self) -> None:
+        """The ground is whole again, or not known."""
+        self._footholds.clear()
+
+    def add(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
+        """Take in a partial foothold.
+
+        Args:
+            step: The step that put the foot down; a step that is there already is replaced.
+            side: Which foot.
+            centroid: Centroid (2,) of what carries, in the world in m.
+        """
+        place, lateral = self.coordinates(centroid)
+        if self._footholds and self._footholds[-1][0] == step:
+            self._footholds.pop()
+        if self._footholds:
+            last_step, last_side, _, _ = self._footholds[-1]
+            expected = self.lateral(place) if self.known else self._footholds[-1][3]
+            if step != last_step + 1 or side == last_side or abs(lateral - expected) > self.agreement:
+                self.clear()
+        self._footholds.append((step, side, place, lateral))
+        del self._footholds[: -self.memory]
+
+    def lateral(self, place: float) -> float:
+        """Where the strip's middle lies across the walk.
+
+        Args:
+            place: Distance in m along the walk from the origin.
+
+        Returns:
+            Distance in m to the left of the walk's line.
+        """
+        places = np.array([f[2] for f in self._footholds])
+        laterals = np.array([f[3] for f in self._footholds])
+        middle = float(places.mean())
+        lever = places - middle
+        # Least squares with the slope held by what it is likely to be.
+        tilt = float(lever @ laterals) / (float(lever @ lever) + (self.spread / self.slope) ** 2)
+        return float(laterals.mean()) + tilt * (place - middle)
