@@ -1,0 +1,91 @@
+"""Force-torque sensor between ankle and foot: from what it measures to the ground's wrench on the sole.
+
+The sensor carries the foot and the shoe too. Their weight is subtracted with the sole's estimated orientation, as on a
+real robot; their inertia is not known to the controller and stays in the result.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.lip import GRAVITY
+
+__all__ = ["AnkleSensor", "SoleWrench"]
+
+
+@dataclass(frozen=True)
+class SoleWrench:
+    """A ground reaction wrench on a sole, asked like a percept.
+
+    Attributes:
+        wrench_in_sole: Wrench (6,) about the sole frame's origin in N and N m, by the world on the robot.
+    """
+
+    wrench_in_sole: NDArray[np.float64]
+
+    @property
+    def vertical_force(self) -> float:
+        """Force along the sole's z axis in N."""
+        return float(self.wrench_in_sole[2])
+
+    @property
+    def position_cop_in_sole(self) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) in the sole frame in m (T 4.5-4.6), or None without load."""
+        _, _, fz, tx, ty, _ = self.wrench_in_sole.tolist()
+        return np.array([-ty / fz, tx / fz]) if fz > 0.0 else None
+
+
+@dataclass(frozen=True)
+class AnkleSensor:
+    """A force-torque sensor and what hangs below it.
+
+    Attributes:
+        position: Sensor frame's origin (3,) in the sole frame in m.
+        rotation: Rotation (3, 3) from the sensor to the sole frame.
+        mass: Mass of foot and shoe below the sensor in kg.
+        com: Their CoM (3,) in the sole frame in m.
+
+    Example:
+        >>> sensor = AnkleSensor(np.array([0.0, 0.0, 0.1]), np.eye(3), 2.0, np.array([0.03, 0.0, 0.04]))
+        >>> hanging = np.array([0.0, 0.0, -19.62, 0.0, 0.5886, 0.0])  # the foot's own weight, in the air
+        >>> bool(abs(sensor.sole_wrench(hanging, np.eye(3)).wrench_in_sole).max() < 1e-12)
+        True
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    mass: float
+    com: NDArray[np.float64]
+
+    def sole_wrench(self, measured: NDArray[np.float64], rotation_sole_to_world: NDArray[np.float64]) -> SoleWrench:
+        """The ground's wrench on the sole.
+
+        Args:
+            measured: Wrench (6,) in the sensor frame about its origin in N and N m that the foot exerts on the leg.
+            rotation_sole_to_world: Rotation (3, 3) of the sole, as estimated.
+
+        Returns:
+            The wrench that the foot passes on, less its own weight.
+        """
+        force = self.rotation @ measured[:3]
+        lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame
+        fx, fy, fz = force.tolist()
+        gx, gy, gz = lift.tolist()
+        px, py, pz = self.position.tolist()
+        cx, cy, cz = self.com.tolist()
+        tx, ty, tz = (self.rotation @ measured[3:]).tolist()
+        return SoleWrench(
+            np.array(
+                [
+                    fx + gx,
+                    fy + gy,
+                    fz + gz,
+                    tx + py * fz - pz * fy + cy * gz - cz * gy,
+                    ty + pz * fx - px * fz + cz * gx - cx * gz,
+                    tz + px * fy - py * fx + cx * gy - cy * gx,
+                ]
+            )
+        )
