@@ -618,6 +618,7 @@ def _bench_stress(readings: int, seed: int, as_json: bool) -> None:
             for example in tested.examples:
                 print(f"    {example}")
         print(f"{result.readings} readings in {result.seconds:.0f} s: {result.failures} failures")
+        print(f"every function met {result.least} readings or more")
     if result.failures:
         print(f"plantar: {result.failures} failures in {result.readings} readings", file=sys.stderr)
         raise typer.Exit(1)

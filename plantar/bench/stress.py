@@ -18,6 +18,29 @@ from plantar.errors import InputError
 __all__ = ["StressResult", "stress"]
 
 
+CALLED_BY: dict[str, str] = {
+    "feet_support_polygon": "FeetPercept",
+    "concave_outline": "Percept.concave_outline_in_sole",
+    "fit_ground_plane": "Percept.ground_plane_in_sole",
+    "preemptive_polygon": "Percept.preemptive_polygon_in_sole",
+    "rectangle_in_outline": "Percept.outline_rectangle_in_sole",
+    **{
+        name: f"Percept.{name}_in_sole"
+        for name in (
+            "bounding_box",
+            "enclosing_parallelogram",
+            "inscribed_circle",
+            "inscribed_parallelogram",
+            "inscribed_rectangle",
+            "inscribed_rectangle_any_angle",
+            "inscribed_triangle",
+            "oriented_box",
+        )
+    },
+}
+"""What hands every reading to a function, beside the check of its own that gives it odd input."""
+
+
 @dataclass(frozen=True)
 class StressResult:
     """What a stress run saw.
@@ -35,6 +58,19 @@ class StressResult:
     functions: dict[str, Tested]
 
     @property
+    def least(self) -> int:
+        """Readings that the function met that met the fewest, over all functions: a check that only looks closer at
+        some of a function's results counts for that function, and so does the percept's member that calls it."""
+        met: dict[str, int] = {}
+        for name, tested in self.functions.items():
+            function = name.split(":")[0].split(",")[0]
+            if function == "Percept":
+                continue
+            function = CALLED_BY.get(function, function)
+            met[function] = max(met.get(function, 0), tested.readings)
+        return min(met.values(), default=0)
+
+    @property
     def failures(self) -> int:
         """Failures of all functions together."""
         return sum(t.failures for t in self.functions.values())
@@ -44,6 +80,7 @@ class StressResult:
         tested = [{"function": name, **asdict(t)} for name, t in sorted(self.functions.items())]
         return {
             "readings": self.readings,
+            "least_readings_of_a_function": self.least,
             "seed": self.seed,
             "seconds": round(self.seconds, 1),
             "failures": self.failures,

@@ -14,6 +14,7 @@ from plantar.bench import references as exact
 from plantar.bench.stress_soles import Block
 from plantar.bench.tally import Tally
 from plantar.feet import FeetPercept
+from plantar.foot_tick import walking_tick
 from plantar.percept import Percept
 from plantar.sole_pose import SolePose
 
@@ -137,11 +138,8 @@ def _percept_faults(block: Block, tally: Tally) -> None:
     rows = np.arange(0, len(block), 25)
     one = [_same(health.fill_from_neighbours(layout, given[i], wanted[i], per_area=True), filled[i]) for i in rows]
     tally.add("fill_from_neighbours: batch as scalar", block, ~np.array(one), 0.0, len(rows))
-    patched = [Percept(layout, block.readings[i], fill=True) for i in rows]
-    sums = np.array([p.wrench_in_sole for p in patched])
-    tally.add(
-        "Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1), 0.0, len(rows)
-    )
+    sums = np.array([Percept(layout, reading, fill=True).wrench_in_sole for reading in block.readings])
+    tally.add("Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1))
 
 
 def _batch_functions(block: Block, tally: Tally) -> None:
@@ -172,8 +170,47 @@ def _batch_functions(block: Block, tally: Tally) -> None:
     parts = np.split(hulls.vertices, ends[:-1])
     same = [np.array_equal(a, p.support_polygon_in_sole) for a, p in zip(parts, percepts, strict=True)]
     tally.add("batch.support_polygons: vertices", block, ~np.array(same))
+    ground = batch.ground_planes(layout, block.proximity)
+    planes = [p.ground_plane_in_sole for p in percepts]
+    wrong = [
+        i % 16 > 0
+        and (
+            ground.directions[i] != -1
+            if plane is None
+            else (plane.height, *plane.slope) != (ground.height[i], *ground.slope[i])
+        )
+        for i, plane in enumerate(planes)
+    ]
+    tally.add("batch.ground_planes", block, wrong)
     bare = batch.support_polygons(layout, block.force)
     tally.add("batch.support_polygons: without vertices", block, bare.area != hulls.area)
+
+
+def _walking_tick(block: Block, tally: Tally) -> None:
+    """What a tick makes of a reading in one call, against the percept's members, to the last bit."""
+    layout = block.layout
+    offsets = block.rng.choice([0.0, 1e-6, 0.005, 0.02, 1.0], len(block)).tolist()
+    middle = layout.positions[:, :2].mean(axis=0)
+    wrong, lost = [], []
+    for p, row, offset in zip(block.percepts, block.force, offsets, strict=True):
+        tick = walking_tick(layout, row, middle, offset)
+        wrong.append(
+            not (
+                np.array_equal(tick.support_polygon, p.support_polygon_in_sole)
+                and np.array_equal(tick.wrench, p.wrench_in_sole)
+                and np.array_equal(tick.active, p.active)
+                and (tick.contact_area, tick.support_area) == (p.contact_area, p.support_area)
+                and _same(tick.position_cop, p.position_cop_in_sole)
+                and _same(tick.centroid, p.centroid_in_sole)
+            )
+        )
+        none = tick.clamped is None
+        lost.append(
+            none != (len(p.support_polygon_in_sole) == 0)
+            or not all(np.isfinite(n).all() for n in _numbers([tick.safe_polygon, tick.clamped]))
+        )
+    tally.add("walking_tick", block, wrong)
+    tally.add("walking_tick: no NaN", block, lost)
 
 
 def _balance_points(block: Block, tally: Tally) -> None:
@@ -219,18 +256,21 @@ def _balance_points(block: Block, tally: Tally) -> None:
     other = SolePose.flat(at[0] + 0.02, at[1] + 0.2, at[2])
     total = sole_pose.wrench_of_feet([wrenches, wrenches], [block.pose, other])
     tally.add("wrench_of_feet", block, _error(total, world + other.wrench_to_world(wrenches), scale), 1e-14)
-    some = wrenches[::8]
-    both = [sole_pose.zmp_of_soles([w, w], [block.pose, other], float(at[2])) for w in some]
-    middle = [
-        None if c is None else 0.5 * (block.pose.to_world([*c, 0.0]) + other.to_world([*c, 0.0]))[:2]
-        for c in (p.position_cop_in_sole for p in percepts[::8])
-    ]
+    pairs = range(0, len(block) - 1, 2)  # a reading each foot
+    both = [sole_pose.zmp_of_soles(list(wrenches[i : i + 2]), [block.pose, other], float(at[2]), 0.0) for i in pairs]
+    cops = [p.position_cop_in_sole for p in percepts]
+    place = np.array([np.zeros(3) if c is None else [*c, 0.0] for c in cops])
+    weight = np.where(wrenches[:, 2] > 0.0, wrenches[:, 2], 0.0)[:, None]
+    here = weight[pairs.start : pairs.stop : 2] * block.pose.to_world(place[pairs.start : pairs.stop : 2])
+    there = weight[1::2] * other.to_world(place[1::2])
+    total = weight[pairs.start : pairs.stop : 2] + weight[1::2]
+    middle = ((here + there) / np.where(total > 0.0, total, 1.0))[:, :2]
+    found = np.array([np.zeros(2) if z is None else z for z in both]).reshape(-1, 2)
+    missing = np.array([z is None for z in both]) != (total[:, 0] <= 0.0)
     flat = np.abs(block.layout.positions[:, 2]).max() == 0.0
-    gap = [
-        0.0 if z is None or m is None or not flat else float(np.abs(z - m).max())
-        for z, m in zip(both, middle, strict=True)
-    ]
-    tally.add("zmp_of_soles", block, np.array(gap) / (1.0 + float(np.abs(at).max())), 1e-9, len(some))
+    gap = np.abs(found - middle).max(axis=1) if flat else np.zeros(len(found))
+    error = np.where(missing, np.inf, gap / (1.0 + float(np.abs(at).max())))
+    tally.add("zmp_of_soles", block, error, 1e-9, 2 * len(found))
     com = at + np.array([0.0, 0.0, 0.8])
     pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
     lost = [p is not None and not np.isfinite(p).all() for p in pivot]
@@ -254,13 +294,13 @@ def _two_feet(block: Block, tally: Tally) -> None:
     at = block.pose.position_in_world
     poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
     members = [n for n in dir(FeetPercept) if not n.startswith("_")]
-    rows = range(0, len(block), 8)
+    rows = range(0, len(block), 2)  # a reading each foot
     wrong = []
     for i in rows:
         feet = FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2]))
         values = [getattr(feet, m) for m in members]
         wrong.append(not all(np.isfinite(part).all() for part in _numbers(values)))
-    tally.add("FeetPercept: every member", block, wrong, 0.0, len(wrong))
+    tally.add("FeetPercept: every member", block, wrong, 0.0, len(block))
 
 
 def _every_member(block: Block, tally: Tally) -> None:
@@ -268,18 +308,21 @@ def _every_member(block: Block, tally: Tally) -> None:
     spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole", "health", "active", "near"}
     for member in Percept.members():
         if member not in spared:
-            values = [np.concatenate([[0.0], *_numbers(getattr(p, member))]) for p in block.percepts]
-            finite = np.isfinite(np.concatenate(values)).all()  # reading by reading only where something is wrong
-            wrong = [False] * len(values) if finite else [not np.isfinite(v).all() for v in values]
+            values = [getattr(p, member) for p in block.percepts]
+            finite = np.isfinite(np.concatenate([np.zeros(1), *_numbers(values)])).all()
+            # Reading by reading only where something is wrong.
+            wrong = (
+                [False] * len(values) if finite else [any(~np.isfinite(n).all() for n in _numbers(v)) for v in values]
+            )
             tally.add(f"Percept.{member}: no NaN", block, wrong)
 
 
 def _numbers(value: Any) -> list[Array]:
     """The floating point numbers in a result, flat."""
-    if isinstance(value, float):
-        return [np.array([value])]
     if isinstance(value, np.ndarray):
         return [value.reshape(-1)] if value.dtype.kind == "f" else []
+    if isinstance(value, float):
+        return [np.array([value])]
     if isinstance(value, tuple | list):
         return [part for v in value for part in _numbers(v)]
     return _numbers(value.points) if hasattr(value, "points") else []
@@ -289,6 +332,7 @@ FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (
     _percept_loads,
     _percept_faults,
     _batch_functions,
+    _walking_tick,
     _balance_points,
     _two_feet,
 )

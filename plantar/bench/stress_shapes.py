@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,7 +97,7 @@ def _percept_outline(block: Block, tally: Tally) -> None:
     hull = np.array([p.support_area for p in block.percepts])
     over = np.maximum(got - hull, 0.0) / np.maximum(hull, 1e-300)
     tally.add("Percept.concave_outline_in_sole: within the hull", block, over, _EXACT)
-    some = range(0, len(block), 4)
+    some = range(len(block))
     for i in some:
         outline = outlines[i]
         middle = outline.centroid
@@ -110,14 +111,14 @@ def _percept_outline(block: Block, tally: Tally) -> None:
     moved = [outlines[i].moved(turn, shift) for i in some]
     reach = float(np.abs(shift).max()) + 1.0
     size = np.array([np.ptp(outlines[i].points, axis=0).max() if len(outlines[i]) else 1.0 for i in some])
-    allowed = 1e-12 * wanted[::4] + 64.0 * 2.3e-16 * reach * size * np.array(
-        [len(outlines[i].points) + 1 for i in some]
-    )
-    lost = np.abs(np.array([m.area for m in moved]) - wanted[::4]) / np.maximum(allowed, 1e-300)
-    tally.add("Outline.moved", block, np.where(wanted[::4] > 0.0, lost, 0.0), 1.0, len(some))
-    apart = [feet_outline([outlines[i], outlines[i].moved(np.eye(2), [3.0, 0.0])]) for i in range(0, len(block), 16)]
+    allowed = 1e-12 * wanted + 64.0 * 2.3e-16 * reach * size * np.array([len(outlines[i].points) + 1 for i in some])
+    lost = np.abs(np.array([m.area for m in moved]) - wanted) / np.maximum(allowed, 1e-300)
+    tally.add("Outline.moved", block, np.where(wanted > 0.0, lost, 0.0), 1.0, len(some))
+    pairs = range(0, len(block) - 1, 2)  # a reading each foot
+    apart = [feet_outline([outlines[i], outlines[i + 1].moved(np.eye(2), [3.0, 0.0])]) for i in pairs]
     both = np.array([o.area for o in apart])
-    tally.add("feet_outline", block, _relative(both, 2.0 * wanted[::16], wanted[::16]), 1e-9, len(apart))
+    sums = wanted[: 2 * len(apart) : 2] + wanted[1::2]
+    tally.add("feet_outline", block, _relative(both, sums, sums), 1e-9, 2 * len(apart))
     direct = [concave_outline(layout, np.ascontiguousarray(block.active[i])).area for i in range(0, len(block), 16)]
     tally.add("concave_outline", block, _relative(np.array(direct), wanted[::16], wanted[::16]), _EXACT, len(direct))
 
@@ -154,13 +155,15 @@ def _percept_outline_shapes(block: Block, tally: Tally) -> None:
     over = np.maximum(got - hull, 0.0) / np.maximum(hull, 1e-300)
     tally.add("Percept.outline_rectangle_in_sole: within the hull's", block, over, 1e-12)
     _in_outline(block, tally, "Percept.outline_rectangle_in_sole: inside", corners, range(0, len(block), 50))
-    rare = range(block.number % 20, len(block), 100 if len(block.layout) > 12 else 20)
-    free = [percepts[i].outline_rectangle_any_angle_in_sole for i in rare]
+    free = [p.outline_rectangle_any_angle_in_sole for p in percepts]
+    rare = range(block.number % 20, len(block), 100)
     _in_outline(block, tally, "Percept.outline_rectangle_any_angle_in_sole: inside", free, rare)
-    if len(free):
-        wide = _areas(_shapes(free, 4))
-        less = np.maximum(got[list(rare)] - wide, 0.0) / np.maximum(got[list(rare)], 1e-300)
-        tally.add("Percept.outline_rectangle_any_angle_in_sole: not less", block, less, 1e-6, len(free))
+    wide = _areas(_shapes(free, 4))
+    less = np.maximum(got - wide, 0.0) / np.maximum(got, 1e-300)
+    tally.add("Percept.outline_rectangle_any_angle_in_sole: not less", block, less, 1e-6)
+    hull = _areas(_shapes([p.inscribed_rectangle_any_angle_in_sole for p in percepts], 4))
+    over = np.maximum(wide - hull, 0.0) / np.maximum(hull, 1e-300)
+    tally.add("Percept.outline_rectangle_any_angle_in_sole: within the hull's", block, over, 1e-6)
 
 
 def _in_outline(block: Block, tally: Tally, name: str, corners: Sequence[Array], which: Sequence[int]) -> None:
@@ -211,14 +214,13 @@ def _inside(
 
 def _largest_triangles(rings: Rings) -> Array:
     """Area of the largest triangle on vertices, all of them tried (readings,)."""
-    local = rings.points - rings.points[:, :1]
-    x, y = local[..., 0], local[..., 1]
-    cross = x[:, :, None] * y[:, None, :] - x[:, None, :] * y[:, :, None]
+    i, j, k = np.array(list(combinations(range(rings.points.shape[1]), 3))).reshape(-1, 3).T
+    x, y = rings.points[..., 0], rings.points[..., 1]
     best = np.zeros(len(x))
-    for k in range(x.shape[1]):
-        # Twice the area of (i, j, k): c_ij + c_jk + c_ki.
-        total = cross + cross[:, :, k][:, None, :] + cross[:, k, :][:, :, None]
-        best = np.maximum(best, 0.5 * np.abs(total).max(axis=(1, 2)))
+    for part in range(0, len(i), 512):  # in parts that the cache holds
+        a, b, c = (index[part : part + 512] for index in (i, j, k))
+        twice = (x[:, b] - x[:, a]) * (y[:, c] - y[:, a]) - (x[:, c] - x[:, a]) * (y[:, b] - y[:, a])
+        best = np.maximum(best, 0.5 * np.abs(twice).max(axis=1))
     return best
 
 
@@ -325,6 +327,7 @@ def _plane_polygons(block: Block, tally: Tally) -> None:
     )
     _points(block, tally, cloud, rings, middle)
     _offsets(block, tally, cloud, rings)
+    _inside(block, tally, "safe_rectangle", hulls, [safe_rectangle(c, 0.01) for c in cloud], 4)
     some = slice(block.number % 4, None, 4)  # the percepts call the same functions with every reading
     _all_shapes(block, tally, cloud[some], hulls[some])
 
@@ -402,7 +405,6 @@ def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Seque
         [inscribed.inscribed_rectangle_any_angle(c) for c in cloud],
         4,
     )
-    _inside(block, tally, "safe_rectangle", hulls, [safe_rectangle(c, 0.01) for c in cloud], 4)
     _circles(block, tally, "inscribed_circle", hulls, [inscribed.inscribed_circle(c) for c in cloud])
     for name, around in (
         ("bounding_box", enclosing.bounding_box),

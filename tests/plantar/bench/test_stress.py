@@ -22,6 +22,7 @@ def test_a_short_run_sees_no_failure():
     assert {name: t.examples for name, t in result.functions.items() if t.failures} == {}
     assert result.readings == 20_000
     assert len(result.functions) > 100
+    assert result.least == 20_000  # every function met every reading
     assert all(t.readings > 0 and np.isfinite(t.worst) for t in result.functions.values())
 
 
