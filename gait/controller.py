@@ -258,9 +258,12 @@ class WalkingController:
         if feedback:
             self._align(state)
         senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in _SIDES}
+        landed = self.motion.landed
         if self.motion.update(phase, sensors.time, state.loads, self._frame, senses):
             self._compensation.start()
             self._lift(phase)
+        if self.motion.landed and not landed and s.compliance is not None:
+            self._keep_inside(phase, sensors.time)
         if feedback and s.footholds != "off" and self._feel(phase, sensors, state, percepts):
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
@@ -415,6 +418,22 @@ class WalkingController:
         shift = min(reach, max(-reach, missing)) * strip.across
         self.schedule.shift_steps(upcoming, shift)
         return np.asarray(center + missing * strip.across - self.plan.stance(upcoming))
+
+    def _keep_inside(self, phase: Phase, time: float) -> None:
+        """On a slope that rises outwards more than the ankle can follow, stand further inside."""
+        side, gains = self.motion.last_side, self.settings.compliance
+        if side is None or gains is None:
+            return
+        step = phase.step if phase.swing is not None else phase.step - 1
+        excess = self.motion.outward_rise(side) - gains.ankle_reach
+        if excess <= 0.0:
+            return
+        inward = self.settings.com_height * excess * (-1.0 if side == "left" else 1.0)
+        self._center_in_sole[side] = self._vrp_in_sole[side] + np.array([0.0, inward])
+        turn = Footstep(side, 0.0, 0.0, self.motion.footholds[side][1] + self._frame.turn).rotation_sole_to_world
+        point = self.plan.stance(step) + turn[:2, 1] * inward
+        self.plan.move(step, point, time, self._zmp_region(phase))
+        self.replans += 1
 
     def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards by the

@@ -116,6 +116,10 @@ class FootMotion:
         level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
         return level if self._compliance is None else np.asarray(level @ self._tilts[side])
 
+    def outward_rise(self, side: Side) -> float:
+        """Slope in rad across a foot's stand, positive where its outer edge is the higher one."""
+        return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)
+
     def update(
         self,
         phase: Phase,

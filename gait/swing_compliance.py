@@ -45,6 +45,9 @@ class ComplianceGains:
         turning: Time constant in s with which the sole turns to the ground.
         turn_rate: Largest rate of that in rad/s.
         largest_slope: Slope in rad beyond which the sole does not follow the ground.
+        follow_taxels: Number of taxels that must lie on a slope for the sole to follow it.
+        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
+            outwards itself; on a steeper one the body stays further inside.
         contact_force: Force in N that counts as touchdown.
         hold_force: Force in N that a foot carries from its touchdown to the double support.
         pliancy: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
@@ -67,6 +70,8 @@ class ComplianceGains:
     turning: float = 0.04
     turn_rate: float = 1.5
     largest_slope: float = 0.25
+    follow_taxels: int = 10
+    ankle_reach: float = 0.095
     contact_force: float = 18.0
     hold_force: float = 28.0
     pliancy: float = 1.2e-4
@@ -217,10 +222,9 @@ class SwingCompliance:
         if len(seen) < 3:
             return None
         x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
-        level, sx, sy = _highest_plane(x, y, d)
+        level, sx, sy, used = _highest_plane(x, y, d)
         slope = (sx, sy)
-        limit = self.gains.largest_slope
-        if math.hypot(sx, sy) > limit:
+        if math.hypot(sx, sy) > self.gains.largest_slope or used < self.gains.follow_taxels:
             slope = (0.0, 0.0)
         nearest = level - float((self._corners @ np.array([sx, sy])).max())
         g = self.gains
@@ -241,11 +245,12 @@ class SwingCompliance:
 
 def _highest_plane(
     x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
-) -> tuple[float, float, float]:
+) -> tuple[float, float, float, int]:
     """Plane z = -level + sx x + sy y through the highest ground under a sole.
 
     A least-squares plane; while it leaves out ground that is higher than it by more than noise explains, the fit is
-    repeated with the points above it. Fewer than six points, or points in a row, give a level plane.
+    repeated with the points above it. Fewer than six points, or points in a row, give a level
+    plane. Also returns how many points lie on it.
     """
     for _ in range(4):
         n = len(x)
@@ -254,7 +259,7 @@ def _highest_plane(
         xx, xy, yy = float(u @ u), float(u @ v), float(v @ v)
         determinant = xx * yy - xy * xy
         if n < 6 or determinant < 0.02 * xx * yy + 1e-12 or min(xx, yy) < n * 2e-4:
-            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0
+            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0, n
         xw, yw = float(u @ w), float(v @ w)
         sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
         above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
@@ -262,7 +267,7 @@ def _highest_plane(
             break
         higher = above > 0.0
         x, y, d = x[higher], y[higher], d[higher]
-    return float(md + sx * mx + sy * my), float(sx), float(sy)
+    return float(md + sx * mx + sy * my), float(sx), float(sy), n
 
 
 def turned_to_ground(

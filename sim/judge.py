@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +23,7 @@ _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
 _SETTLED = 0.6  # s after touchdown in which the contact area is looked for
 _FALLEN_TILT = 40.0  # degrees
 _FALLEN_HEIGHT = 0.6  # of the standing CoM height
+_FLAT_FACES = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_BOX))
 
 
 @dataclass
@@ -33,12 +35,14 @@ class Landing:
         time: Touchdown in s: the first physics step with ground force after at least 0.15 s in the air.
         impact: Largest vertical ground force in N within 50 ms.
         area: Largest contact area in m^2 (hull of the contact points) in the 0.6 s after touchdown.
+        angle: Angle in degrees between the sole and the face that it touched first, at touchdown; None on round ground.
     """
 
     side: Side
     time: float
     impact: float = 0.0
     area: float = 0.0
+    angle: float | None = None
 
 
 @dataclass
@@ -74,13 +78,26 @@ class Judge:
                 self._air[side] += 1
                 continue
             if self._air[side] * PHYSICS_PERIOD >= _AIRBORNE:
-                landing = Landing(side, float(data.time))
+                landing = Landing(side, float(data.time), angle=self._angle(side))
                 self.landings.append(landing)
                 self._landing[side] = landing
             self._air[side] = 0
             last = self._landing[side]
             if last is not None and data.time - last.time <= _IMPACT_WINDOW:
                 last.impact = max(last.impact, force)
+
+    def _angle(self, side: Side) -> float | None:
+        """Angle in degrees between a sole and the flat face that carries most of it."""
+        model, data = self.world.model, self.world.data
+        contacts = foot_contacts(model, data, self._geoms[side])
+        if not contacts.size:
+            return None
+        ground = int(contacts.other_geoms[int(np.argmax(contacts.forces[:, 2]))])
+        if ground < 0 or int(model.geom_type[ground]) not in _FLAT_FACES:
+            return None
+        up = data.geom_xmat[ground].reshape(3, 3)[:, 2]
+        sole = data.site_xmat[self.world.sole_sites[side]].reshape(3, 3)[:, 2]
+        return math.degrees(math.acos(min(1.0, abs(float(up @ sole)))))
 
     def look(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> GroundTruth:
         """At each control tick: tilt, ZMP margin, contact areas and the controller's errors.

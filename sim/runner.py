@@ -253,6 +253,7 @@ class Simulation:
             "landings_s": [round(x.time, 3) for x in judge.landings],
             "landing_sides": [x.side for x in judge.landings],
             "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in judge.landings],
+            "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in judge.landings],
             "replans": self.controller.replans,
             "control_us": {
                 "p50": round(float(np.percentile(ticks, 50)), 1),
