@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.ankle_sensor import AnkleSensor, SoleWrench
 from gait.balance import BalanceGains, FootAction, FootState
 from gait.balance_laws import balance_law
 from gait.com_height import CoMHeight
@@ -19,6 +20,7 @@ from gait.estimator import (
     EstimatorGains,
     FloatingBaseEstimator,
     LegKinematics,
+    SoleLoad,
     heading,
     rotation_from_vector,
 )
@@ -70,6 +72,8 @@ class ControllerSettings:
         estimator: Estimator gains.
         contact: How footholds are found from the taxels.
         feedback: False walks the plan in open loop, for comparison.
+        zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        ankles: Force-torque sensor of each ankle, where the robot has them.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
             "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
     """
@@ -88,6 +92,8 @@ class ControllerSettings:
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
     feedback: bool = True
+    zmp_source: str = "skin"
+    ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
     footholds: str = "off"
 
 
@@ -101,6 +107,8 @@ class Sensors:
         gyro: Angular velocity (3,) of the base in its own frame in rad/s.
         accelerometer: Specific force (3,) of the base in its own frame in m/s^2.
         readings: Latest reading of each sole.
+        ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
+            empty for a robot that has none.
     """
 
     time: float
@@ -108,6 +116,7 @@ class Sensors:
     gyro: NDArray[np.float64]
     accelerometer: NDArray[np.float64]
     readings: Mapping[Side, Reading]
+    ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -141,6 +150,7 @@ class Command:
         state: Estimated state.
         dcm: Estimated DCM (2,) in m.
         percepts: What each sole felt.
+        ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
     """
 
     com: NDArray[np.float64]
@@ -152,6 +162,7 @@ class Command:
     state: BaseState
     dcm: NDArray[np.float64]
     percepts: Mapping[Side, Percept]
+    ankle_loads: Mapping[Side, SoleWrench] = field(default_factory=dict)
 
 
 class WalkingController:
@@ -209,6 +220,7 @@ class WalkingController:
         )
         self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
         self._ticks = 0
+        self._rotations_sole: Mapping[Side, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in _SIDES}
         self.replans = 0
         self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
         self._contacts = {s: StanceContact(layouts[s], settings.contact) for s in _SIDES}
@@ -242,6 +254,12 @@ class WalkingController:
         """One control tick: sensors in, command out."""
         s = self.settings
         percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
+        ankles = {
+            side: sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])
+            for side, sensor in s.ankles.items()
+            if side in sensors.ankles
+        }
+        soles: Mapping[Side, SoleLoad] = ankles if s.zmp_source == "force_torque" else percepts
         reference = self.plan.at(sensors.time)
         phase = self.schedule.at(sensors.time)
         share = (sensors.time - phase.start) / (phase.end - phase.start) if phase.swing is not None else 0.0
@@ -249,11 +267,12 @@ class WalkingController:
             sensors.joint_positions,
             sensors.gyro,
             sensors.accelerometer,
-            percepts,
+            soles,
             reference.com_acceleration,
-            phase.swing if 0.2 < share < 0.5 else None,
+            phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,
         )
         self._ticks += 1
+        self._rotations_sole = state.rotations_sole
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:
             self._align(state)
@@ -268,7 +287,7 @@ class WalkingController:
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
-            standing = self._foot_states(phase, percepts) if self.balance.wants_feet else {}
+            standing = self._foot_states(phase, soles) if self.balance.wants_feet else {}
             balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase), standing)
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
             actions = balance.feet
@@ -295,6 +314,7 @@ class WalkingController:
             state=state,
             dcm=xi,
             percepts=percepts,
+            ankle_loads=ankles,
         )
 
     def _compensate(
@@ -461,13 +481,13 @@ class WalkingController:
             self._region_of = places
         return self._region
 
-    def _foot_states(self, phase: Phase, percepts: Mapping[Side, Percept]) -> dict[Side, FootState]:
+    def _foot_states(self, phase: Phase, soles: Mapping[Side, SoleLoad]) -> dict[Side, FootState]:
         """The feet that stand, for a balance law that shares the ground's wrench between them."""
         states: dict[Side, FootState] = {}
         for side in _SIDES:
             if phase.swing == side and not self.motion.landed:
                 continue
-            states[side] = FootState(self._contact(side), percepts[side].wrench_in_sole)
+            states[side] = FootState(self._contact(side), soles[side].wrench_in_sole)
         return states
 
     def _contact(self, side: Side) -> FootContact:

@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from gait.lip import GRAVITY
 from plantar.force import zmp_of_feet
 from plantar.layout import Side
-from plantar.percept import Percept
 
 __all__ = [
     "BaseState",
@@ -32,6 +31,7 @@ __all__ = [
     "FloatingBaseEstimator",
     "LegKinematics",
     "Posture",
+    "SoleLoad",
     "heading",
     "rotation_from_vector",
 ]
@@ -53,6 +53,25 @@ class Posture:
     com: NDArray[np.float64]
     positions: Mapping[Side, NDArray[np.float64]]
     rotations: Mapping[Side, NDArray[np.float64]]
+
+
+class SoleLoad(Protocol):
+    """What a sole carries, by its taxels (`plantar.percept.Percept`) or its ankle (`gait.ankle_sensor.SoleWrench`)."""
+
+    @property
+    def vertical_force(self) -> float:
+        """Vertical force in N."""
+        ...
+
+    @property
+    def position_cop_in_sole(self) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) in the sole frame in m, None without load."""
+        ...
+
+    @property
+    def wrench_in_sole(self) -> NDArray[np.float64]:
+        """Wrench (6,) about the sole frame's origin."""
+        ...
 
 
 class LegKinematics(Protocol):
@@ -94,7 +113,7 @@ class BaseState:
         position_base: Base position (3,) in m.
         com: CoM (3,) in m.
         com_velocity: CoM velocity (3,) in m/s.
-        zmp: Composite ZMP (2,) in m from the taxels, or None without load.
+        zmp: Composite ZMP (2,) in m of what the soles carry, or None without load.
         loads: Vertical force on each foot in N, less its tare.
         positions_sole: Sole frame origin (3,) of each foot in m.
         rotations_sole: Rotation (3, 3) from each sole frame to the world frame.
@@ -167,7 +186,7 @@ class FloatingBaseEstimator:
         joint_positions: NDArray[np.float64],
         gyro: NDArray[np.float64],
         accelerometer: NDArray[np.float64],
-        percepts: Mapping[Side, Percept],
+        soles: Mapping[Side, SoleLoad],
         planned_acceleration: NDArray[np.float64] | None = None,
         airborne: Side | None = None,
     ) -> BaseState:
@@ -177,9 +196,9 @@ class FloatingBaseEstimator:
             joint_positions: Encoder readings (k,) in rad.
             gyro: Angular velocity (3,) of the base in the base frame in rad/s.
             accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
-            percepts: What each sole feels.
+            soles: What each sole carries.
             planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
-            airborne: Foot that is high in the air by plan: what its taxels' noise adds up to becomes its tare.
+            airborne: Foot that is high in the air by plan: what it reads there becomes its tare.
 
         Returns:
             The estimated state.
@@ -187,9 +206,9 @@ class FloatingBaseEstimator:
         posture = self.kinematics.posture(joint_positions)
         if airborne is not None:
             share = min(1.0, self.period / self.gains.tare)
-            self._tare[airborne] += share * (percepts[airborne].vertical_force - self._tare[airborne])
-        loads = {s: max(0.0, percepts[s].vertical_force - self._tare[s]) for s in _SIDES}
-        cops = {s: percepts[s].position_cop_in_sole for s in _SIDES}
+            self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
+        loads = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in _SIDES}
+        cops = {s: soles[s].position_cop_in_sole for s in _SIDES}
         if self._rotation is None or self._last is None:
             self._start(posture, accelerometer)
         else:

@@ -30,7 +30,7 @@ from sim.pushing import Pusher
 from sim.render import FRAME_RATE, Film
 from sim.robots.robot import Robot, load_robot
 from sim.scene import Scene
-from sim.sensors import SensorSuite
+from sim.sensors import SensorSuite, ankle_sensors
 from sim.servos import LegServos
 from sim.standing import stand
 from sim.terrain import Footprint, PlannedFeet
@@ -105,6 +105,8 @@ class Simulation:
             compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
             gains=balance_gains(robot.balance),
             feedback=scene.control.feedback,
+            zmp_source=scene.control.zmp_source,
+            ankles=ankle_sensors(self.legs.model, robot),
             footholds=scene.control.footholds,
         )
         self.controller = WalkingController(
@@ -114,7 +116,11 @@ class Simulation:
         self.facts = ground.facts
         self.world: World = build_world(robot, ground)
         self.sensors = SensorSuite(
-            self.world, scene.sensing, seed, proximity=scene.control.pfc or scene.control.footholds == "skin"
+            self.world,
+            scene.sensing,
+            seed,
+            proximity=scene.control.pfc or scene.control.footholds == "skin",
+            force_torque=scene.sensing.force_torque or scene.control.zmp_source == "force_torque",
         )
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)

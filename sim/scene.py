@@ -76,6 +76,9 @@ class Sensing:
         encoder_noise: Of each joint encoder in rad.
         gyro_noise: Of each gyro axis in rad/s.
         accelerometer_noise: Of each accelerometer axis in m/s^2.
+        force_torque: Whether the ankles have force-torque sensors that somebody reads.
+        ankle_force_noise: Of each axis of their force in N.
+        ankle_torque_noise: Of each axis of their torque in N m.
     """
 
     skin_rate: float = field(default=250.0, metadata=limits(10.0, 1000.0))
@@ -88,11 +91,14 @@ class Sensing:
     encoder_noise: float = field(default=5e-5, metadata=limits(0.0, 0.1))
     gyro_noise: float = field(default=2e-3, metadata=limits(0.0, 1.0))
     accelerometer_noise: float = field(default=0.05, metadata=limits(0.0, 10.0))
+    force_torque: bool = False
+    ankle_force_noise: float = field(default=1.0, metadata=limits(0.0, 1000.0))
+    ankle_torque_noise: float = field(default=0.05, metadata=limits(0.0, 100.0))
 
 
 @dataclass(frozen=True)
 class Push:
-    """A push on the base.
+    """Pushes on the base: one in a step, or several while the robot stands.
 
     Attributes:
         impulse: Impulse in N s; 0 pushes nobody.
@@ -100,6 +106,8 @@ class Push:
         direction: Direction in the robot's frame, or "seeded": the seed chooses.
         step: Step in whose single support it comes; -1 lets the seed choose.
         phase: Share of the single support at which it begins.
+        count: Number of pushes on a robot that stands; 0 pushes once, in a step.
+        interval: Time in s from one such push to the next.
     """
 
     impulse: float = field(default=0.0, metadata=limits(0.0, 1000.0))
@@ -107,6 +115,8 @@ class Push:
     direction: str = field(default="seeded", metadata={"choices": ("seeded", "forward", "backward", "left", "right")})
     step: int = field(default=-1, metadata=limits(-1, 100000))
     phase: float = field(default=0.5, metadata=limits(0.0, 1.0))
+    count: int = field(default=0, metadata=limits(0, 1000))
+    interval: float = field(default=4.0, metadata=limits(0.1, 60.0))
 
 
 @dataclass(frozen=True)
@@ -115,6 +125,7 @@ class Control:
 
     Attributes:
         feedback: False walks the plan in open loop.
+        zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
             taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
@@ -122,6 +133,7 @@ class Control:
     """
 
     feedback: bool = True
+    zmp_source: str = field(default="skin", metadata={"choices": ("skin", "force_torque")})
     footholds: str = field(default="off", metadata={"choices": ("off", "force", "skin")})
     pfc: bool = False
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})

@@ -1,20 +1,25 @@
-"""What the robot's sensors deliver: encoders, IMU and soles, with their noise."""
+"""What the robot's sensors deliver: encoders, IMU, ankles and soles, with their noise."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import Any
 
+import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
+from gait.ankle_sensor import AnkleSensor
 from gait.controller import Sensors
 from plantar.layout import Side
 from plantar.reading import Reading
 from sim.proximity import ProximitySensor, SoleProximity
+from sim.robots.robot import Robot
 from sim.scene import Sensing
 from sim.skin import SkinSensor, SoleSkin
 from sim.world import PHYSICS_PERIOD, World
 
-__all__ = ["SensorSuite"]
+__all__ = ["SensorSuite", "ankle_sensors"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 
@@ -27,13 +32,17 @@ class SensorSuite:
         sensing: Rates, noise and delay.
         seed: Seed of all noise; each sensor draws from its own stream.
         proximity: Whether the soles have proximity sensors that somebody uses.
+        force_torque: Whether the ankles have force-torque sensors that somebody uses.
     """
 
-    def __init__(self, world: World, sensing: Sensing, seed: int, *, proximity: bool = False) -> None:
+    def __init__(
+        self, world: World, sensing: Sensing, seed: int, *, proximity: bool = False, force_torque: bool = False
+    ) -> None:
         self._world = world
         self._sensing = sensing
-        streams = np.random.SeedSequence([seed, 0x5E]).spawn(6)
+        streams = np.random.SeedSequence([seed, 0x5E]).spawn(7)
         self._body_noise = np.random.default_rng(streams[2])
+        self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
         self.proximity: dict[Side, ProximitySensor] = {}
         dead: dict[Side, list[int]] = {}
         chance = np.random.default_rng(streams[5])
@@ -102,4 +111,49 @@ class SensorSuite:
             accelerometer=data.sensordata[w.accelerometer : w.accelerometer + 3]
             + s.accelerometer_noise * noise[k + 3 :],
             readings=dict(self.readings),
+            ankles=self._sample_ankles(),
         )
+
+    def _sample_ankles(self) -> dict[Side, NDArray[np.float64]]:
+        """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; nothing without sensors."""
+        if self._ankle_noise is None:
+            return {}
+        s, data = self._sensing, self._world.data.sensordata
+        wrenches: dict[Side, NDArray[np.float64]] = {}
+        for side, (force, torque) in self._world.ankle_wrench.items():
+            noise = self._ankle_noise.standard_normal(6)
+            # MuJoCo gives what the leg does to the foot.
+            wrenches[side] = np.concatenate(
+                [
+                    s.ankle_force_noise * noise[:3] - data[force : force + 3],
+                    s.ankle_torque_noise * noise[3:] - data[torque : torque + 3],
+                ]
+            )
+        return wrenches
+
+
+def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
+    """Where each ankle's force-torque sensor sits and what hangs below it.
+
+    Args:
+        model: The MjModel of the robot.
+        robot: The robot.
+
+    Returns:
+        The sensors, for the controller.
+    """
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    sensors: dict[Side, AnkleSensor] = {}
+    for side in _SIDES:
+        sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
+        body = model.site_bodyid[site]
+        origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)
+        sensors[side] = AnkleSensor(
+            position=rotation.T @ (data.site_xpos[site] - origin),
+            rotation=rotation.T @ data.site_xmat[site].reshape(3, 3),
+            mass=float(model.body_subtreemass[body]),
+            com=rotation.T @ (data.subtree_com[body] - origin),
+        )
+    return sensors

@@ -129,6 +129,7 @@ class World:
         damping: Servo velocity gains (k,) in N m s/rad.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
+        ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
@@ -147,6 +148,7 @@ class World:
     damping: NDArray[np.float64]
     gyro: int
     accelerometer: int
+    ankle_wrench: dict[Side, tuple[int, int]]
     touch: dict[Side, int]
     moving_ground: tuple[tuple[int, Solid], ...] = ()
     ground_top: float = math.inf
@@ -210,6 +212,10 @@ def build_world(robot: Robot, ground: Ground) -> World:
         damping=-model.actuator_biasprm[servos, 2].copy(),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
+        ankle_wrench={
+            s: (int(model.sensor(f"{s}_ankle_force").adr[0]), int(model.sensor(f"{s}_ankle_torque").adr[0]))
+            for s in _SIDES
+        },
         touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in _SIDES},
         moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
         ground_top=ground.top,

@@ -28,7 +28,8 @@ def spec_from_file(robot: Robot) -> Any:
 
     Returns:
         An editable `mujoco.MjSpec` with sites "<side>_sole" and the IMU's, geoms "<side>_sole_box", one position
-        actuator a leg joint, and the sensors "imu_gyro" and "imu_accelerometer".
+        actuator a leg joint, and the sensors "imu_gyro", "imu_accelerometer", "<side>_ankle_force" and
+        "<side>_ankle_torque".
 
     Raises:
         RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
@@ -104,6 +105,10 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
     """A shoe as a body of its own: mass, the sole frame's site, and the contact box below the foot."""
     foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
     center, half = robot.sole_rectangle(side)
+    ankle = f"{side}_ankle_force_torque"
+    foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
+    for name, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
+        spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
     mirror = 1.0 if side == "left" else -1.0
     x, y, z = robot.sole_origin
     shoe = foot.add_body(name=f"{side}_shoe", pos=[x, mirror * y, z])

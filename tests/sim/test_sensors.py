@@ -2,8 +2,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.scene import Sensing
-from sim.sensors import SensorSuite
+from sim.contact_truth import contact_wrench_in_frame, foot_contacts
+from sim.runner import Simulation
+from sim.scene import Sensing, load_scene
+from sim.sensors import SensorSuite, ankle_sensors
 from sim.world import World
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
@@ -49,3 +51,40 @@ def test_skin_is_sampled_at_its_rate(world: World) -> None:
         due.append(suite.sample_skin(k))
         mujoco.mj_step(world.model, world.data)
     assert [k for k, d in enumerate(due) if d] == [0, 4, 8, 12, 16]
+
+
+@pytest.mark.parametrize("name", ["h1", "hrp2kai"])
+def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -> None:
+    simulation = Simulation(load_scene("flat", ["steps=0", "force_torque=true"], name), 0)
+    world = simulation.world
+    mujoco.mj_forward(world.model, world.data)
+    quiet = Sensing(force_noise=0.0, ankle_force_noise=0.0, ankle_torque_noise=0.0)
+    suite = SensorSuite(world, quiet, 0, force_torque=True)
+    suite.sample_skin(0)
+    mounted = ankle_sensors(simulation.legs.model, simulation.robot)
+    total = 0.0
+    for side, measured in suite.sample_body().ankles.items():
+        site = world.sole_sites[side]
+        rotation = world.data.site_xmat[site].reshape(3, 3)
+        felt = mounted[side].sole_wrench(measured, rotation).wrench_in_sole
+        contacts = foot_contacts(world.model, world.data, frozenset(world.sole_geoms[side]))
+        truth = contact_wrench_in_frame(contacts, world.data.site_xpos[site], rotation)
+        assert felt == pytest.approx(truth, abs=0.3)  # the foot settles: its inertia is all that differs
+        total += felt[2]
+    assert total == pytest.approx(simulation.legs.mass * 9.81, rel=2e-3)
+
+
+def test_ankle_noise_has_the_stated_size_and_leaves_the_other_sensors_alone(world: World) -> None:
+    mujoco.mj_forward(world.model, world.data)
+    sensing = Sensing(ankle_force_noise=2.0, ankle_torque_noise=0.1)
+    with_ankles, without = SensorSuite(world, sensing, 3, force_torque=True), SensorSuite(world, sensing, 3)
+    rows = []
+    for k in range(400):
+        with_ankles.sample_skin(k)
+        without.sample_skin(k)
+        one, other = with_ankles.sample_body(), without.sample_body()
+        assert np.array_equal(one.joint_positions, other.joint_positions)
+        assert np.array_equal(one.readings["left"].force, other.readings["left"].force)
+        assert other.ankles == {}
+        rows.append(one.ankles["left"])
+    assert np.std(rows, axis=0) == pytest.approx([2.0] * 3 + [0.1] * 3, rel=0.15)
