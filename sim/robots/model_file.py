@@ -106,7 +106,8 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
     foot = _body(spec, robot, robot.legs[side].foot_body, f"[legs.{side}] foot_body")
     center, half = robot.sole_rectangle(side)
     ankle = f"{side}_ankle_force_torque"
-    foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
+    if spec.site(ankle) is None:
+        foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
     for name, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
         spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
     mirror = 1.0 if side == "left" else -1.0
