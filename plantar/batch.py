@@ -42,6 +42,10 @@ class Loads:
         wrench: Ground reaction wrench (frames, 6) about the sole frame's origin in N and N m (T 4.23).
         contact_area: Area (frames,) of the active cells in m^2 (T 4.22).
         center_of_pressure: Position (frames, 2) in the sole frame in m (T 4.21); NaN in a frame without load.
+
+    Example:
+        >>> Loads(np.array([[0.0, 0.0, 5.0, 0.0, 0.0, 0.0]]), np.zeros(1), np.zeros((1, 2))).vertical_force.tolist()
+        [5.0]
     """
 
     wrench: NDArray[np.float64]
@@ -63,6 +67,12 @@ class SupportPolygons:
         centroid: Centroid (frames, 2) in m; NaN without contact.
         size: Number of vertices (frames,).
         vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other; None where not asked for.
+
+    Example:
+        >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+        >>> found = SupportPolygons(np.array([0.0, 0.5]), np.zeros((2, 2)), np.array([0, 3]), corners)
+        >>> found.polygon(0).shape, found.polygon(1).tolist()
+        ((0, 2), [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     """
 
     area: NDArray[np.float64]
@@ -98,6 +108,13 @@ class GroundPlanes:
         residual: Root mean square distance (frames,) in m of the points used; NaN likewise.
         directions: Directions (frames,) in which the points determine a slope: 2, 1, 0, and -1 without a plane.
         inliers: Taxels (frames, n) whose points were used.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05))
+        >>> planes = ground_planes(layout, np.full((3, len(layout)), 0.03))
+        >>> planes.slope.shape, planes.inliers.all().item()
+        ((3, 2), True)
     """
 
     height: NDArray[np.float64]

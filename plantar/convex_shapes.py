@@ -14,12 +14,26 @@ _SHARED = ConvexShapes(False) if is_compiled("shapes") else None
 
 
 def convex_shapes() -> ConvexShapes:
-    """The kernels with their work arrays: shared where compiled calls follow each other, else one of its own."""
+    """The kernels with their work arrays.
+
+    Returns:
+        Those that all calls share where they are compiled and so follow each other, else some of one's own.
+
+    Example:
+        >>> convex_shapes().triangle(points_of([[0, 0], [1, 0], [0, 1]])).tolist()
+        [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    """
     return _SHARED if _SHARED is not None else ConvexShapes(True)
 
 
 def points_of(points: ArrayLike) -> NDArray[np.float64]:
-    """Points as an array (k, 2) of float64; an empty list has no points.
+    """Points as an array of float64.
+
+    Args:
+        points: Points (k, 2) in m, or an empty list.
+
+    Returns:
+        Points (k, 2) in m; not copied where they are one.
 
     Example:
         >>> points_of([]).shape, points_of([[1, 2]]).tolist()

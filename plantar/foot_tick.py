@@ -14,7 +14,15 @@ __all__ = ["FootTick", "walking_tick"]
 
 
 class FootTick(NamedTuple):
-    """One foot at one tick, in the sole frame; the same as a `Percept` gives, computed together."""
+    """One foot at one tick, in the sole frame; the same as a `Percept` gives, computed together.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05))
+        >>> air = walking_tick(layout, np.zeros(len(layout)), aim=(0.1, 0.05))
+        >>> air.position_cop, air.support_area, air.support_polygon.shape
+        (None, 0.0, (0, 2))
+    """
 
     active: NDArray[np.bool_]
     """Active taxels (n,) (T 4.22)."""

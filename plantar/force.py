@@ -45,6 +45,12 @@ def ground_reaction_wrench(layout: SoleLayout, force: NDArray[np.float64]) -> ND
 
     Returns:
         Wrench (6,) or (frames, 6) in the sole frame in N and N m, exerted by the world on the sole.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> ground_reaction_wrench(layout, np.array([10.0, 20.0])).round(9).tolist()
+        [0.0, 0.0, 30.0, 1.5, -3.5, 0.0]
     """
     return np.asarray(force @ layout.wrench_map.T)
 
@@ -58,6 +64,10 @@ def wrench_at(wrench: NDArray[np.float64], point: NDArray[np.float64]) -> NDArra
 
     Returns:
         Wrench (..., 6) about `point`: tau_p = tau_o - p x f.
+
+    Example:
+        >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()
+        [0.0, 0.0, 10.0, 0.0, 0.0, 0.0]
     """
     out = np.array(wrench, dtype=float)
     out[..., 3:] -= np.cross(point, out[..., :3])

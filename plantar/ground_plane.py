@@ -16,7 +16,13 @@ __all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "gr
 
 
 class GroundPlane(NamedTuple):
-    """Ground z = -height + slope . (x, y) in the sole frame."""
+    """Ground z = -height + slope . (x, y) in the sole frame.
+
+    Example:
+        >>> plane = GroundPlane(0.03, (0.1, 0.0), 0.0, np.ones(3, dtype=bool), 2)
+        >>> round(plane.height_at([0.1, 0.0]).item(), 9), plane.normal.round(3).tolist()
+        (0.02, [-0.1, -0.0, 0.995])
+    """
 
     height: float
     """Height in m of the sole frame's origin above the ground, along the sole's z; negative below it."""
@@ -107,7 +113,18 @@ def fit_ground_plane(
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
-    """Range in m of a fit, that of the layout where None; raises `InputError` where it or the tolerance is no length.
+    """The range of a fit, checked with its tolerance.
+
+    Args:
+        layout: The sole.
+        sensing_range: Distance in m from which a reading counts as out of range; that of the layout where None.
+        tolerance: Distance in m from the plane that noise and rough ground explain.
+
+    Returns:
+        The range in m.
+
+    Raises:
+        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
 
     Example:
         >>> from plantar import hex_layout
@@ -123,7 +140,20 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
 
 
 def ground_fit(layout: SoleLayout) -> GroundFit:
-    """The kernel that fits planes to what a sole sees, made at first use."""
+    """The kernel that fits planes to what a sole sees, made at first use.
+
+    Args:
+        layout: The sole, n taxels.
+
+    Returns:
+        The kernel, the same one each time.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> ground_fit(layout) is ground_fit(layout)
+        True
+    """
     try:
         kernel: GroundFit = layout.__dict__["_ground_fit"]
     except KeyError:

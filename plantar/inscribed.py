@@ -29,7 +29,12 @@ __all__ = [
 
 
 class Circle(NamedTuple):
-    """A circle: centre (2,) in m and radius in m."""
+    """A circle: centre (2,) in m and radius in m.
+
+    Example:
+        >>> Circle(np.array([0.0, 0.0]), 0.05).radius
+        0.05
+    """
 
     center: NDArray[np.float64]
     radius: float

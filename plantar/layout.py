@@ -76,6 +76,12 @@ class SoleLayout:
 
     Raises:
         LayoutError: If a field is not valid; the message names it.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> layout.positions.round(9).tolist(), layout.neighbours, round(layout.sole_area, 9)
+        ([[0.05, 0.05, 0.0], [0.15, 0.05, 0.0]], ((1,), (0,)), 0.02)
     """
 
     name: str

@@ -29,6 +29,12 @@ def layout_to_dict(layout: SoleLayout) -> dict[str, Any]:
 
     Returns:
         A dict that `layout_from_dict` reads back without loss.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
+        >>> layout_to_dict(layout)["name"]
+        'mat'
     """
     return {
         "schema": SCHEMA,
@@ -96,6 +102,12 @@ def layout_from_dict(source: Mapping[str, Any], where: str = "layout") -> SoleLa
 
     Raises:
         LayoutError: If a field is missing or wrong; the message names it.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
+        >>> layout_from_dict(layout_to_dict(layout)).name
+        'mat'
     """
     if not isinstance(source, Mapping):
         raise LayoutError(f"{where}: not a JSON object")
@@ -168,6 +180,14 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
 
     Raises:
         LayoutError: If the file cannot be read, is no JSON, or has a bad field; the message names file and field.
+
+    Example:
+        >>> import tempfile
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     len(read_layout(write_layout(layout, f"{folder}/mat.json")))
+        8
     """
     try:
         source = json.loads(Path(path).read_text(encoding="utf-8"))
@@ -187,5 +207,13 @@ def write_layout(layout: SoleLayout, path: str | os.PathLike[str]) -> Path:
 
     Returns:
         The path.
+
+    Example:
+        >>> import tempfile
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05), name="mat")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     write_layout(layout, f"{folder}/mat.json").name
+        'mat.json'
     """
     return write_text(path, json.dumps(layout_to_dict(layout), indent=1) + "\n")

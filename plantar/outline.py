@@ -70,7 +70,7 @@ class Outline:
         """Vertices (k, 2) of each ring in m."""
         return tuple(self.points[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True))
 
-    @cached_property
+    @property
     def area(self) -> float:
         """Area in m^2, holes left out; exact to 1e-12 of it."""
         return math.fsum(self.ring_areas)

@@ -25,7 +25,15 @@ CONTOUR_HEIGHTS: tuple[float, ...] = (0.01, 0.02, 0.03, 0.04, 0.05)
 
 
 class VirtualMembers:
-    """What a `Percept` holds beside forces. A modality that the reading lacks gives None."""
+    """What a `Percept` holds beside forces. A modality that the reading lacks gives None.
+
+    Example:
+        >>> from plantar import Percept, hex_layout
+        >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+        >>> blind = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
+        >>> blind.near, blind.ground_plane_in_sole, blind.temperature_wrench_in_sole
+        (None, None, None)
+    """
 
     layout: SoleLayout
     reading: Reading

@@ -45,6 +45,12 @@ def area(polygon: ArrayLike) -> float:
 
     Exact to a few 1e-16 of the squared extent, however far the polygon lies from the origin.
 
+    Args:
+        polygon: Simple polygon (k, 2) in m.
+
+    Returns:
+        The area; 0 for fewer than 3 vertices.
+
     Example:
         >>> area(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]))
         2.0
@@ -53,7 +59,13 @@ def area(polygon: ArrayLike) -> float:
 
 
 def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
-    """Centroid (2,) in m of the polygon's area; the mean of its vertices where the area is 0; None when empty.
+    """Centroid of the polygon's area.
+
+    Args:
+        polygon: Simple polygon (k, 2) in m.
+
+    Returns:
+        Position (2,) in m; the mean of the vertices where the area is 0; None for an empty polygon.
 
     Example:
         >>> centroid(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]])).tolist()

@@ -27,7 +27,12 @@ __all__ = [
 
 
 class HeightContour(NamedTuple):
-    """What of the ground is nearer to the sole than one height."""
+    """What of the ground is nearer to the sole than one height.
+
+    Example:
+        >>> HeightContour(0.02, np.zeros(3, dtype=bool), np.empty((0, 2))).height
+        0.02
+    """
 
     height: float
     """Height in m."""

@@ -27,6 +27,10 @@ def polygon_in_world(
 
     Returns:
         Polygon (k, 2) in m in the world's x-y plane.
+
+    Example:
+        >>> polygon_in_world(np.array([[1.0, 0.0]]), np.eye(3), np.array([0.0, 2.0, 5.0])).tolist()
+        [[1.0, 2.0]]
     """
     seen: NDArray[np.float64] = _kernel.seen_from_above(
         np.asarray(polygon_in_sole, dtype=float),

@@ -1,6 +1,8 @@
 # C types of outline.py. Without a compiler this file is not read.
 cimport cython
 
+cdef Py_ssize_t _SHORT
+
 @cython.locals(
     x0=double, y0=double, twice=double, sx=double, sy=double, ax=double, ay=double, bx=double, by=double, cross=double,
     r=Py_ssize_t, last=Py_ssize_t, i=Py_ssize_t
@@ -20,6 +22,9 @@ cdef class EdgeTable:
     cdef unsigned char[::1] leaving
     cdef Py_ssize_t[::1] path
     cdef Py_ssize_t[::1] place
+    cdef object room
+    cdef double[:, ::1] points
+    cdef list parts
 
     @cython.locals(
         n=Py_ssize_t, edges=Py_ssize_t, places=Py_ssize_t, count=Py_ssize_t, pinched=bint, i=Py_ssize_t, h=Py_ssize_t,

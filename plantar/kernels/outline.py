@@ -12,6 +12,8 @@ import numpy as np
 
 __all__ = ["EdgeTable", "area_and_centroid"]
 
+_SHORT = 256  # points of an outline for which there is a view at hand
+
 
 def area_and_centroid(points, starts):
     """Area and centroid of an outline, holes left out.
@@ -58,6 +60,12 @@ class EdgeTable:
         vertices: Coordinates of the v vertices, flat (2 v,), in m.
         straight: A vertex whose neighbours' line passes within this distance in m is no corner.
         reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
+
+    Example:
+        >>> from plantar.cell_edges import edge_table
+        >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]])
+        >>> table.walk(bytes([1]))[1:], table.walk(bytes([0]))[1:]
+        (([0, 4], [1.0]), ([0], []))
     """
 
     def __init__(self, cell_start, cell, twin, after, origin, vertices, straight, reuse):
@@ -73,6 +81,9 @@ class EdgeTable:
         self.path = np.empty(len(cell), dtype=np.intp)
         self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
         self.leaving = bytearray(len(vertices) // 2)
+        self.room = np.empty((len(cell), 2))
+        self.points = self.room
+        self.parts = [self.room[:k] for k in range(min(len(cell), _SHORT) + 1)]  # a copy is the cheapest new array
 
     def __reduce__(self):
         """Rebuild from the arguments, so that a layout crosses to another process."""
@@ -115,10 +126,12 @@ class EdgeTable:
                             pinched = True
         starts = [0]
         areas = []
-        room = np.empty((count, 2))
         if count == 0:
-            return room, starts, areas
-        points = room
+            return np.empty((0, 2)), starts, areas
+        points = self.points
+        if not self.reuse:
+            room = np.empty((count, 2))
+            points = room
         used = 0
         for i in range(n):
             if not active[i]:
@@ -153,9 +166,11 @@ class EdgeTable:
                 for h in range(self.cell_start[i], self.cell_start[i + 1]):
                     mark[h] = 0
                     leaving[self.origin[h]] = 0
-        if used < count:
+        if not self.reuse:
             return room[:used], starts, areas
-        return room, starts, areas
+        if used <= _SHORT:
+            return self.parts[used].copy(), starts, areas
+        return self.room[:used].copy(), starts, areas
 
     def _keep(self, path, low, high, points, used, starts, areas):
         """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""
