@@ -104,7 +104,7 @@ class StanceContact:
         self.layout = layout
         self.settings = settings
         self._fit = PartialContact(layout)
-        self._whole_area = area(layout.outline)
+        self._whole_area = area(self._fit.polygon(np.empty((0, 3))))
         self.lift()
 
     def lift(self) -> None:
@@ -237,15 +237,18 @@ class StanceContact:
     def _silent(self, mean: NDArray[np.float64]) -> NDArray[np.bool_] | None:
         """Taxels (n,) that should carry on the ground that is believed in, and do not; None where all is well."""
         s = self.settings
+        mean = np.where(mean > s.taxel_noise, mean, 0.0)  # noise that cannot be negative adds up
         load = float(mean.sum())
+        if load <= 0.0:
+            return None
         cop = (mean @ self.layout.positions[:, :2]) / load
         # A load near the edge lifts the rest off, whether there is ground or not: only a load well inside tells.
-        polygon = self.polygon_in_sole
+        lines = np.empty((0, 3)) if self._fit.edges is None else self._fit.edges.lines
+        polygon = self._fit.polygon(lines)
         around = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
         if signed_margin(polygon, cop) < min(s.least_margin, 0.8 * area(polygon) / around):
             return None
-        lines = np.empty((0, 3)) if self._fit.edges is None else self._fit.edges.lines
         expected = self._fit.expected(load, cop, lines)
         silent = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
-        wrong = int(silent.sum()) >= 2 and float(expected[silent].sum()) > s.least_wrong * load
+        wrong = int(silent.sum()) >= 3 and float(expected[silent].sum()) > s.least_wrong * load
         return silent if wrong else None

@@ -144,12 +144,12 @@ class PartialContact:
         inside = closest_point(inner_offset(convex_hull(place[on, 1:]), 2e-3), center_of_pressure)
         x, y = (center_of_pressure if inside is None else inside).tolist()
         wanted = load * np.array([1.0, x, y])
-        field = np.zeros(3)
+        field: NDArray[np.float64] = np.zeros(3)
         for _ in range(12):
             normal = measure[on].T @ place[on]
             normal.ravel()[::4] *= 1.0 + 1e-9
             normal.ravel()[::4] += 1e-15
-            field = np.linalg.solve(normal, wanted)
+            field = np.asarray(np.linalg.solve(normal, wanted), dtype=np.float64)
             positive = covered & (place @ field > 0.0)
             if not positive.any() or bool((positive == on).all()):
                 break

@@ -3,7 +3,8 @@ import pytest
 
 from gait.footsteps import straight_plan
 from gait.phases import PhaseKind, Timing, WalkSchedule
-from gait.walk_plan import WalkPlan, vrp_of_step
+from gait.vrp_plan import LipReference
+from gait.walk_plan import Replan, WalkPlan, vrp_of_step
 
 OMEGA = 3.5
 CENTER = {"left": np.array([0.025, 0.01]), "right": np.array([0.025, -0.01])}
@@ -37,3 +38,105 @@ def test_the_planned_com_stays_near_the_feet_for_any_number_of_steps() -> None:
 def test_turned_footsteps_turn_their_vrps() -> None:
     feet, _ = straight_plan(0, start=(1.0, 2.0, np.pi / 2))
     assert vrp_of_step(feet["left"], CENTER["left"]) == pytest.approx([1.0 - 0.085 - 0.01, 2.0 + 0.025])
+
+
+def turned_by_a_foothold(
+    step: int = 3, shift: tuple[float, float] = (0.06, 0.0), late: float = 0.02
+) -> tuple[WalkPlan, float, LipReference, Replan]:
+    """A walk in the double support after a step, and what a foothold off its middle makes of it."""
+    feet, steps = straight_plan(12, length=0.0, sideways=0.08)
+    plan = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    phase = next(p for p in plan.schedule.phases if p.kind == PhaseKind.DOUBLE_SUPPORT and p.step == step + 1)
+    time = phase.start + late
+    before = plan.at(time)
+    replan = plan.move(step, plan.stance(step) + shift, time, WIDE)
+    return plan, time, before, replan
+
+
+WIDE = np.array([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
+
+
+def test_a_moved_foothold_leaves_dcm_and_com_where_they_are() -> None:
+    plan, time, before, replan = turned_by_a_foothold()
+    after = plan.at(time)
+    assert replan.shift == pytest.approx([0.06, 0.0])
+    assert np.abs(replan.gap).max() < 1e-12
+    assert np.abs(after.dcm - before.dcm).max() < 1e-12
+    assert np.abs(after.com - before.com).max() < 1e-12
+    assert np.abs(after.com_velocity - before.com_velocity).max() < 1e-12
+    assert np.abs(after.vrp - before.vrp).max() < 1e-12
+
+
+def test_the_moved_plan_stands_on_the_foothold_and_satisfies_its_equations() -> None:
+    plan, time, _, _ = turned_by_a_foothold()
+    swing = next(p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT and p.step == 4)
+    for at in np.linspace(swing.start, swing.end, 5):
+        assert np.abs(plan.at(float(at)).vrp - plan.stance(3)).max() < 1e-12
+    step = 1e-5
+    knots = np.array(plan.vrps.times)
+    for at in np.linspace(time, plan.vrps.times[-1] + 0.3, 101):
+        now = plan.at(float(at))
+        assert np.abs(now.dcm_velocity - OMEGA * (now.dcm - now.vrp)).max() < 1e-9
+        if np.abs(knots - at).min() > 2 * step:
+            slope = (plan.at(float(at) + step).dcm - plan.at(float(at) - step).dcm) / (2 * step)
+            assert np.abs(slope - now.dcm_velocity).max() < 1e-6
+    assert np.abs(plan.at(plan.vrps.times[-1]).dcm - plan.end).max() < 1e-12
+
+
+def test_without_room_the_double_support_grows_or_the_rest_is_left_to_the_feedback() -> None:
+    _, time, before, free = turned_by_a_foothold()
+    assert free.delay == 0.0
+    feet, steps = straight_plan(12, length=0.0, sideways=0.08)
+    tight = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    narrow = np.array([[0.015, -2.0], [0.05, -2.0], [0.05, 2.0], [0.015, 2.0]])
+    ending = tight.schedule.end
+    replan = tight.move(3, tight.stance(3) + np.array([0.06, 0.0]), time, narrow)
+    assert replan.delay > 0.0
+    assert tight.schedule.end == pytest.approx(ending + replan.delay)
+    jump = before.dcm - tight.at(time).dcm
+    assert jump == pytest.approx(replan.gap, abs=1e-12)
+    bridge = [p for t, p in zip(tight.vrps.times, tight.vrps.vrps, strict=True) if time < t < time + 0.2]
+    assert all(0.015 - 1e-9 <= p[0] <= 0.05 + 1e-9 for p in bridge)
+
+
+def test_later_footholds_move_along() -> None:
+    feet, steps = straight_plan(12, length=0.0, sideways=0.08)
+    plan = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    phase = next(p for p in plan.schedule.phases if p.kind == PhaseKind.DOUBLE_SUPPORT and p.step == 4)
+    old = [plan.stance(k) for k in range(12)]
+    end = plan.end
+    plan.move(3, plan.stance(3), phase.start + 0.01, WIDE, (0.03, -0.01))
+    for k in range(4, 12):
+        assert plan.stance(k) == pytest.approx(old[k] + [0.03, -0.01], abs=1e-12)
+    assert plan.end == pytest.approx(end + np.array([0.03, -0.01]), abs=1e-12)
+    for swing in (p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT and p.step >= 5):
+        assert plan.at(0.5 * (swing.start + swing.end)).vrp == pytest.approx(plan.stance(swing.step - 1), abs=1e-9)
+
+
+def test_a_thousand_steps_on_random_partial_footholds_stay_consistent() -> None:
+    rng = np.random.default_rng(5)
+    feet, steps = straight_plan(1000, length=0.2)
+    plan = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    largest = 0.0
+    for k in range(999):
+        phase = plan.schedule.at(plan.schedule.phases[2 * k + 3].start + 0.02)
+        assert (phase.kind, phase.step) == (PhaseKind.DOUBLE_SUPPORT, k + 1)
+        before = plan.at(phase.start + 0.02)
+        plan.move(k, plan.stance(k) + rng.uniform(-0.05, 0.05, 2), phase.start + 0.02, np.empty((0, 2)))
+        after = plan.at(phase.start + 0.02)
+        largest = max(largest, float(np.abs(after.dcm - before.dcm).max()), float(np.abs(after.com - before.com).max()))
+        assert np.isfinite(plan.vrps.dcm_waypoints).all()
+    assert largest < 1e-9
+    last = plan.at(plan.vrps.times[-1] + 20.0)
+    assert last.com == pytest.approx(plan.end, abs=1e-9)
+    assert np.abs(last.com - [999 * 0.2 + 0.025, 0.0]).max() < 0.12
+
+
+def test_a_replan_costs_the_same_in_a_long_plan() -> None:
+    # What a replan builds anew is a few stances, however many there are to come.
+    feet, steps = straight_plan(1000, length=0.2)
+    plan = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    offsets = plan.vrps._end_offset.copy()
+    plan.move(3, plan.stance(3) + np.array([0.05, 0.0]), plan.schedule.phases[9].start + 0.02, np.empty((0, 2)))
+    kept = len(plan.vrps._end_offset) - 20
+    assert (plan.vrps._end_offset[-kept:] == offsets[-kept:]).all()

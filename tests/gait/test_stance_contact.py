@@ -1,0 +1,137 @@
+import math
+
+import numpy as np
+import pytest
+
+from gait.stance_contact import ContactSettings, StanceContact
+from plantar import hex_layout
+from plantar.errors import InputError
+from plantar.partial_contact import PartialContact
+from plantar.polygon import area
+from plantar.reading import Reading
+
+SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0.075]], clip=False)
+FIT = PartialContact(SOLE)
+REAR = np.array([[1.0, 0.0, 0.0]])  # the ground ends under the sole's middle
+WHOLE = np.empty((0, 3))
+
+
+class Foot:
+    """A sole that comes down on ground with given edges and takes the weight over."""
+
+    def __init__(self, lines: np.ndarray, seed: int = 0, **settings: object) -> None:
+        self.contact = StanceContact(SOLE, ContactSettings(**settings))  # type: ignore[arg-type]
+        self.rng = np.random.default_rng(seed)
+        self.lines, self.time = lines, 0.0
+
+    def descend(self, readings: int = 12, noise: float = 0.002) -> None:
+        over = (SOLE.positions[:, :2] @ self.lines[:, :2].T < self.lines[:, 2]).all(axis=1)
+        for k in range(readings):
+            self.time += 0.004
+            height = 0.03 - 0.002 * k
+            distance = np.where(over, height, math.inf) + self.rng.normal(0.0, noise, len(SOLE))
+            self.contact.see(Reading(self.time, np.zeros(len(SOLE)), distance))
+
+    def load(self, readings: int = 30, force: float = 300.0, at: tuple[float, float] | None = None) -> bool:
+        changed = False
+        centre = at if at is not None else (-0.06, 0.0) if len(self.lines) else (0.0, 0.0)
+        for _ in range(readings):
+            self.time += 0.004
+            forces = FIT.expected(force, centre, self.lines) + self.rng.normal(0.0, 1.47, len(SOLE))
+            changed |= self.contact.update(Reading(self.time, np.clip(forces, 0.0, None)), force)
+        return changed
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_whole_ground_is_the_whole_sole(seed: int) -> None:
+    for sees in (True, False):
+        foot = Foot(WHOLE, seed)
+        if sees:
+            foot.descend()
+        foot.load()
+        assert foot.contact.settled
+        assert foot.contact.whole
+        assert foot.contact.area_ratio == 1.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_an_edge_under_the_sole_is_seen_before_it_is_felt(seed: int) -> None:
+    foot = Foot(REAR, seed)
+    foot.descend()
+    assert not foot.contact.settled
+    assert foot.load(readings=3)  # within three readings of touchdown
+    assert foot.contact.settled
+    assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.06)
+    assert foot.contact.center_in_sole == pytest.approx([-0.0565, 0.0], abs=0.008)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_forces_alone_find_the_edge_too(seed: int) -> None:
+    foot = Foot(REAR, seed)
+    foot.load(readings=60, force=600.0, at=(-0.03, 0.0))
+    assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.12)
+    assert foot.contact.center_in_sole == pytest.approx([-0.0565, 0.0], abs=0.015)
+
+
+def test_a_load_on_the_heel_is_no_missing_ground() -> None:
+    foot = Foot(WHOLE)
+    foot.load(at=(-0.1, 0.0))
+    assert foot.contact.whole
+
+
+def test_the_foothold_does_not_shrink_when_the_load_moves_away() -> None:
+    foot = Foot(WHOLE)
+    foot.load()
+    foot.load(at=(-0.08, 0.0), force=800.0)
+    foot.load(at=(0.08, 0.0), force=800.0)
+    assert foot.contact.whole
+
+
+def test_lifting_off_forgets() -> None:
+    foot = Foot(REAR)
+    foot.descend()
+    foot.load()
+    foot.contact.lift()
+    assert foot.contact.whole
+    assert not foot.contact.settled
+    foot.lines = WHOLE
+    foot.descend()
+    foot.load(at=(0.0, 0.0))
+    assert foot.contact.whole
+
+
+def test_without_load_nothing_settles_and_a_reading_counts_once() -> None:
+    foot = Foot(REAR)
+    foot.load(force=20.0)
+    assert not foot.contact.settled
+    reading = Reading(9.0, np.full(len(SOLE), 20.0))
+    assert [foot.contact.update(reading, 800.0) for _ in range(5)] == [False] * 5
+
+
+def test_dead_taxels_neither_see_nor_feel() -> None:
+    foot = Foot(REAR)
+    over = SOLE.positions[:, 0] < 0.0
+    distance = np.where(over, 0.01, math.inf)
+    distance[::7] = math.nan
+    for k in range(8):
+        foot.contact.see(Reading(0.004 * (k + 1), np.zeros(len(SOLE)), distance))
+    forces = FIT.expected(400.0, (-0.06, 0.0), REAR)
+    forces[::7] = math.nan
+    for k in range(10):
+        foot.contact.update(Reading(1.0 + 0.004 * k, forces), 400.0)
+    assert foot.contact.area_ratio == pytest.approx(0.5, abs=0.08)
+
+
+def test_the_polygon_of_cell_corners_is_the_larger_one() -> None:
+    ratios = []
+    for subcell in (True, False):
+        foot = Foot(REAR, subcell=subcell)
+        foot.descend()
+        foot.load(force=600.0)
+        ratios.append(area(foot.contact.polygon_in_sole) / area(SOLE.outline))
+    assert ratios[1] > ratios[0]
+
+
+def test_bad_settings_are_refused() -> None:
+    with pytest.raises(InputError, match="minimum_load"):
+        ContactSettings(minimum_load=-1.0)
