@@ -244,7 +244,7 @@ RIVALS: tuple[str, ...] = (
     "- closest point: shapely makes polygon and point. Inner offset: it makes the polygon, then `buffer` with mitres.",
     "- walking tick: active, CoP, wrench, hull, area, centroid, offset polygon and clamped point of two feet from",
     "  their forces. Ours is `walking_tick`; the row of percepts reads the same from `Percept`. The rival's hull",
-    "  is Qhull's, its offset, centroid and clamp GEOS's, its sums numpy's, with matrices and a table of corners ready.",
+    "  is Qhull's, its offset, centroid and clamp GEOS's, its sums numpy's, matrices and a table of corners ready.",
     "- recording: a loop in Python over the frames, each as hull + area from active taxels.",
 )
 """How the report says what was compared with what."""
