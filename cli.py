@@ -34,9 +34,19 @@ def _commands() -> None:
 def shoe(
     foot: Annotated[
         Path | None,
-        typer.Argument(metavar="[FOOT]", help="Mesh of the foot: .stl .obj .ply .off .3mf", show_default=False),
+        typer.Argument(
+            metavar="[FOOT]",
+            help="Mesh of the foot (.stl .obj .ply .off .3mf .step), robot's model (.xml .urdf, with --body), "
+            "or outline of its sole (.dxf .svg .geojson).",
+            show_default=False,
+        ),
     ] = None,
-    robot: Annotated[str | None, typer.Option(help="A built-in robot instead of a mesh, for example h1.")] = None,
+    robot: Annotated[str | None, typer.Option(help="A built-in robot instead of a file, for example h1.")] = None,
+    body: Annotated[str | None, typer.Option(help="Name of the foot's body or link in a robot's model.")] = None,
+    dimensions: Annotated[
+        str | None,
+        typer.Option(metavar="LxW[xR]", help="Length, width and corner radius of a box instead of a file, in mm."),
+    ] = None,
     side: Annotated[str, typer.Option(help="left, right or both; the right shoe mirrors the left.")] = "both",
     cell_area: Annotated[float, typer.Option(help="Area of one taxel in mm^2, as the papers give it.")] = 691.0,
     taxels: Annotated[
@@ -44,58 +54,63 @@ def shoe(
         typer.Option(help="Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."),
     ] = None,
     overhang: Annotated[float, typer.Option(help="How far taxels may reach beyond the sole, in mm.")] = 0.0,
-    mesh_side: Annotated[str, typer.Option(help="Which foot the mesh shows: left or right.")] = "left",
-    unit: Annotated[str | None, typer.Option(help="Unit of the mesh: m, cm, mm, in. Default: from its size.")] = None,
-    forward: Annotated[str | None, typer.Option(help="Axis of the mesh to the toes: x, -x, y, -y. Default: x.")] = None,
+    mesh_side: Annotated[
+        str | None, typer.Option(help="Which foot the file shows: left or right. Default: by the body's name, or left.")
+    ] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm, in. Default: from its size.")] = None,
+    up: Annotated[str | None, typer.Option(help="Axis that points up: x, -x, y, -y, z, -z. Default: found.")] = None,
+    forward: Annotated[str | None, typer.Option(help="Axis to the toes: x, -x, y, -y. Default: found.")] = None,
     sole_z: Annotated[
         float | None,
         typer.Option("--sole-z", help="Height of the sole plane in the mesh, in mm. Default: its lowest point."),
     ] = None,
     layout_only: Annotated[bool, typer.Option(help="Write only the layouts (under 2 s).")] = False,
     parameters: Annotated[
-        Path | None, typer.Option(help="JSON or TOML file with dimensions in mm; the names are in docs/shoes.md.")
+        Path | None, typer.Option(help="JSON or TOML file with parameters; their names are in docs/shoes.md.")
     ] = None,
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change one parameter; repeatable.")
+    ] = None,
+    name: Annotated[str | None, typer.Option(help="Name of the shoe. Default: that of the file or robot.")] = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")] = Path("out/shoe"),
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
 ) -> None:
-    """Build a printable tactile shoe from a foot's mesh, and the layout of its taxels.
+    """Build a printable tactile shoe for a robot's foot, and the layout of its taxels.
 
-    Writes shoe_<side>.stl and .step, layout_<side>.json, drawing_<side>.png and check.json. Exit code 1 if a check does
-    not hold.
+    Writes the printable part (shoe_<side>.stl, .step, .3mf), its pad, layout_<side>.json, a drawing, a picture, the
+    bill of parts (parts.csv) and check.json. Exit code 1 if a check does not hold.
 
     Example: plantar shoe foot.stl -o out/shoe
 
-    Example: plantar shoe --robot h1 --side left --json
+    Example: plantar shoe robot.xml --body left_foot --side left
+
+    Example: plantar shoe --robot h1 --set material=PETG --set rim_height=16 --json
     """
     from plantar.atomic import output_folder
-    from shoes import ShoeParameters, build_shoe, export_shoe, foot_from_mesh, read_parameters
+    from shoes import build_shoe, export_shoe
 
-    if (foot is None) == (robot is None):
+    if sum(v is not None for v in (foot, robot, dimensions)) != 1:
         raise InputError(
-            "give either a mesh of the foot or --robot NAME: plantar shoe FOOT.stl, plantar shoe --robot h1"
+            "give one of: a file of the foot (plantar shoe FOOT.stl), --robot NAME, or --dimensions LENGTHxWIDTH"
         )
     for option, value, allowed in (
         ("--side", side, ("left", "right", "both")),
-        ("--mesh-side", mesh_side, ("left", "right")),
+        ("--mesh-side", mesh_side, (None, "left", "right")),
         ("--unit", unit, (None, "m", "cm", "mm", "in")),
+        ("--up", up, (None, "x", "-x", "y", "-y", "z", "-z")),
         ("--forward", forward, (None, "x", "-x", "y", "-y")),
     ):
         if value not in allowed:
             raise InputError(f"{option} is '{value}'; allowed: {', '.join(a for a in allowed if a)}")
-    dimensions = ShoeParameters() if parameters is None else read_parameters(parameters)
+    used = _shoe_parameters(parameters, settings or [])
     if robot is not None:
         shape, robot_taxels = _robot_foot(robot)
         taxels = robot_taxels if taxels is None else taxels
+    elif dimensions is not None:
+        shape = _box_foot(dimensions)
     else:
         assert foot is not None
-        shape = foot_from_mesh(
-            foot,
-            mesh_side=cast(Any, mesh_side),
-            unit=cast(Any, unit),
-            forward=cast(Any, forward),
-            sole_z=sole_z,
-            sole_band=dimensions.sole_band,
-        )
+        shape = _foot_of_file(foot, body, used, mesh_side=mesh_side, unit=unit, up=up, forward=forward, sole_z=sole_z)
     with output_folder(output) as folder, _progress() as tell:
         build = build_shoe(
             shape,
@@ -103,11 +118,12 @@ def shoe(
             cell_area=cell_area,
             taxels=taxels,
             overhang=overhang,
-            parameters=dimensions,
+            parameters=used,
+            name=name,
             layout_only=layout_only,
-            progress=lambda fraction, text: tell(0.7 * fraction, text),
+            progress=lambda fraction, text: tell(0.6 * fraction, text),
         )
-        report = export_shoe(build, folder, progress=lambda fraction, text: tell(0.7 + 0.3 * fraction, text))
+        report = export_shoe(build, folder, progress=lambda fraction, text: tell(0.6 + 0.4 * fraction, text))
     summary = report.as_dict() | {"files": [str(output / name) for name in report.files]}
     if as_json:
         print(json.dumps(summary))
@@ -125,6 +141,72 @@ def shoe(
         raise typer.Exit(1)
 
 
+def _shoe_parameters(path: Path | None, settings: list[str]) -> Any:
+    """The shoe's parameters: defaults, what a file changes of them, and what single settings change of that."""
+    from shoes import ShoeParameters, read_parameters
+
+    values = (ShoeParameters() if path is None else read_parameters(path)).as_dict()
+    for setting in settings:
+        name, sign, text = setting.partition("=")
+        name, text = name.strip(), text.strip()
+        if not sign or not text:
+            raise InputError(f"--set '{setting}' is not NAME=VALUE, for example --set rim_height=16")
+        try:
+            values[name] = float(text)
+        except ValueError:
+            values[name] = text
+    return ShoeParameters.from_mapping(values)
+
+
+def _box_foot(text: str) -> Any:
+    """The foot of --dimensions LxW or LxWxR in mm."""
+    from shoes import foot_from_dimensions
+
+    try:
+        values = [float(v) / 1000.0 for v in text.lower().split("x")]
+    except ValueError:
+        values = []
+    if len(values) not in (2, 3):
+        raise InputError(f"--dimensions is '{text}'; allowed: LENGTHxWIDTH or LENGTHxWIDTHxRADIUS in mm, as 241x138x20")
+    radius = values[2] if len(values) == 3 else min(0.010, 0.25 * abs(values[1]))
+    return foot_from_dimensions("foot", length=values[0], width=values[1], corner_radius=radius)
+
+
+def _foot_of_file(
+    path: Path,
+    body: str | None,
+    parameters: Any,
+    *,
+    mesh_side: str | None,
+    sole_z: float | None,
+    up: str | None,
+    **options: Any,
+) -> Any:
+    """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
+    from dataclasses import replace
+
+    from shoes.foot_mesh import foot_from_mesh, foot_from_triangles
+    from shoes.outline_file import OUTLINE_FORMATS, foot_from_drawing
+    from shoes.robot_model import MODEL_FORMATS, read_foot_body
+
+    kind = path.suffix.lower()
+    if kind in OUTLINE_FORMATS:
+        for option, value in (("--body", body), ("--sole-z", sole_z), ("--up", up)):
+            if value is not None:
+                raise InputError(f"{option} is for meshes and models; {path} is the outline of a sole")
+        return foot_from_drawing(path, mesh_side=cast(Any, mesh_side or "left"), **options)
+    options |= {"up": up, "sole_z": sole_z, "sole_band": parameters.sole_band, "patch_gap": parameters.patch_gap}
+    if kind in MODEL_FORMATS:
+        found = read_foot_body(path, body)
+        seen = cast(Any, mesh_side or found.side or "left")
+        where = f"{path}, body '{body}'"
+        shape = foot_from_triangles(path.stem, found.triangles, where=where, file_unit="m", mesh_side=seen, **options)
+        return replace(shape, notes=(found.note, *shape.notes))
+    if body is not None:
+        raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
+    return foot_from_mesh(path, mesh_side=cast(Any, mesh_side or "left"), **options)
+
+
 def _robot_foot(name: str) -> tuple[Any, int | None]:
     """The left foot of a built-in robot and the number of taxels its robot file asks for."""
     import tomllib
@@ -138,18 +220,26 @@ def _robot_foot(name: str) -> tuple[Any, int | None]:
     if name not in files:
         raise InputError(f"unknown robot '{name}'; allowed: {', '.join(sorted(files))}")
     try:
-        facts = tomllib.loads(files[name].read_text(encoding="utf-8"))["foot"]
+        source = tomllib.loads(files[name].read_text(encoding="utf-8"))
+        facts = source["foot"]
         shape = foot_from_dimensions(
             name,
             length=float(facts["foot_length"]),
             width=float(facts["foot_width"]),
             sole_center=(float(facts["sole_center"][0]), float(facts["sole_center"][1])),
             corner_radius=float(facts["corner_radius"]),
+            mass=_robot_mass(source),
         )
         taxels = facts.get("taxels")
     except (OSError, ValueError, LookupError, TypeError) as error:
         raise RobotError(f"{files[name]}: table [foot] cannot be used ({error!r})") from None
     return shape, None if taxels is None else int(taxels)
+
+
+def _robot_mass(source: dict[str, Any]) -> float | None:
+    """Mass in kg that a robot's file states."""
+    mass = source.get("biped", {}).get("total_mass")
+    return None if mass is None else float(mass)
 
 
 def _print_shoe(summary: dict[str, Any]) -> None:
@@ -158,12 +248,14 @@ def _print_shoe(summary: dict[str, Any]) -> None:
         print(f"  {note}")
     print(
         f"{summary['taxels']} taxels of {summary['cell_area_mm2']:g} mm^2 cover "
-        f"{100 * summary['covered_area_ratio']:.0f} % of the sole; overhang {summary['overhang_mm']:g} mm"
+        f"{100 * summary['covered_area_ratio']:.0f} % of the sole; overhang {summary['overhang_mm']:g} mm; at most "
+        f"{summary['whole_taxels_bound']} whole ones fit there (proven)"
     )
     if "sides" in summary:
         size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])
         print(
-            f"{size} mm, {summary['volume_cm3']:.1f} cm^3, {summary['mass_g']:.0f} g, thinnest wall "
+            f"{size} mm, {summary['volume_cm3']:.1f} cm^3, {summary['mass_g']:.0f} g printed, "
+            f"{summary['worn_mass_g']:.0f} g worn, {summary['print_hours']:g} h to print, thinnest wall "
             f"{summary['min_wall_mm']:g} mm, {'watertight' if summary['watertight'] else 'NOT watertight'}; "
             f"{'all checks hold' if summary['holds'] else 'A CHECK DOES NOT HOLD'}"
         )

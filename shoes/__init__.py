@@ -7,24 +7,26 @@ A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the t
 from shoes.build import Shoe, ShoeBuild, build_shoe
 from shoes.check import ShoeCheck
 from shoes.export import ShoeReport, export_shoe
-from shoes.fit import LatticeFit, fit_lattice
-from shoes.foot import Foot, foot_from_dimensions, foot_from_mesh
+from shoes.foot import Foot, foot_from_dimensions, foot_from_outline
+from shoes.foot_mesh import foot_from_mesh
 from shoes.parameters import ShoeParameters, read_parameters
 from shoes.plan import ShoePlan
+from shoes.taxels import TaxelFit, fit_taxels
 
 __all__ = [
     "Foot",
-    "LatticeFit",
     "Shoe",
     "ShoeBuild",
     "ShoeCheck",
     "ShoeParameters",
     "ShoePlan",
     "ShoeReport",
+    "TaxelFit",
     "build_shoe",
     "export_shoe",
-    "fit_lattice",
+    "fit_taxels",
     "foot_from_dimensions",
     "foot_from_mesh",
+    "foot_from_outline",
     "read_parameters",
 ]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -12,11 +11,15 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.layout import Side, SoleLayout
-from shoes.fit import LatticeFit, fit_lattice
+from shoes.block import Block, Step
+from shoes.body import mark_outline, mirrored_steps, shoe_steps
 from shoes.foot import Foot
 from shoes.parameters import ShoeParameters
-from shoes.plan import CORNER, ShoePlan, mirrored_plan, plan_shoe
-from shoes.tray import build_tray, load_cadquery, surface_of
+from shoes.plan import ShoePlan, mirrored_plan, plan_shoe
+from shoes.retention import Retention, choose_retention
+from shoes.strength import strengthened
+from shoes.taxels import TaxelFit, fit_taxels
+from shoes.tray import build_solid, load_cadquery, surface_of
 
 __all__ = ["Progress", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
 
@@ -58,15 +61,19 @@ class ShoeBuild:
 
     Attributes:
         foot: The left foot.
-        fit: Placement of the cells on the left sole.
-        parameters: Dimensions used.
+        fit: The cells of the left sole.
+        parameters: Dimensions as used: floor and wall may be raised by the load case.
         shoes: The shoes asked for, left first.
+        retention: What holds them; None where only the layout was asked for.
+        notes: What was detected, assumed and decided.
     """
 
     foot: Foot
-    fit: LatticeFit
+    fit: TaxelFit
     parameters: ShoeParameters
     shoes: tuple[Shoe, ...]
+    retention: Retention | None = None
+    notes: tuple[str, ...] = ()
 
 
 def build_shoe(
@@ -114,26 +121,43 @@ def build_shoe(
     sides: tuple[Side, ...] = ("left", "right") if side == "both" else (side,)
     tell = progress or (lambda fraction, text: None)
     p = parameters or ShoeParameters()
-    # A recess reaches beyond the corner of a cell by the clearance over sin 60 degrees.
-    room = p.overhang_max - CORNER * p.border - p.pocket_clearance / math.sin(math.pi / 3)
-    if overhang > max(room, 0.0):
+    if not 0.0 <= overhang <= p.overhang_max:
         raise InputError(
-            f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {max(room, 0.0):g} mm (overhang_max)"
+            f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
         )
     tell(0.0, "fitting the taxels to the sole")
-    fit = fit_lattice(foot.sole, cell_area=cell_area, taxels=taxels, overhang=overhang, overhang_max=max(room, 0.0))
+    fit = fit_taxels(
+        foot.sole,
+        parts=foot.parts,
+        cell_area=cell_area,
+        taxels=taxels,
+        overhang=overhang,
+        overhang_max=p.overhang_max,
+        border=p.border,
+    )
+    p = replace(p, border=fit.border)
     left = plan_shoe(foot, fit, p, name=name)
+    p, raised = strengthened(foot, left.contact, p)
+    if raised:
+        left = plan_shoe(foot, fit, p, name=name)
+    notes = foot.notes + fit.notes + raised
+    if layout_only:
+        plans = [left if which == "left" else mirrored_plan(left) for which in sides]
+        tell(1.0, "layouts fitted")
+        return ShoeBuild(foot, fit, p, tuple(Shoe(plan) for plan in plans), notes=notes)
+    retention = choose_retention(foot, left, p)
+    steps = shoe_steps(foot, left, retention, p)
+    tell(0.1, "loading the CAD kernel")
+    load_cadquery()
     shoes = []
-    if not layout_only:
-        tell(0.1, "loading the CAD kernel")
-        load_cadquery()
     for i, which in enumerate(sides):
+        tell(0.4 + 0.6 * i / len(sides), f"building the {which} shoe")
         plan = left if which == "left" else mirrored_plan(left)
-        if layout_only:
-            shoes.append(Shoe(plan))
-            continue
-        tell(0.5 + 0.5 * i / len(sides), f"building the {which} shoe")
-        solid = build_tray(plan, p)
+        mark = tuple(
+            Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in mark_outline(plan, p, which).geoms
+        )
+        own = steps if which == "left" else mirrored_steps(steps)
+        solid = build_solid((*own, Step("cut", "mark", mark)))
         shoes.append(Shoe(plan, solid, surface_of(solid)))
     tell(1.0, "shoes built")
-    return ShoeBuild(foot, fit, p, tuple(shoes))
+    return ShoeBuild(foot, fit, p, tuple(shoes), retention, (*notes, retention.note))

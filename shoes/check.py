@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,11 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError
-from shoes.build import Shoe
+from plantar.layout import DEFAULT_RANGES
+from shoes.build import Shoe, ShoeBuild
+from shoes.mounting import Mounting, check_mounting
+from shoes.outline import ring
 from shoes.parameters import ShoeParameters
+from shoes.plan import ShoePlan
+from shoes.printability import Printing, choose_direction, print_hours
+from shoes.section import thinnest_wall
+from shoes.strength import LoadCase, Member, check_strength
 from shoes.units import to_mm
+from shoes.wiring import cable_outlines
 
-__all__ = ["Check", "ShoeCheck", "check_shoe", "floor_thickness", "section", "thinnest_wall"]
+__all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
+
+_OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -41,10 +54,16 @@ class ShoeCheck:
     Attributes:
         watertight: Whether every edge of the STL has two triangles and they agree on the inside.
         volume_cm3: Volume of the solid in cm^3.
-        mass_g: Its mass at the stated density in g.
-        min_wall_mm: Thinnest wall or floor in mm.
-        size_mm: Extent (3,) along x, y, z in mm.
+        mass_g: Mass of the printed part in g.
+        min_wall_mm: Thinnest wall, floor or bar in mm.
+        size_mm: Extent (3,) of the printed part along x, y, z in mm.
         overhang_mm: How far the contact face reaches beyond the foot in mm.
+        reach_mm: How far any of the shoe does: lugs and the board's holder too.
+        print_hours: Estimate of the time to print it.
+        printing: The build directions, the chosen first.
+        mounting: The gaps between foot and shoe.
+        load: The load case.
+        members: Stresses under it.
         checks: The single checks.
     """
 
@@ -54,6 +73,12 @@ class ShoeCheck:
     min_wall_mm: float
     size_mm: tuple[float, float, float]
     overhang_mm: float
+    reach_mm: float
+    print_hours: float
+    printing: tuple[Printing, ...]
+    mounting: Mounting
+    load: LoadCase
+    members: tuple[Member, ...]
     checks: tuple[Check, ...]
 
     @property
@@ -62,12 +87,12 @@ class ShoeCheck:
         return all(c.holds for c in self.checks)
 
 
-def check_shoe(shoe: Shoe, parameters: ShoeParameters, *, surface: NDArray[np.float64], step: Any) -> ShoeCheck:
+def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> ShoeCheck:
     """Measure one exported shoe.
 
     Args:
         shoe: The shoe as built.
-        parameters: Its dimensions.
+        build: What it belongs to.
         surface: Triangles (n, 3, 3) in mm, as read back from the STL.
         step: The cadquery shape as read back from the STEP.
 
@@ -78,161 +103,160 @@ def check_shoe(shoe: Shoe, parameters: ShoeParameters, *, surface: NDArray[np.fl
         import trimesh
     except ImportError:
         raise DependencyError("trimesh", "shoes") from None
-    p = parameters
+    assert build.retention is not None
+    p = build.parameters
     mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))
     watertight = bool(mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0)
-    solids = step.Solids()
     volume = float(step.Volume())
     difference = 100.0 * abs(float(mesh.volume) / volume - 1.0) if volume > 0.0 else math.inf
-    centres = to_mm(shoe.layout.positions[:, :2])
-    walls = [
-        thinnest_wall(section(surface, z))
-        for z in (
-            0.5 * p.patch_depth,
-            p.patch_depth + 0.5 * p.pocket_depth,
-            p.patch_depth + p.pocket_depth + 0.5 * p.floor,
-            p.plate_thickness + 0.5 * p.rim_height,
-        )
-    ]
-    wall = min(*walls, floor_thickness(surface, centres))
-    corners = _pocket_corner_error(shoe, p, step)
-    gap = _gap_to_foot(shoe, section(surface, p.plate_thickness + 0.5 * p.rim_height))
-    outside = _taxels_outside(shoe)
-    size = np.ptp(surface.reshape(-1, 3), axis=0)
-    overhang = shoe.plan.overhang
+    engraved = ((p.bottom - 0.01, p.bottom + p.scribe + 0.01), (p.thickness - p.mark_depth - 0.01, p.thickness + 0.01))
+    wall = thinnest_wall(surface, engraved)
+    printing = choose_direction(surface, p)
+    mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p)
+    load, members = check_strength(build.foot, build.shoes[0].plan.contact if shoe.side == "left" else _left(shoe), p)
+    reach = _reach(shoe.plan, surface)
     checks = (
-        Check("solid valid", bool(step.isValid()), bool(step.isValid()), "true"),
-        Check("solids", len(solids) == 1, float(len(solids)), "1"),
-        Check("watertight", watertight, watertight, "true"),
-        Check("separate surfaces in the STL", mesh.body_count == 1, float(mesh.body_count), "1"),
-        Check("STL against STEP volume, %", difference <= 0.5, round(difference, 6), "0.5 or less"),
-        Check("thinnest wall, mm", wall >= p.wall_min - 1e-3, round(wall, 3), f"{p.wall_min:g} or more"),
-        Check("gap between foot and rim, mm", gap >= p.clearance - 0.02, round(gap, 3), f"{p.clearance:g} or more"),
-        Check("pocket corners against the layout, mm", corners <= 0.05, round(corners, 6), "0.05 or less"),
-        Check("taxels beyond the contact face", outside == 0, float(outside), "0"),
-        Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), f"{p.overhang_max:g} or less"),
+        *_solid_checks(step, watertight, int(mesh.body_count), difference),
+        Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
+        *_layout_checks(shoe, p, step),
+        *_mounting_checks(mounting, reach, shoe.plan.overhang, build),
+        *_strength_checks(load, members, build, len(shoe.layout)),
+        *_printing_checks(printing[0], shoe.plan, p),
     )
+    size = np.ptp(surface.reshape(-1, 3), axis=0)
     return ShoeCheck(
         watertight=watertight,
         volume_cm3=round(volume / 1000.0, 3),
-        mass_g=round(volume / 1000.0 * p.density, 2),
+        mass_g=round(volume / 1000.0 * p.printed.density, 2),
         min_wall_mm=round(wall, 3),
         size_mm=(round(float(size[0]), 3), round(float(size[1]), 3), round(float(size[2]), 3)),
-        overhang_mm=round(overhang, 2),
+        overhang_mm=round(shoe.plan.overhang, 2),
+        reach_mm=round(reach, 2),
+        print_hours=round(print_hours(volume, printing[0].size[2], p.flow), 1),
+        printing=printing,
+        mounting=mounting,
+        load=load,
+        members=members,
         checks=checks,
     )
 
 
-def section(triangles: NDArray[np.float64], height: float) -> Any:
-    """The solid's cross-section at z = height.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm; no corner lies at the height.
-        height: Height in mm.
-
-    Returns:
-        A shapely polygon or multipolygon in mm, empty where nothing is cut.
-    """
+def _left(shoe: Shoe) -> Any:
+    """The contact face of the other side's shoe."""
     import shapely
 
-    above = triangles[..., 2] > height
-    crossing = triangles[above.any(axis=1) & ~above.all(axis=1)]
-    ends = []
-    for i, j in ((0, 1), (1, 2), (2, 0)):
-        a, b = crossing[:, i], crossing[:, j]
-        crosses = (a[:, 2] > height) != (b[:, 2] > height)
-        rise = np.where(crosses, b[:, 2] - a[:, 2], 1.0)
-        point = a[:, :2] + ((height - a[:, 2]) / rise)[:, None] * (b - a)[:, :2]
-        ends.append(np.where(crosses[:, None], point, np.nan))
-    pairs = np.stack(ends, axis=1)  # each triangle has two of three points
-    segments = pairs[np.isfinite(pairs[..., 0])].reshape(-1, 2, 2).round(4)
-    lines = shapely.linestrings(segments[(segments[:, 0] != segments[:, 1]).any(axis=1)])
-    return shapely.build_area(shapely.union_all(lines)) if len(lines) else shapely.Polygon()
+    return shapely.affinity.scale(shoe.plan.contact, 1.0, -1.0, origin=(0.0, 0.0))
 
 
-def thinnest_wall(area: Any) -> float:
-    """Smallest distance in mm between two boundary rings of a section: the thinnest wall that separates two voids.
-
-    Args:
-        area: Section, a shapely polygon or multipolygon in mm.
-
-    Returns:
-        The distance; infinite for a section without holes.
-
-    Example:
-        >>> import shapely
-        >>> ring = shapely.box(0, 0, 50, 50).difference(shapely.box(3, 4, 45, 45))
-        >>> thinnest_wall(ring)
-        3.0
-    """
-    import shapely
-
-    thinnest = math.inf
-    for part in getattr(area, "geoms", [area]):
-        if part.is_empty:
-            continue
-        rings = np.array([part.exterior, *part.interiors])
-        first, second = np.triu_indices(len(rings), 1)
-        if len(first):
-            thinnest = min(thinnest, float(shapely.distance(rings[first], rings[second]).min()))
-    return thinnest
+def _solid_checks(step: Any, watertight: bool, bodies: int, difference: float) -> Iterator[Check]:
+    valid, solids = bool(step.isValid()), len(step.Solids())
+    yield Check("solid valid", valid, valid, "true")
+    yield Check("solids", solids == 1, float(solids), "1")
+    yield Check("watertight", watertight, watertight, "true")
+    yield Check("separate surfaces in the STL", bodies == 1, float(bodies), "1")
+    yield Check("STL against STEP volume, %", difference <= 0.5, round(difference, 6), "0.5 or less")
 
 
-def floor_thickness(triangles: NDArray[np.float64], points: NDArray[np.float64]) -> float:
-    """Smallest thickness in mm of what lies above points of the contact face.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm.
-        points: Points (m, 2) in mm, for example the taxel centres.
-
-    Returns:
-        The smallest vertical extent of solid above one of them; 0 where a point has no solid above it.
-    """
-    flat = triangles[np.ptp(triangles[..., 2], axis=1) < 1e-6]
-    a, b, c = flat[:, 0, :2], flat[:, 1, :2], flat[:, 2, :2]
-    thinnest = math.inf
-    for point in points:
-        sides = np.stack([_turn(a, b, point), _turn(b, c, point), _turn(c, a, point)])
-        hit = (sides >= -1e-9).all(axis=0) | (sides <= 1e-9).all(axis=0)
-        heights = np.unique(flat[hit, 0, 2].round(4))
-        if len(heights) < 2 or len(heights) % 2:
-            return 0.0
-        thinnest = min(thinnest, float((heights[1::2] - heights[::2]).min()))
-    return thinnest
+def _layout_checks(shoe: Shoe, p: ShoeParameters, step: Any) -> Iterator[Check]:
+    cells, pockets = corner_errors(shoe, p, step)
+    if p.scribe > 0.0:
+        yield Check("cell corners against the solid, mm", cells <= 0.05, round(cells, 6), "0.05 or less")
+    yield Check("pocket corners against the layout, mm", pockets <= 0.05, round(pockets, 6), "0.05 or less")
+    outside = _taxels_outside(shoe)
+    yield Check("taxels beyond the contact face", outside == 0, float(outside), "0")
 
 
-def _turn(a: NDArray[np.float64], b: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Twice the signed area of the triangles a, b, point."""
-    return np.asarray(
-        (b[:, 0] - a[:, 0]) * (point[1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (point[0] - a[:, 0]), dtype=float
+def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuild) -> Iterator[Check]:
+    p = build.parameters
+    assert build.retention is not None
+    least = p.clearance - 0.05
+    yield Check("gap between foot and wall, mm", m.gap >= least, round(m.gap, 3), f"{least:g} or more")
+    most = 1.2 * p.clearance + 0.5
+    yield Check("play at the wall's upper edge, mm", m.play <= most, round(m.play, 3), f"{most:g} or less")
+    if build.retention.places:
+        above = m.gap_above if math.isfinite(m.gap_above) else 1e3
+        yield Check("gap between foot and clips or lugs, mm", above >= 0.05, round(above, 3), "0.05 or more")
+    yield Check(
+        "gap while the shoe is pushed on, mm",
+        m.gap_on_the_way >= least,
+        round(m.gap_on_the_way, 3),
+        f"{least:g} or more",
     )
+    yield Check("gap between foot and floor, mm", m.floor_gap <= 0.05, round(m.floor_gap, 3), "0.05 or less")
+    yield Check(
+        "touching area over the floor, %", m.support_share >= 0.97, round(100.0 * m.support_share, 2), "97 or more"
+    )
+    allowed = f"{p.overhang_max:g} or less"
+    yield Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), allowed)
+    allowed = f"{p.reach_max:g} or less"
+    yield Check("reach of lugs, clips and holder, mm", reach <= p.reach_max + 1e-2, round(reach, 2), allowed)
 
 
-def _pocket_corner_error(shoe: Shoe, parameters: ShoeParameters, step: Any) -> float:
-    """Largest distance in mm of pocket corners in the solid from the layout's cell corners moved in by half a rib."""
-    ceiling = parameters.patch_depth + parameters.pocket_depth
-    found = np.array([v.toTuple() for v in step.Vertices()])
-    found = found[np.abs(found[:, 2] - ceiling) < 1e-3, :2]
-    if not len(found):
-        return math.inf
-    worst = 0.0
-    for taxel in range(len(shoe.layout)):
-        cell = to_mm(shoe.layout.cell_polygon(taxel))
-        centre = to_mm(shoe.layout.positions[taxel, :2])
-        radius = np.hypot(*(cell - centre).T)[:, None]
-        wanted = centre + (cell - centre) * (radius - parameters.rib / math.sqrt(3.0)) / radius
-        gaps = np.hypot(wanted[:, None, 0] - found[None, :, 0], wanted[:, None, 1] - found[None, :, 1]).min(axis=1)
-        worst = max(worst, float(gaps.max()))
-    return worst
+def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:
+    p = build.parameters
+    for m in members:
+        yield Check(f"stress of the {m.name}, MPa", m.holds, m.stress, f"{m.allowed:g} or less ({p.material})")
+    each = load.force / max(1.0, p.load_share * taxels)
+    limit = DEFAULT_RANGES["force"][1]
+    yield Check("load of a taxel, N", each <= limit, round(each, 1), f"{limit:g} or less")
+    if build.retention is not None and build.retention.strain > 0.0:
+        strain, most = 100.0 * build.retention.strain, 100.0 * p.printed.strain
+        yield Check("strain of a clip's arm, %", strain <= most, round(strain, 2), f"{most:g} or less")
 
 
-def _gap_to_foot(shoe: Shoe, cut: Any) -> float:
-    """Smallest distance in mm between the foot and the rim in a section of the rim; 0 where it is not inside."""
+def _printing_checks(best: Printing, plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
+    powder = p.printed.process == "powder bed"
+    most = round(_OVERHANG_SHARE * plan.contact.area)
+    yield Check(
+        f"overhang beyond 45 degrees, {best.direction}, mm2",
+        powder or best.overhang <= most,
+        best.overhang,
+        f"{most:g} or less" + (", or more in a powder bed" if powder else ""),
+    )
+    size = " x ".join(f"{v:g}" for v in (p.bed_length, p.bed_width, p.bed_height))
+    yield Check("longest side on the printer, mm", best.fits, best.size[0], f"within {size}")
+
+
+def _reach(plan: ShoePlan, surface: Array) -> float:
+    """How far any corner of a surface lies beyond the foot's outline, in mm."""
     import shapely
 
-    holes = [shapely.Polygon(h) for part in getattr(cut, "geoms", [cut]) for h in part.interiors]
-    around = [h for h in holes if h.covers(shoe.plan.foot)]
-    return float(min((h.exterior.distance(shoe.plan.foot) for h in around), default=0.0))
+    hull = shapely.MultiPoint(surface.reshape(-1, 3)[:, :2]).convex_hull
+    return float(max(plan.foot.distance(shapely.points(ring(hull)))))
+
+
+def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[float, float]:
+    """How far corners in the solid are from where the layout says.
+
+    Args:
+        shoe: The shoe.
+        parameters: Its dimensions.
+        step: The cadquery shape as read back from the STEP.
+
+    Returns:
+        Largest distance in mm of a cell's corner in the layout from a corner of the groove that marks the cells in the
+        ribs, and of a pocket's corner (the cell's, moved in by half a rib) from one in the pockets' ceiling. Corners
+        that a port or the cable's channel takes away are left out.
+    """
+    import shapely
+
+    p = parameters
+    found = np.array([v.toTuple() for v in step.Vertices()])
+    cable = shapely.union_all(cable_outlines(shoe.plan, p)).buffer(0.05)
+    shapely.prepare(cable)
+    corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
+    pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])
+    kept, pockets = (c[~shapely.contains_xy(cable, c[:, 0], c[:, 1])] for c in (corners, pockets))
+    return _farthest(kept, found, p.bottom + p.scribe), _farthest(pockets, found, p.ceiling)
+
+
+def _farthest(wanted: Array, found: Array, height: float) -> float:
+    """Largest distance from a wanted point (n, 2) to the nearest of the corners found at a height."""
+    level = found[np.abs(found[:, 2] - height) < 1e-3, :2]
+    if not len(level) or not len(wanted):
+        return 0.0 if not len(wanted) else math.inf
+    gaps = np.hypot(wanted[:, None, 0] - level[None, :, 0], wanted[:, None, 1] - level[None, :, 1])
+    return float(gaps.min(axis=1).max())
 
 
 def _taxels_outside(shoe: Shoe) -> int:

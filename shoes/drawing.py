@@ -1,8 +1,9 @@
-"""The dimensioned drawing of a shoe: the contact face from below seen through, and a section along x."""
+"""The dimensioned drawing of a shoe: seen from above, and two sections of the exported surface."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,100 +12,156 @@ from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, new_figure, save_figure
 from shoes.build import Shoe, ShoeBuild
-from shoes.check import section
 from shoes.outline import ring
+from shoes.section import section_along
 from shoes.units import to_mm
 
-__all__ = ["draw_shoe", "section_along_x"]
+__all__ = ["draw_shoe"]
+
+_THIN = 0.6
 
 
-def section_along_x(triangles: NDArray[np.float64], y: float) -> Any:
-    """The solid's cross-section in the plane of a given y.
-
-    Args:
-        triangles: Closed surface (n, 3, 3) in mm.
-        y: Where to cut, in mm.
-
-    Returns:
-        A shapely polygon or multipolygon over (x, z) in mm.
-    """
-    return section(triangles[..., [0, 2, 1]], y)
-
-
-def draw_shoe(shoe: Shoe, build: ShoeBuild, triangles: NDArray[np.float64], path: str | os.PathLike[str]) -> Path:
+def draw_shoe(
+    shoe: Shoe, build: ShoeBuild, triangles: NDArray[np.float64], paths: Sequence[str | os.PathLike[str]]
+) -> list[Path]:
     """Draw one shoe with its dimensions in mm.
 
     Args:
         shoe: The shoe.
         build: What it belongs to.
-        triangles: Its surface (n, 3, 3) in mm.
-        path: Where to write; the ending gives the format.
+        triangles: Its surface (n, 3, 3) in mm, as exported.
+        paths: Where to write; the endings give the formats.
 
     Returns:
-        The path.
+        The paths.
     """
-    plan, p = shoe.plan, build.parameters
-    figure, (top, side) = new_figure(10.0, 9.0, rows=2, height_ratios=[3.2, 1.0])
-    colour = COLOURS[shoe.side]
-    for polygon, style in (
-        (plan.contact, {"color": colour, "lw": 2.0, "label": "contact face"}),
-        (plan.cavity, {"color": COLOURS["reference"], "lw": 1.0, "ls": "--", "label": "inside of the rim"}),
-    ):
-        _line(top, ring(polygon), **style)
-    sole = ring(build.foot.sole) * (1.0 if shoe.side == "left" else np.array([1.0, -1.0]))
-    _line(top, sole, color=COLOURS["truth"], lw=1.0, ls=":", label="sole of the foot")
-    for i, pocket in enumerate(plan.pockets):
-        cell = to_mm(shoe.layout.cell_polygon(i))
-        top.fill(*cell.T, facecolor=COLOURS["cell"], edgecolor=COLOURS["edge"], lw=0.8)
-        _line(top, ring(pocket), color=COLOURS["edge"], lw=0.4)
+    p = build.parameters
+    body = triangles.reshape(-1, 3)
+    low, high = body.min(axis=0), body.max(axis=0)
+    length, width = high[0] - low[0] + 56.0, high[1] - low[1] + 40.0
+    tall = p.rim_top + max(0.0, high[2] - p.rim_top) + 22.0
+    heights = [width, tall, tall * length / max(width, 0.55 * length)]
+    scale = 10.5 / length
+    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 2.4, rows=3, height_ratios=heights)
+    _plan(top, shoe, build, low, high)
+    cut_y, cut_x = _cuts(shoe, build)
+    _section(along, shoe, build, triangles, 1, cut_y, "A-A")
+    _section(across, shoe, build, triangles, 0, cut_x, "B-B")
+    for x, text in ((cut_x, "B"),):
+        top.plot([x, x], [low[1] - 4.0, high[1] + 4.0], color=COLOURS["reference"], lw=0.8, ls="-.")
+        top.text(x, high[1] + 5.0, text, ha="center", fontsize=8)
+    top.plot([low[0] - 4.0, high[0] + 4.0], [cut_y, cut_y], color=COLOURS["reference"], lw=0.8, ls="-.")
+    top.text(high[0] + 6.0, cut_y, "A", va="center", fontsize=8)
+    figure.suptitle(
+        f"{shoe.layout.name}, {shoe.side} shoe   |   {p.material}, {len(shoe.layout)} taxels of "
+        f"{build.fit.cell_area:g} mm², "
+        f"{100 * build.fit.covered_area_ratio:.0f} % of the sole covered   |   mm",
+        fontsize=10,
+    )
+    return [save_figure(figure, path) for path in paths]
+
+
+def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
+    """Where to cut: y through a row of taxels near the middle, x through what holds the shoe."""
+    positions = to_mm(shoe.layout.positions)
+    middle = 0.5 * (shoe.plan.contact.bounds[1] + shoe.plan.contact.bounds[3])
+    cut_y = float(positions[np.argmin(np.abs(positions[:, 1] - middle)), 1]) + 1.3e-3
+    places = build.retention.places if build.retention is not None else ()
+    cut_x = places[-1].x if places else float(positions[:, 0].mean())
+    return cut_y, cut_x + 1.3e-3
+
+
+def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
+    """The sole from above: outlines, cells with their ids, cable route, size."""
+    plan, colour = shoe.plan, COLOURS[shoe.side]
+    for i, (cell, pocket) in enumerate(zip(plan.cells, plan.pockets, strict=True)):
+        axes.fill(*ring(cell).T, facecolor=COLOURS["cell"], edgecolor=COLOURS["edge"], lw=_THIN)
+        axes.plot(*_closed(ring(pocket)).T, color=COLOURS["edge"], lw=0.3)
         x, y = to_mm(shoe.layout.positions[i, :2])
-        top.text(x, y, str(int(shoe.layout.ids[i])), ha="center", va="center", fontsize=7)
-    top.plot(0.0, 0.0, "+", color=COLOURS["truth"], ms=12, label="origin, below the ankle")
-    low_x, low_y, high_x, high_y = plan.contact.bounds
-    _dimension(top, (low_x, low_y - 12), (high_x, low_y - 12), f"{high_x - low_x:.1f}")
-    _dimension(top, (low_x - 12, low_y), (low_x - 12, high_y), f"{high_y - low_y:.1f}")
-    top.set_title(
-        f"{shoe.layout.name}, {shoe.side} shoe, seen from above: {len(shoe.layout)} taxels of "
-        f"{build.fit.lattice.area:g} mm², {100 * build.fit.covered_area_ratio:.0f} % of the sole covered, "
-        f"overhang {plan.overhang:.1f} mm",
-        fontsize=10,
+        axes.text(x, y - 4.0, str(int(shoe.layout.ids[i])), ha="center", va="center", fontsize=6)
+    centres = to_mm(shoe.layout.positions[:, :2])
+    for i, j in plan.route:
+        axes.plot(*centres[[i, j]].T, color=COLOURS["active"], lw=0.8)
+    starts = centres[list(plan.connectors)]
+    axes.plot(*starts.T, "s", color=COLOURS["cop"], ms=4, label="connector and cable")
+    axes.plot([starts[0, 0], plan.heel[0]], [starts[0, 1], plan.heel[1]], color=COLOURS["cop"], lw=1.2)
+    flip = np.array([1.0, 1.0 if shoe.side == "left" else -1.0])
+    axes.plot(*_closed(ring(plan.contact)).T, color=colour, lw=2.0, label="contact face (pad)")
+    axes.plot(*_closed(ring(plan.rim)).T, color=colour, lw=0.8, label="wall")
+    axes.plot(*_closed(ring(plan.cavity)).T, color=COLOURS["reference"], lw=0.8, ls="--", label="inside of the wall")
+    axes.plot(
+        *_closed(ring(build.foot.sole) * flip).T, color=COLOURS["truth"], lw=0.9, ls=":", label="sole of the foot"
     )
-    top.set(
-        xlabel="x, forward (mm)", ylabel="y, left (mm)", xlim=(low_x - 32, high_x + 10), ylim=(low_y - 24, high_y + 8)
-    )
-    top.set_aspect("equal")
-    top.legend(loc="upper center", bbox_to_anchor=(0.5, -0.11), ncols=4, fontsize=8, frameon=False)
-    cut_y = float(to_mm(shoe.layout.positions[np.argmin(np.abs(shoe.layout.positions[:, 1])), 1])) + 1e-3
-    cut = section_along_x(triangles, cut_y)
+    axes.plot(0.0, 0.0, "+", color=COLOURS["truth"], ms=11, label="origin, below the ankle")
+    face = plan.contact.bounds
+    _dimension(axes, (face[0], low[1] - 8.0), (face[2], low[1] - 8.0), f"{face[2] - face[0]:.1f}")
+    _dimension(axes, (low[0], low[1] - 16.0), (high[0], low[1] - 16.0), f"{high[0] - low[0]:.1f} over all")
+    _dimension(axes, (low[0] - 8.0, face[1]), (low[0] - 8.0, face[3]), f"{face[3] - face[1]:.1f}")
+    axes.set_title(f"From above; overhang of the contact face {plan.overhang:.1f} mm", fontsize=9, loc="left")
+    axes.set(xlim=(low[0] - 28.0, high[0] + 28.0), ylim=(low[1] - 24.0, high[1] + 14.0), ylabel="y, left")
+    axes.set_aspect("equal")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), ncols=6, fontsize=7, frameon=False)
+
+
+def _section(
+    axes: Any, shoe: Shoe, build: ShoeBuild, triangles: NDArray[np.float64], axis: int, at: float, name: str
+) -> None:
+    """A section with the foot's place, the taxels and the pad, and its heights."""
+    import shapely
+
+    p, colour = build.parameters, COLOURS[shoe.side]
+    cut = section_along(triangles, axis, at)
+    line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
+    across = 1 - axis
+    for cell, pocket in zip(shoe.plan.cells, shoe.plan.pockets, strict=True):
+        for shape, low, high in ((cell, p.pad_thickness, p.bottom), (pocket, p.bottom, p.ceiling)):
+            part = shape.intersection(line)
+            if not part.is_empty:
+                ends = (part.bounds[across], part.bounds[across + 2])
+                axes.fill_between(ends, low, high, facecolor=COLOURS["active"], alpha=0.55, lw=0)
+    face = shoe.plan.contact.intersection(line).bounds
+    start, end = face[across], face[across + 2]
+    if p.pad_thickness > 0.0:
+        axes.fill_between((start, end), 0.0, p.pad_thickness, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
+    foot = shoe.plan.foot.intersection(line).bounds
+    top = min(p.rim_top + 14.0, p.thickness + build.foot.height)
+    axes.fill_between((foot[across], foot[across + 2]), p.thickness, top, facecolor=COLOURS["truth"], alpha=0.06, lw=0)
     for part in getattr(cut, "geoms", [cut]):
-        side.fill(*np.array(part.exterior.coords).T, facecolor=colour, alpha=0.6, edgecolor=COLOURS["truth"], lw=0.6)
-        for hole in part.interiors:
-            side.fill(*np.array(hole.coords).T, facecolor="white", edgecolor=COLOURS["truth"], lw=0.6)
-    _dimension(side, (low_x - 8, 0.0), (low_x - 8, p.plate_thickness), f"{p.plate_thickness:g}")
-    _dimension(side, (high_x + 8, 0.0), (high_x + 8, p.height), f"{p.height:g}")
-    side.set_title(
-        f"Section at y = {cut_y:.1f} mm: recess {p.patch_depth:g}, pockets {p.pocket_depth:g}, floor {p.floor:g}, "
-        f"rim {p.rim_thickness:g}, clearance {p.clearance:g} mm",
-        fontsize=10,
+        shape = shapely.geometry.polygon.orient(part)
+        rings = [np.array(shape.exterior.coords), *(np.array(h.coords) for h in shape.interiors)]
+        axes.fill(*rings[0].T, facecolor=colour, alpha=0.75, edgecolor=COLOURS["truth"], lw=_THIN)
+        for hole in rings[1:]:
+            axes.fill(*hole.T, facecolor="white", edgecolor=COLOURS["truth"], lw=_THIN)
+    low, high = cut.bounds[0], cut.bounds[2]
+    for place, (bottom, upper) in enumerate(((0.0, p.thickness), (0.0, p.rim_top))):
+        x = high + 8.0 + 9.0 * place
+        _dimension(axes, (x, bottom), (x, upper), f"{upper - bottom:g}")
+    _dimension(axes, (low - 8.0, p.bottom), (low - 8.0, p.ceiling), f"{p.ceiling - p.bottom:g}")
+    _dimension(axes, (low - 16.0, 0.0), (low - 16.0, p.bottom), f"{p.bottom:g}")
+    letter = "y" if axis == 1 else "x"
+    axes.set_title(
+        f"{name}, {letter} = {at:.1f}: pad {p.pad_thickness:g}, taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
+        f"floor {p.floor:g}, wall {p.rim_thickness:g}, clearance {p.clearance:g}",
+        fontsize=9,
+        loc="left",
     )
-    side.set(xlabel="x (mm)", ylabel="z (mm)", xlim=(low_x - 25, high_x + 25), ylim=(-4, p.height + 4))
-    side.set_aspect("equal")
-    return save_figure(figure, path)
+    axes.set(xlim=(low - 28.0, high + 28.0), ylim=(-4.0, cut.bounds[3] + 6.0), ylabel="z")
+    axes.set_aspect("equal")
 
 
-def _line(axes: Any, points: NDArray[np.float64], **style: Any) -> None:
-    axes.plot(*np.concatenate([points, points[:1]]).T, **style)
+def _closed(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([points, points[:1]])
 
 
 def _dimension(axes: Any, start: tuple[float, float], end: tuple[float, float], text: str) -> None:
     """A dimension line with arrows at both ends and its figure in the middle."""
-    axes.annotate("", xy=start, xytext=end, arrowprops={"arrowstyle": "<->", "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
+    axes.annotate("", xy=start, xytext=end, arrowprops={"arrowstyle": "<->", "lw": 0.7, "shrinkA": 0, "shrinkB": 0})
     upright = abs(start[0] - end[0]) < 1e-9
     axes.text(
-        0.5 * (start[0] + end[0]) - (2.0 if upright else 0.0),
-        0.5 * (start[1] + end[1]) - (0.0 if upright else 2.0),
+        0.5 * (start[0] + end[0]) + (1.5 if upright else 0.0),
+        0.5 * (start[1] + end[1]) - (0.0 if upright else 1.5),
         text,
-        ha="right" if upright else "center",
+        ha="left" if upright else "center",
         va="center" if upright else "top",
-        fontsize=9,
+        fontsize=8,
     )

@@ -1,22 +1,30 @@
-"""Files of a shoe: STL, STEP, layout, drawing and what was checked on them."""
+"""Files of a shoe: STL, STEP, 3MF, layout, pad, drawing, picture, bill of parts, and what was checked on them."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from plantar.atomic import write_text
 from plantar.errors import InputError
-from plantar.layout_file import write_layout
-from shoes.build import Progress, ShoeBuild
+from plantar.layout_file import layout_to_dict
+from shoes.bill import Part, Weights, bill_of_parts, bill_text, weigh
+from shoes.build import Progress, Shoe, ShoeBuild
 from shoes.check import ShoeCheck, check_shoe
 from shoes.drawing import draw_shoe
+from shoes.package_3mf import write_3mf
+from shoes.pad import pad_surface
+from shoes.picture import draw_picture
 from shoes.stl import read_stl, write_stl
 from shoes.tray import read_step, write_step
+from shoes.units import to_m
 
 __all__ = ["ShoeReport", "export_shoe"]
 
@@ -29,11 +37,15 @@ class ShoeReport:
         build: The shoes.
         checks: Measures of each shoe by side; empty where only layouts were asked for.
         files: Names of the files written, in the folder given.
+        weights: Masses of each shoe by side.
+        bills: Bill of parts of each shoe by side.
     """
 
     build: ShoeBuild
     checks: dict[str, ShoeCheck]
     files: tuple[str, ...]
+    weights: dict[str, Weights] = field(default_factory=dict)
+    bills: dict[str, list[Part]] = field(default_factory=dict)
 
     @property
     def holds(self) -> bool:
@@ -42,39 +54,87 @@ class ShoeReport:
 
     def as_dict(self) -> dict[str, Any]:
         """Plain JSON values; of a pair the top level holds the worse figure, `sides` each shoe's own."""
-        build, first = self.build, self.build.shoes[0]
+        build, fit, first = self.build, self.build.fit, self.build.shoes[0]
         out: dict[str, Any] = {
             "name": first.layout.name,
             "taxels": len(first.layout),
-            "cell_area_mm2": build.fit.lattice.area,
-            "covered_area_ratio": round(build.fit.covered_area_ratio, 4),
+            "whole_taxels": fit.whole,
+            "whole_taxels_bound": fit.bound,
+            "cell_area_mm2": fit.cell_area,
+            "smallest_cell_share": round(float(fit.shares.min()), 4),
+            "patches": len(first.plan.connectors),
+            "covered_area_ratio": round(fit.covered_area_ratio, 4),
             "sole_area_mm2": round(build.foot.sole.area, 1),
             "contact_area_mm2": round(first.plan.contact.area, 1),
+            "contact_size_mm": [round(float(v), 3) for v in _extent(first)],
             "overhang_mm": round(max(s.plan.overhang for s in build.shoes), 2),
-            "taxel_overhang_mm": build.fit.overhang,
-            "thickness_mm": build.parameters.plate_thickness,
-            "notes": list(build.foot.notes),
+            "taxel_overhang_mm": round(fit.overhang, 3),
+            "thickness_mm": round(build.parameters.thickness, 3),
+            "notes": list(build.notes or build.foot.notes),
         }
         if self.checks:
             all_checks = list(self.checks.values())
+            worst = max(self.weights.values(), key=lambda w: w.total)
             out |= {
                 "watertight": all(c.watertight for c in all_checks),
                 "volume_cm3": max(c.volume_cm3 for c in all_checks),
                 "mass_g": max(c.mass_g for c in all_checks),
+                "worn_mass_g": round(worst.total, 2),
                 "min_wall_mm": min(c.min_wall_mm for c in all_checks),
                 "size_mm": list(all_checks[0].size_mm),
+                "print_hours": max(c.print_hours for c in all_checks),
+                "retention": build.retention.kind if build.retention else "none",
                 "holds": self.holds,
-                "sides": {side: _plain(c) for side, c in self.checks.items()},
+                "sides": {
+                    side: _plain(c)
+                    | {"weights_g": asdict(self.weights[side]) | {"total": round(self.weights[side].total, 2)}}
+                    for side, c in self.checks.items()
+                },
+                "parts": {side: [asdict(part) for part in bill] for side, bill in self.bills.items()},
             }
         return out | {"parameters": build.parameters.as_dict(), "files": list(self.files)}
 
 
-def _plain(check: ShoeCheck) -> dict[str, Any]:
-    """One shoe's measures as JSON values; a measure that is not finite becomes null."""
-    out = asdict(check) | {"holds": check.holds}
-    for one in out["checks"]:
-        one["value"] = one["value"] if math.isfinite(one["value"]) else None
-    return out
+def _extent(shoe: Shoe) -> NDArray[np.float64]:
+    """Length and width of the contact face in mm."""
+    low_x, low_y, high_x, high_y = shoe.plan.contact.bounds
+    return np.array([high_x - low_x, high_y - low_y])
+
+
+def _plain(value: Any) -> Any:
+    """Plain JSON values of a record; a measure that is not finite becomes null."""
+    if isinstance(value, ShoeCheck):
+        return _plain(asdict(value)) | {"holds": value.holds}
+    if isinstance(value, dict):
+        return {k: _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    if isinstance(value, float):
+        return round(value, 6) if math.isfinite(value) else None
+    return value
+
+
+def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
+    """The layout file, with what a simulator and whoever wires the shoe want to know of it in SI units."""
+    plan, ids = shoe.plan, shoe.layout.ids.tolist()
+    extra: dict[str, Any] = {
+        "thickness": round(to_m(build.parameters.thickness), 6),
+        "overhang": round(to_m(plan.overhang), 6),
+        "foot_outline": to_m(np.array(plan.foot.exterior.coords)[:-1]).round(6).tolist(),
+    }
+    if weights is not None:
+        extra |= {
+            "mass": round(1e-3 * weights.total, 6),
+            "mass_printed": round(1e-3 * weights.printed, 6),
+            "mass_pad": round(1e-3 * weights.pad, 6),
+            "mass_skin": round(1e-3 * weights.skin, 6),
+        }
+    extra |= {
+        "connectors": [ids[i] for i in plan.connectors],
+        "cable_route": [[ids[i], ids[j]] for i, j in plan.route],
+        "cell_shares": build.fit.shares.round(6).tolist(),
+    }
+    return json.dumps(layout_to_dict(shoe.layout) | {"shoe": extra}, indent=1) + "\n"
 
 
 def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: Progress | None = None) -> ShoeReport:
@@ -94,28 +154,55 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
     target = Path(folder)
     tell = progress or (lambda fraction, text: None)
     checks: dict[str, ShoeCheck] = {}
+    weights: dict[str, Weights] = {}
+    bills: dict[str, list[Part]] = {}
     files: list[str] = []
     for i, shoe in enumerate(build.shoes):
-        side = shoe.side
-        tell(i / len(build.shoes), f"writing the {side} shoe")
-        files.append(write_layout(shoe.layout, target / f"layout_{side}.json").name)
-        if shoe.surface is None:
-            continue
-        stl, step = target / f"shoe_{side}.stl", target / f"shoe_{side}.step"
-        try:
-            write_stl(shoe.surface, stl)
-            write_step(shoe.solid, str(step))
-        except OSError as error:
-            raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
-        tell((i + 0.5) / len(build.shoes), f"checking the {side} shoe")
-        surface = read_stl(stl)
-        checks[side] = check_shoe(shoe, build.parameters, surface=surface, step=read_step(str(step)))
-        picture = draw_shoe(shoe, build, surface, target / f"drawing_{side}.png")
-        files += [stl.name, step.name, picture.name]
+        side, count = shoe.side, len(build.shoes)
+        if shoe.surface is not None:
+            tell(i / count, f"writing the {side} shoe")
+            surface, step, names = _write_solids(shoe, build, target)
+            tell((i + 0.4) / count, f"checking the {side} shoe")
+            checks[side] = check_shoe(shoe, build, surface=surface, step=step)
+            weights[side] = weigh(shoe, build, 1000.0 * checks[side].volume_cm3)
+            bills[side] = bill_of_parts(shoe, build, weights[side])
+            tell((i + 0.6) / count, f"drawing the {side} shoe")
+            names += _draw(shoe, build, surface, target)
+            files += names
+        layout = write_text(target / f"layout_{side}.json", _layout_text(shoe, build, weights.get(side)))
+        files.append(layout.name)
     if checks:
-        files.append("check.json")
-    report = ShoeReport(build, checks, tuple(files))
+        write_text(target / "parts.csv", bill_text(bills))
+        files += ["parts.csv", "check.json"]
+    report = ShoeReport(build, checks, tuple(files), weights, bills)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
     tell(1.0, "shoes written")
     return report
+
+
+def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[np.float64], Any, list[str]]:
+    """Write a shoe's STL, STEP and 3MF and its pad; gives the triangles and the shape as read back, and the names."""
+    assert shoe.surface is not None
+    side, p = shoe.side, build.parameters
+    names = [f"shoe_{side}.stl", f"shoe_{side}.step", f"shoe_{side}.3mf"]
+    try:
+        write_stl(shoe.surface, target / names[0])
+        write_step(shoe.solid, str(target / names[1]))
+        write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
+        if p.pad_thickness > 0.0:
+            names.append(f"pad_{side}.stl")
+            write_stl(pad_surface(shoe.plan.contact, p.pad_thickness), target / names[3])
+    except OSError as error:
+        raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
+    return read_stl(target / names[0]), read_step(str(target / names[1])), names
+
+
+def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:
+    """Draw a shoe; gives the files' names."""
+    side, p = shoe.side, build.parameters
+    drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.png", target / f"drawing_{side}.svg"])
+    pad = pad_surface(shoe.plan.contact, p.pad_thickness) if p.pad_thickness > 0.0 else None
+    title = f"{shoe.layout.name}, {side} shoe"
+    drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))
+    return [path.name for path in drawn]

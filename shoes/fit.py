@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from plantar.hex_lattice import HexLattice, hexagon_side
+from shoes.fit_bound import CellBound, bound_whole_cells
 
 __all__ = ["CELL_AREAS", "LatticeFit", "fit_lattice", "whole_cell_region"]
 
@@ -36,6 +37,7 @@ class LatticeFit:
         overhang: How far a cell may reach beyond the sole's outline in mm, as used.
         covered: Area of the sole's outline that lies under a kept cell in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
+        bound: Proven: no placement, at any offset and angle, holds more whole cells with this overhang.
     """
 
     lattice: HexLattice
@@ -43,6 +45,7 @@ class LatticeFit:
     overhang: float
     covered: float
     covered_area_ratio: float
+    bound: int = 0
 
 
 @dataclass(frozen=True)
@@ -92,10 +95,12 @@ def whole_cell_region(region: Any, side: float, angle: float) -> Any:
 def fit_lattice(
     sole: Any, *, cell_area: float = 691.0, taxels: int | None = None, overhang: float = 0.0, overhang_max: float = 0.0
 ) -> LatticeFit:
-    """Place the lattice so that the most whole cells lie inside a sole: at each of twelve angles, the most there are.
+    """Place the lattice so that the most whole cells lie inside a sole.
 
-    Ties are decided by straight rows (0 or 30 degrees before others), by the area of the sole under the cells plus that
-    inside their convex hull (the support polygon they can tell), and by how near the patch's centre is to the sole's.
+    At each of twelve angles the best offset is found exactly; then `bound_whole_cells` looks at all others, and what is
+    better there is taken. Ties are decided by straight rows (0 or 30 degrees before others), by the area of the sole
+    under the cells plus that inside their convex hull (the support polygon they can tell), and by how near the patch's
+    centre is to the sole's.
     With `taxels` the overhang is the smallest, in steps of 0.5 mm, at which so many fit, and cells that cover the least
     of the sole are left out. The same input gives the same placement.
 
@@ -122,14 +127,19 @@ def fit_lattice(
         raise InputError(f"overhang is {overhang} mm; allowed: 0 or more")
     if taxels is not None:
         overhang = _least_overhang(sole, cell_area, taxels, overhang, overhang_max)
-    placements = _search(sole, cell_area, overhang, taxels)
+    region = sole.buffer(overhang) if overhang > 0.0 else sole
+    placements, most = _search(sole, cell_area, overhang, taxels)
+    proven = bound_whole_cells(region, cell_area, known=most)
+    if proven.best > most and taxels is None:
+        turned = _turned(sole, region, cell_area, proven)
+        placements = [p for p in turned if len(p.cells) > most] or placements
     if not placements:
         raise FootError(
             f"no whole cell of {cell_area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area"
         )
     best = max(placements, key=lambda p: p.score)
-    best = _centred(best, sole, sole.buffer(overhang))
-    return LatticeFit(best.lattice, best.cells, overhang, best.covered, best.covered / sole.area)
+    best = _centred(best, sole, region)
+    return LatticeFit(best.lattice, best.cells, overhang, best.covered, best.covered / sole.area, proven.bound)
 
 
 def _least_overhang(sole: Any, cell_area: float, taxels: int, overhang: float, overhang_max: float) -> float:
@@ -183,12 +193,23 @@ def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
     return out
 
 
-def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) -> list[_Candidate]:
-    """Placements worth comparing: with the most whole cells, or with `taxels` (the next more, cut down to them)."""
+def _turned(sole: Any, region: Any, cell_area: float, proven: CellBound) -> list[_Candidate]:
+    """The placement that the search over all angles has found."""
+    x, y = (round(v, _DECIMALS) for v in proven.origin)
+    lattice = HexLattice(cell_area, (x, y), proven.angle)
+    cells = _cells_inside(whole_cell_region(region, lattice.side, lattice.angle), lattice)
+    return [_candidate(sole, lattice, cells, len(_ANGLES))] if len(cells) else []
+
+
+def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) -> tuple[list[_Candidate], int]:
+    """Placements worth comparing, and the most whole cells there are at these angles.
+
+    They hold the most, or with `taxels` just so many (or the next more, cut down to them).
+    """
     scans = _scan(sole, cell_area, overhang)
-    most = max((int(s.counts.max()) for s in scans), default=0)
+    known = most = max((int(s.counts.max()) for s in scans), default=0)
     if not most:
-        return []
+        return [], 0
     if taxels is not None:  # a placement that holds just so many needs no gap in its rim
         most = min(int(s.counts[s.counts >= taxels].min(initial=most)) for s in scans)
     out = []
@@ -201,7 +222,7 @@ def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) ->
             if taxels is not None:
                 cells = _reduced(sole, lattice, cells, taxels)
             out.append(_candidate(sole, lattice, cells, scan.rank))
-    return out
+    return out, known
 
 
 def _sampled_offsets(lattice: HexLattice) -> NDArray[np.float64]:

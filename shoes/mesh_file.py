@@ -1,4 +1,4 @@
-"""Triangle meshes from files: STL, OBJ, PLY and OFF through trimesh, 3MF read here."""
+"""Triangle meshes from files: STL, OBJ, PLY and OFF through trimesh, STEP through cadquery, 3MF read here."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["MESH_FORMATS", "Unit", "read_mesh"]
 Unit = Literal["m", "cm", "mm", "in"]
 """Unit of length of a mesh file."""
 
-MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".3mf")
+MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".3mf", ".step", ".stp")
 """File endings that are read."""
 
 _UNITS_3MF: dict[str, tuple[Unit, float]] = {
@@ -63,6 +63,8 @@ def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit |
     try:
         if kind == ".3mf":
             triangles, unit = _read_3mf(file)
+        elif kind in (".step", ".stp"):
+            triangles, unit = _read_step(file), "mm"
         else:
             triangles = _read_with_trimesh(file, kind, data)
     except (FootError, DependencyError):
@@ -94,6 +96,21 @@ def _read_with_trimesh(file: Path, kind: str, data: bytes) -> NDArray[np.float64
     if not isinstance(mesh, trimesh.Trimesh):
         return np.empty((0, 3, 3))
     return np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]
+
+
+def _read_step(file: Path) -> NDArray[np.float64]:
+    """Triangles in mm of all shapes of a STEP file; its own unit is converted while it is read."""
+    from shoes.tray import load_cadquery
+
+    if b"ISO-10303-21" not in file.read_bytes()[:200]:
+        raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
+    cq = load_cadquery()
+    parts = []
+    for shape in cq.importers.importStep(str(file)).vals():
+        vertices, faces = shape.tessellate(0.05, 0.2)
+        if faces:
+            parts.append(np.array([v.toTuple() for v in vertices])[np.array(faces, dtype=np.int64)])
+    return np.concatenate(parts) if parts else np.empty((0, 3, 3))
 
 
 def _check_stl(file: Path, data: bytes) -> None:

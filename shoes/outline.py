@@ -12,12 +12,24 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 
-__all__ = ["cut_below", "outline_below", "ring", "rounded_rectangle", "single_outline", "tidy"]
+__all__ = [
+    "GRID",
+    "apart",
+    "cut_below",
+    "outline_below",
+    "outline_of",
+    "ring",
+    "rounded_rectangle",
+    "single_outline",
+    "tidy",
+    "touching",
+]
 
 GRID = 1e-3
 """Grid in mm that polygon corners lie on."""
 _SIMPLIFY = 0.05  # mm of detail that is dropped
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
+_PART_SHARE = 0.05  # of the touching area: a smaller part gets no patch
 _MANY = 20_000  # triangles, above which they are joined on a coarser grid
 _COARSE_GRID = 0.4  # mm
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
@@ -84,23 +96,78 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
     Raises:
         FootError: If nothing with an area lies below the height.
     """
+
+    return outline_of(cut_below(triangles, height), height)[0]
+
+
+def outline_of(below: NDArray[np.float64], height: float) -> tuple[Any, Any]:
+    """Outline of the lowest part of a surface, and what it covers of the floor.
+
+    Args:
+        below: Triangles (n, 3, 3) in mm: what lies below the height.
+        height: The height in mm, for messages.
+
+    Returns:
+        One shapely polygon in mm, see `single_outline`; and the area covered, which may be in parts and have holes.
+
+    Raises:
+        FootError: If it has no area.
+    """
     import shapely
 
-    below = cut_below(triangles, height)
-    flat = below[..., :2]
-    if len(flat) > _MANY:  # corners that are shared move together, so no gap opens
-        flat = np.unique((flat / _COARSE_GRID).round().reshape(-1, 6), axis=0).reshape(-1, 3, 2) * _COARSE_GRID
-    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
-    flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
     if len(below) == 0:
         raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
     points = shapely.MultiPoint(below.reshape(-1, 3)[:, :2]).convex_hull
     if points.geom_type != "Polygon" or points.area < 1.0:
         raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
+    # Vertical walls project to lines: they count in the hull, not in the union.
+    union = _projected(below)
+    return single_outline(union, points), union
+
+
+def touching(triangles: NDArray[np.float64], height: float) -> Any:
+    """What a surface covers of the floor with its part below a height: a shapely polygon, multipolygon, or empty.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm with the sole plane at z = 0.
+        height: Height in mm.
+
+    Returns:
+        The area, which may be in parts and have holes.
+    """
+    return _projected(cut_below(triangles, height))
+
+
+def _projected(triangles: NDArray[np.float64]) -> Any:
+    """Union of triangles seen from above."""
+    import shapely
+
+    flat = triangles[..., :2]
+    if len(flat) > _MANY:  # corners that are shared move together, so no gap opens
+        flat = np.unique((flat / _COARSE_GRID).round().reshape(-1, 6), axis=0).reshape(-1, 3, 2) * _COARSE_GRID
+    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
+    if not len(flat):
+        return shapely.Polygon()
     closed = np.concatenate([flat, flat[:, :1]], axis=1)
-    # Vertical walls project to lines: they count in the hull, not in the union. Rounding closes hairline gaps.
-    union = shapely.union_all(shapely.polygons(closed).tolist(), grid_size=GRID) if len(flat) else shapely.Polygon()
-    return single_outline(union, points)
+    return shapely.set_precision(shapely.union_all(shapely.polygons(closed)), GRID)  # which closes hairline gaps
+
+
+def apart(union: Any, gap: float) -> tuple[Any, ...]:
+    """Outlines of the parts of an area that are far from each other.
+
+    Args:
+        union: The area, a shapely polygon or multipolygon in mm.
+        gap: Least distance in mm between two parts.
+
+    Returns:
+        The convex hull of each part, from the heel on; empty where there is one part only.
+    """
+    grown = union.buffer(0.5 * gap)
+    groups = [g for g in getattr(grown, "geoms", [grown]) if not g.is_empty]
+    parts = [union.intersection(g).convex_hull for g in groups]
+    parts = [tidy(p) for p in parts if p.geom_type == "Polygon" and p.area > _PART_SHARE * union.area]
+    return tuple(sorted(parts, key=lambda p: p.bounds)) if len(parts) > 1 else ()
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:

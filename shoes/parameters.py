@@ -1,4 +1,4 @@
-"""Every dimension of the shoe: one named parameter each, with default, range and unit."""
+"""Every dimension of the shoe: one named parameter each, with default, range and unit, or with its choices."""
 
 from __future__ import annotations
 
@@ -12,12 +12,24 @@ from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError
+from shoes.materials import MATERIALS, Material
 
-__all__ = ["ShoeParameters", "read_parameters"]
+__all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]
+
+RETENTIONS: tuple[str, ...] = ("auto", "clips", "straps", "screws", "none")
+"""How the shoe is held on the foot; auto takes clips where the foot has an edge to clip over, straps otherwise."""
 
 
-def _parameter(default: float, low: float, high: float, unit: str, text: str) -> Any:
+def _length(default: float, low: float, high: float, text: str) -> Any:
+    return _number(default, low, high, "mm", text)
+
+
+def _number(default: float, low: float, high: float, unit: str, text: str) -> Any:
     return field(default=default, metadata={"low": low, "high": high, "unit": unit, "text": text})
+
+
+def _choice(default: str, choices: tuple[str, ...], text: str) -> Any:
+    return field(default=default, metadata={"choices": choices, "text": text})
 
 
 @dataclass(frozen=True)
@@ -28,73 +40,145 @@ class ShoeParameters:
         InputError: If a value is out of its range, or two values contradict each other.
 
     Example:
-        >>> ShoeParameters(plate_thickness=14.0).floor
-        6.5
+        >>> ShoeParameters(pad_thickness=3.0).thickness
+        13.0
     """
 
-    plate_thickness: float = _parameter(12.0, 3.0, 40.0, "mm", "contact face to the face the foot stands on")
-    patch_depth: float = _parameter(5.0, 0.5, 20.0, "mm", "recess that takes the skin patch, from the contact face")
-    pocket_depth: float = _parameter(2.5, 0.2, 20.0, "mm", "hexagonal taxel pocket, above the patch recess")
-    pocket_clearance: float = _parameter(0.3, 0.0, 2.0, "mm", "gap between the skin patch and the wall around it")
-    rib: float = _parameter(2.0, 0.8, 8.0, "mm", "wall between two taxel pockets")
-    border: float = _parameter(2.0, 0.8, 20.0, "mm", "wall around the skin patch")
-    rim_height: float = _parameter(12.0, 2.0, 60.0, "mm", "rim above the face the foot stands on")
-    rim_thickness: float = _parameter(3.0, 0.8, 15.0, "mm", "rim wall")
-    clearance: float = _parameter(0.5, 0.0, 5.0, "mm", "gap between foot and rim (printer tolerance)")
-    overhang_max: float = _parameter(10.0, 0.0, 40.0, "mm", "how far the shoe may reach beyond the foot")
-    wall_min: float = _parameter(1.2, 0.4, 5.0, "mm", "thinnest wall the printer makes")
-    sole_band: float = _parameter(5.0, 0.5, 20.0, "mm", "height of the lowest part of the foot that is its sole")
-    density: float = _parameter(1.01, 0.1, 10.0, "g/cm3", "of the printed material; 1.01 is PA12")
+    pad_thickness: float = _length(2.0, 0.0, 10.0, "replaceable silicone pad under the taxels, its lower face the sole")
+    taxel_protrusion: float = _length(2.5, 0.0, 15.0, "how far the taxels stand out below the printed part")
+    pocket_depth: float = _length(2.5, 0.4, 20.0, "pocket for the base of a taxel, from the printed lower face")
+    floor: float = _length(5.0, 1.0, 30.0, "plate between the pockets and the foot; strengthen may raise it")
+    rib: float = _length(2.4, 0.8, 8.0, "wall between two pockets, centred on the border of the cells")
+    border: float = _length(2.0, 0.5, 20.0, "sole beyond the outermost cells")
+    scribe: float = _length(0.4, 0.0, 1.5, "depth of the groove in the ribs that marks the border of the cells")
+    port_width: float = _length(6.0, 0.0, 20.0, "gap in a rib where the cable passes to the next taxel; 0 leaves none")
+    clearance: float = _length(0.5, 0.0, 5.0, "gap between foot and wall (printer tolerance)")
+    rim_height: float = _length(12.0, 2.0, 60.0, "wall above the face the foot stands on")
+    rim_thickness: float = _length(3.0, 0.8, 15.0, "wall around the foot; strengthen may raise it")
+    lead_in: float = _length(1.0, 0.0, 3.0, "bevel of the wall's upper inner edge")
+    fillet: float = _length(2.0, 0.0, 6.0, "radius between wall and plate and at the corners of lugs")
+    overhang_max: float = _length(10.0, 0.0, 40.0, "how far the sole may reach beyond the foot")
+    reach_max: float = _length(15.0, 0.0, 60.0, "how far lugs, clips and the board's holder may")
+    strap_width: float = _length(20.0, 6.0, 50.0, "strap; on a short foot at most a sixth of its length is used")
+    strap_thickness: float = _length(2.0, 0.5, 6.0, "strap, and the room left for it between lug and foot")
+    clip_hook: float = _length(1.5, 0.5, 4.0, "how far a clip reaches over the edge of the foot")
+    clip_width: float = _length(14.0, 6.0, 40.0, "arm of a clip")
+    clip_thickness: float = _length(2.5, 1.2, 6.0, "arm of a clip")
+    clip_height_max: float = _length(40.0, 10.0, 80.0, "highest edge of the foot that a clip reaches for")
+    screw_diameter: float = _length(4.0, 2.5, 6.0, "clamping screws through the wall, where retention is screws")
+    channel_width: float = _length(8.0, 2.0, 20.0, "cable channel from the patch to the exit at the heel")
+    board_length: float = _length(30.0, 0.0, 80.0, "connection board, upright behind the heel; 0 leaves its holder out")
+    board_thickness: float = _length(1.6, 0.8, 3.2, "connection board")
+    board_gap: float = _length(2.2, 0.5, 8.0, "room for components between wall and board")
+    mark_height: float = _length(9.0, 0.0, 30.0, "letters of the mark (side and name) in the floor; 0 leaves it out")
+    mark_depth: float = _length(0.6, 0.2, 2.0, "depth of the mark")
+    wall_min: float = _length(1.2, 0.4, 5.0, "thinnest wall the printer makes")
+    bridge_max: float = _length(30.0, 1.0, 400.0, "widest ceiling the printer bridges without support")
+    bed_length: float = _length(380.0, 50.0, 2000.0, "printer's room along its longer side")
+    bed_width: float = _length(284.0, 50.0, 2000.0, "printer's room along its shorter side")
+    bed_height: float = _length(380.0, 50.0, 2000.0, "printer's room upwards")
+    sole_band: float = _length(5.0, 0.5, 20.0, "height of the lowest part of the foot that is its sole")
+    patch_gap: float = _length(60.0, 5.0, 400.0, "gap between two parts of the sole from which each gets its own patch")
+    robot_mass: float = _number(0.0, 0.0, 1000.0, "kg", "of the robot; 0 takes its file's, or estimates by the foot")
+    load_factor: float = _number(1.5, 0.5, 10.0, "-", "load case: times the robot's weight ...")
+    load_share: float = _number(1 / 3, 0.05, 1.0, "-", "... on this share of the sole")
+    friction: float = _number(0.6, 0.0, 2.0, "-", "sideways share of that load, which the wall carries")
+    safety: float = _number(2.0, 1.0, 10.0, "-", "least factor between a material's strength and the stress")
+    density: float = _number(0.0, 0.0, 10.0, "g/cm3", "of the printed material; 0 takes the material's")
+    pad_density: float = _number(1.15, 0.1, 5.0, "g/cm3", "of the pad's silicone")
+    skin_density: float = _number(1.2, 0.1, 5.0, "g/cm3", "of the taxels, mean of board and silicone")
+    flow: float = _number(8.0, 0.5, 100.0, "mm3/s", "material the printer lays down, for the estimate of time")
+    material: str = _choice("PA12", tuple(MATERIALS), "printed material")
+    retention: str = _choice("auto", RETENTIONS, "how the shoe is held on the foot")
+    strengthen: str = _choice("yes", ("yes", "no"), "raise floor and wall to what the load case needs")
 
     def __post_init__(self) -> None:
-        for name, value in self.as_dict().items():
-            low, high, unit, _ = self.range_of(name)
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if "choices" in f.metadata:
+                if value not in f.metadata["choices"]:
+                    allowed = ", ".join(f.metadata["choices"])
+                    raise InputError(f"shoe parameter {f.name} is {value!r}; allowed: {allowed}")
+                continue
+            low, high, unit, _ = self.range_of(f.name)
             number = isinstance(value, (int, float)) and not isinstance(value, bool)
             if not (number and math.isfinite(value) and low <= value <= high):
-                raise InputError(f"shoe parameter {name} is {value!r} {unit}; allowed: {low:g} to {high:g} {unit}")
-            object.__setattr__(self, name, float(value))
-        if self.floor < self.wall_min:
-            raise InputError(
-                f"shoe parameters leave {self.floor:g} mm of floor above the pockets (plate_thickness - patch_depth - "
-                f"pocket_depth); allowed: wall_min = {self.wall_min:g} mm or more"
-            )
-        for name in ("rib", "border", "rim_thickness"):
+                raise InputError(f"shoe parameter {f.name} is {value!r} {unit}; allowed: {low:g} to {high:g} {unit}")
+            object.__setattr__(self, f.name, float(value))
+        for name in ("floor", "rib", "rim_thickness", "clip_thickness"):
             if getattr(self, name) < self.wall_min:
                 raise InputError(
                     f"shoe parameter {name} is {getattr(self, name):g} mm; "
                     f"allowed: wall_min = {self.wall_min:g} mm or more"
                 )
-        if self.border + self.pocket_clearance > self.overhang_max + self.clearance + self.rim_thickness:
+        if self.rib - 2.0 * self.scribe < 0.5 * self.wall_min:
+            raise InputError(
+                f"shoe parameter scribe is {self.scribe:g} mm; allowed: what leaves half of wall_min of a rib of "
+                f"{self.rib:g} mm, {max(0.0, 0.5 * (self.rib - 0.5 * self.wall_min)):g} mm or less"
+            )
+        if self.scribe > 0.5 * self.pocket_depth:
+            raise InputError(
+                f"shoe parameter scribe is {self.scribe:g} mm; allowed: half of pocket_depth or less "
+                f"({0.5 * self.pocket_depth:g} mm)"
+            )
+        if self.border > self.overhang_max + self.clearance + self.rim_thickness:
             raise InputError(
                 f"shoe parameter border is {self.border:g} mm; "
                 "allowed: what overhang_max, clearance and rim_thickness leave"
             )
 
     @property
-    def floor(self) -> float:
-        """Thickness between the taxel pockets and the foot in mm."""
-        return self.plate_thickness - self.patch_depth - self.pocket_depth
+    def bottom(self) -> float:
+        """Height of the printed part's lower face above the sole frame in mm."""
+        return self.pad_thickness + self.taxel_protrusion
 
     @property
-    def height(self) -> float:
-        """Height of the whole shoe in mm."""
-        return self.plate_thickness + self.rim_height
+    def ceiling(self) -> float:
+        """Height of the pockets' ceiling above the sole frame in mm."""
+        return self.bottom + self.pocket_depth
 
-    def as_dict(self) -> dict[str, float]:
+    @property
+    def thickness(self) -> float:
+        """Height of the face that the foot stands on above the sole frame in mm."""
+        return self.ceiling + self.floor
+
+    @property
+    def rim_top(self) -> float:
+        """Height of the wall's upper edge above the sole frame in mm."""
+        return self.thickness + self.rim_height
+
+    @property
+    def printed(self) -> Material:
+        """Data of the printed material, with the density given."""
+        return MATERIALS[self.material].with_density(self.density)
+
+    def as_dict(self) -> dict[str, float | str]:
         """All parameters by name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     @classmethod
     def range_of(cls, name: str) -> tuple[float, float, str, str]:
-        """Lowest and highest value, unit and meaning of a parameter.
+        """Lowest and highest value, unit and meaning of a parameter that is a number.
 
         Raises:
             InputError: If there is no such parameter; the message names all of them.
         """
+        metadata = cls._metadata(name)
+        if "choices" in metadata:
+            raise InputError(f"shoe parameter {name} is a choice: {', '.join(metadata['choices'])}")
+        return metadata["low"], metadata["high"], metadata["unit"], metadata["text"]
+
+    @classmethod
+    def _metadata(cls, name: str) -> Mapping[str, Any]:
         for f in fields(cls):
             if f.name == name:
-                return f.metadata["low"], f.metadata["high"], f.metadata["unit"], f.metadata["text"]
+                return f.metadata
         raise InputError(f"unknown shoe parameter '{name}'; allowed: {', '.join(f.name for f in fields(cls))}")
+
+    @classmethod
+    def table(cls) -> list[dict[str, Any]]:
+        """Each parameter as a row: name, default, low, high, unit (or choices) and text."""
+        return [{"name": f.name, "default": f.default, **f.metadata} for f in fields(cls)]
 
     @classmethod
     def from_mapping(cls, values: Mapping[str, Any]) -> ShoeParameters:
@@ -107,7 +191,7 @@ class ShoeParameters:
             InputError: If a name is unknown or a value is out of its range.
         """
         for name in values:
-            cls.range_of(name)
+            cls._metadata(name)
         return cls(**values)
 
 
@@ -115,7 +199,8 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
     """Read shoe parameters from a JSON or TOML file; what it does not name keeps its default.
 
     Args:
-        path: File that ends in .json or .toml and holds `name = value` pairs, in mm.
+        path: File that ends in .json or .toml and holds `name = value` pairs, in mm. Of a `check.json` the table
+            "parameters" is taken, so that a shoe can be built again.
 
     Returns:
         The checked parameters.
@@ -135,6 +220,8 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
         values = json.loads(text) if file.suffix.lower() == ".json" else tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise InputError(f"parameter file {file} is not valid {file.suffix[1:].upper()} ({error})") from None
+    if isinstance(values, dict) and isinstance(values.get("parameters"), dict):
+        values = values["parameters"]
     if not isinstance(values, dict):
         raise InputError(f"parameter file {file} is not a table of name = value pairs")
     try:

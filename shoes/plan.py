@@ -1,25 +1,26 @@
-"""The shoe seen from above: contact face, cavity, rim, patch recess and taxel pockets, in mm."""
+"""The sole seen from above: contact face, rim, taxel pockets and the way the cable takes, in mm, and its layout."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import deque
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from plantar.cell_layout import layout_of_cells
 from plantar.errors import FootError, LayoutError
 from plantar.layout import Side, SoleLayout, mirrored
 from plantar.tiling import hex_layout
-from shoes.fit import LatticeFit
+from shoes.block import moved_edges
 from shoes.foot import Foot
 from shoes.outline import ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
+from shoes.taxels import CORNER, TaxelFit
 from shoes.units import to_m
 
-__all__ = ["CORNER", "ShoePlan", "mirrored_plan", "plan_shoe"]
-
-CORNER = 1.2
-"""How much farther than its edges the corner of a grown outline may lie."""
+__all__ = ["ShoePlan", "grown", "mirrored_plan", "plan_shoe"]
 
 
 @dataclass(frozen=True)
@@ -29,11 +30,13 @@ class ShoePlan:
     Attributes:
         side: "left" or "right".
         foot: Outline of the foot below the rim's upper edge.
-        contact: Outline of the contact face and of the sole plate.
-        cavity: Inside of the rim.
+        contact: Outline of the contact face: of the pad, and of the printed plate but for the heel's shelf and lugs.
+        cavity: Inside of the rim at its upper edge.
         rim: Outside of the rim.
-        recesses: Recesses for the skin patch, one for each connected group of cells.
-        pockets: Taxel pockets, in the order of the layout's taxels.
+        cells: Cells of the layout, in the order of its taxels.
+        pockets: Taxel pockets: the cells moved in by half a rib.
+        route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
+        connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
         layout: The sole layout, in m.
     """
 
@@ -42,8 +45,10 @@ class ShoePlan:
     contact: Any
     cavity: Any
     rim: Any
-    recesses: tuple[Any, ...]
+    cells: tuple[Any, ...]
     pockets: tuple[Any, ...]
+    route: tuple[tuple[int, int], ...]
+    connectors: tuple[int, ...]
     layout: SoleLayout
 
     @property
@@ -53,15 +58,24 @@ class ShoePlan:
 
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
 
+    @property
+    def heel(self) -> tuple[float, float]:
+        """Rearmost x of the rim's outside, and the middle of its rear edge in y, in mm."""
+        import shapely
 
-def plan_shoe(foot: Foot, fit: LatticeFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
-    """Draw the left shoe around a foot and its taxels.
+        low_x, low_y, _, high_y = self.rim.bounds
+        rear = self.rim.intersection(shapely.box(low_x - 1.0, low_y - 1.0, low_x + 4.0, high_y + 1.0))
+        return float(low_x), float(0.5 * (rear.bounds[1] + rear.bounds[3]))
+
+
+def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
+    """Draw the left sole around a foot and its taxels.
 
     The contact face takes in the foot with clearance and rim, and the taxels with the border around them.
 
     Args:
         foot: The left foot.
-        fit: Placement of the cells.
+        fit: The cells.
         parameters: Dimensions of the shoe.
         name: Name the layout takes; None takes the foot's.
 
@@ -73,47 +87,104 @@ def plan_shoe(foot: Foot, fit: LatticeFit, parameters: ShoeParameters, *, name: 
     """
     import shapely
 
-    outline = tidy(foot.outline_up_to(parameters.rim_height).union(foot.sole))
-    cavity = tidy(_grown(outline, parameters.clearance))
-    rim = tidy(_grown(outline, parameters.clearance + parameters.rim_thickness))
-    hexagons = shapely.polygons(fit.lattice.corners(fit.cells))
+    outline = foot.passing(parameters.rim_height)
+    cavity = tidy(grown(outline, parameters.clearance))
+    rim = tidy(grown(outline, parameters.clearance + parameters.rim_thickness))
+    cells = tuple(shapely.Polygon(c) for c in fit.cells)
     # Corners that cells share are bit-identical, so the union leaks no slivers.
-    patch = shapely.union_all(hexagons)
-    groups = list(getattr(patch, "geoms", [patch]))
-    gap = parameters.pocket_clearance
-    recess = shapely.union_all([g.buffer(gap, join_style="mitre") if gap else g for g in groups])
-    recesses = tuple(
-        shapely.Polygon(g.exterior)  # a hole in the patch is left to the pockets' floor
-        for g in sorted(getattr(recess, "geoms", [recess]), key=lambda g: g.bounds)
-    )
-    walls = recess.convex_hull if len(groups) == 1 else recess
-    shape = rim.union(_grown(walls, parameters.border))
+    patch = shapely.union_all(cells)
+    walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
+    shape = rim.union(grown(walls, fit.border))
     contact = single_outline(shape, shape.convex_hull, detail=0.0)
-    pockets = tuple(h.buffer(-0.5 * parameters.rib, join_style="mitre") for h in hexagons)
-    if any(p.is_empty or p.area < 0.1 * h.area for p, h in zip(pockets, hexagons, strict=True)):
+    pockets = tuple(_pocket(c, parameters.rib) for c in cells)
+    if any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
         raise FootError(
-            f"cells of {fit.lattice.area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
+            f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
             "use larger cells or a thinner rib"
         )
-    x, y = fit.lattice.origin
+    layout = _layout(contact, fit, name or foot.name)
+    plan = ShoePlan("left", outline, contact, cavity, rim, cells, pockets, (), (), layout)
+    connectors, route = _route(layout, fit.patches, plan.heel)
+    return replace(plan, route=route, connectors=connectors)
+
+
+def grown(shape: Any, distance: float) -> Any:
+    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled.
+
+    Args:
+        shape: Shapely polygon or multipolygon.
+        distance: How far, in mm, 0 or more; a corner moves at most CORNER times as far.
+
+    Returns:
+        The grown shape.
+    """
+    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
+
+
+def _pocket(cell: Any, rib: float) -> Any | None:
+    """A cell with its edges moved in by half a rib; None where nothing is left."""
+    import shapely
+
+    moved = moved_edges(ring(cell), -0.5 * rib)
+    if moved is not None:
+        return shapely.Polygon(moved)
+    shape = cell.buffer(-0.5 * rib, join_style="mitre")  # a cut cell with an edge that vanishes
+    return shape if shape.geom_type == "Polygon" and not shape.is_empty else None
+
+
+def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
+    outline = to_m(ring(contact)).round(6)
     try:
-        layout = hex_layout(
-            to_m(ring(contact)).round(6),
-            name=name or foot.name,
-            side="left",
-            cell_area=fit.lattice.area * 1e-6,
-            origin=(to_m(x), to_m(y)),
-            angle=fit.lattice.angle,
-            cells=fit.cells,
+        if fit.lattice_cells is not None:
+            x, y = fit.lattices[0].origin
+            return hex_layout(
+                outline,
+                name=name,
+                side="left",
+                cell_area=fit.cell_area * 1e-6,
+                origin=(to_m(x), to_m(y)),
+                angle=fit.lattices[0].angle,
+                cells=fit.lattice_cells,
+            )
+        layout = layout_of_cells(
+            [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape="hexagon"
         )
+        return replace(layout, cell_area=fit.cell_area * 1e-6)
     except LayoutError as error:
         raise FootError(f"the shoe's outline cannot carry a layout: {error}") from None
-    return ShoePlan("left", outline, contact, cavity, rim, recesses, pockets, layout)
 
 
-def _grown(shape: Any, distance: float) -> Any:
-    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled."""
-    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
+def _route(
+    layout: SoleLayout, patches: NDArray[np.int64], heel: tuple[float, float]
+) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
+    """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells.
+
+    The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.
+    """
+    centres = layout.positions[:, :2]
+    start = np.array([to_m(heel[0]), to_m(heel[1])])
+    distance = np.hypot(*(centres - start).T)
+    left = set(range(len(layout)))
+    connectors: list[int] = []
+    route: list[tuple[int, int]] = []
+    while left:
+        rest = sorted(left)
+        first = rest[int(np.argmin(distance[rest]))]
+        connectors.append(first)
+        left.discard(first)
+        queue, group = deque([first]), [first]
+        while queue:
+            here = queue.popleft()
+            for near in sorted(layout.neighbours[here], key=lambda j: (round(float(distance[j]), 9), j)):
+                if near in left:
+                    left.discard(near)
+                    route.append((here, near))
+                    queue.append(near)
+                    group.append(near)
+        if left:
+            gaps = np.hypot(*(centres[:, None] - centres[None, group]).transpose(2, 0, 1)).min(axis=1)
+            distance = gaps if len(connectors) == 1 else np.minimum(distance, gaps)
+    return tuple(connectors), tuple(route)
 
 
 def mirrored_plan(plan: ShoePlan) -> ShoePlan:
@@ -131,7 +202,9 @@ def mirrored_plan(plan: ShoePlan) -> ShoePlan:
         flip(plan.contact),
         flip(plan.cavity),
         flip(plan.rim),
-        tuple(flip(r) for r in plan.recesses),
+        tuple(flip(c) for c in plan.cells),
         tuple(flip(p) for p in plan.pockets),
+        plan.route,
+        plan.connectors,
         layout,
     )

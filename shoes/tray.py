@@ -1,18 +1,19 @@
-"""The printable solid: a sole plate with a patch recess and taxel pockets below and a rim above. The only CAD file."""
+"""The printable solid, built from blocks. The only file that builds with cadquery."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError
+from shoes.block import Block, Groove, Step
 from shoes.outline import ring
-from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan
 
-__all__ = ["build_tray", "load_cadquery", "read_step", "surface_of", "write_step"]
+__all__ = ["build_solid", "load_cadquery", "read_step", "surface_of", "write_step"]
 
 
 def load_cadquery() -> Any:
@@ -28,40 +29,79 @@ def load_cadquery() -> Any:
     return cadquery
 
 
-def build_tray(plan: ShoePlan, parameters: ShoeParameters) -> Any:
+def build_solid(steps: Sequence[Step]) -> Any:
     """Build the solid of one shoe.
 
-    Frame: the sole frame in mm; the contact face is z = 0, the foot stands on z = plate_thickness.
+    Frame: the sole frame in mm; the contact face is z = 0.
 
     Args:
-        plan: Outlines seen from above.
-        parameters: Heights and depths.
+        steps: What is added and cut, in order; the first adds.
 
     Returns:
         The cadquery solid.
 
     Raises:
-        FootError: If the outlines do not give one solid.
+        FootError: If the blocks do not give one solid.
     """
     cq = load_cadquery()
-    p = parameters
-    plate = _prism(cq, plan.contact, 0.0, p.plate_thickness)
-    rim = _prism(cq, plan.rim, 0.0, p.height)
-    cuts = [_prism(cq, plan.cavity, p.plate_thickness, p.height + 1.0)]
-    cuts += [_prism(cq, r, -1.0, p.patch_depth) for r in plan.recesses]
-    cuts += [_prism(cq, h, 0.5 * p.patch_depth, p.patch_depth + p.pocket_depth) for h in plan.pockets]
-    shape = plate.fuse(rim).cut(*cuts).clean()
+    shape: Any = None
+    for step in steps:
+        bodies = [_body(cq, block) for block in step.blocks]
+        if not bodies:
+            continue
+        if step.within is not None:
+            low, high = min(b.z_low for b in step.blocks), max(b.z_high for b in step.blocks)
+            limit = _body(cq, Block(step.within, low - 1.0, high + 1.0))
+            first, *others = bodies
+            shape = shape.fuse((first.fuse(*others) if others else first).intersect(limit))
+        elif shape is None:
+            shape, *bodies = bodies
+            shape = shape.fuse(*bodies) if bodies else shape
+        else:
+            shape = shape.fuse(*bodies) if step.kind == "add" else shape.cut(*bodies)
+    shape = shape.clean()
     solids = shape.Solids()
     if len(solids) != 1:
-        raise FootError(f"the shoe falls into {len(solids)} solids; use a thicker border, rim or plate")
+        raise FootError(f"the shoe falls into {len(solids)} solids; use a thicker border, rim or floor")
     return solids[0]
 
 
-def _prism(cq: Any, polygon: Any, low: float, high: float) -> Any:
-    """A polygon extruded from z = low to z = high."""
-    points = [cq.Vector(float(x), float(y), low) for x, y in ring(polygon)]
-    wire = cq.Wire.makePolygon(points, close=True)
-    return cq.Solid.extrudeLinear(wire, [], cq.Vector(0.0, 0.0, high - low))
+def _body(cq: Any, block: Block | Groove) -> Any:
+    """The solid of a block."""
+    if isinstance(block, Groove):
+        return _groove(cq, block)
+    if block.high is None:
+        outer = _wire(cq, ring(block.low), block.z_low)
+        inner = [_wire(cq, np.asarray(h.coords)[:-1], block.z_low) for h in block.low.interiors]
+        return cq.Solid.extrudeLinear(outer, inner, cq.Vector(0.0, 0.0, block.z_high - block.z_low))
+    low = [cq.Vector(float(x), float(y), block.z_low) for x, y in ring(block.low)]
+    high = [cq.Vector(float(x), float(y), block.z_high) for x, y in ring(block.high)]
+    count = len(low)
+    corners = [low[::-1], high]
+    corners += [[low[i], low[(i + 1) % count], high[(i + 1) % count], high[i]] for i in range(count)]
+    faces = [cq.Face.makeFromWires(cq.Wire.makePolygon(c, close=True)) for c in corners]
+    return cq.Solid.makeSolid(cq.Shell.makeShell(faces))
+
+
+def _groove(cq: Any, groove: Groove) -> Any:
+    """The solid of a half groove."""
+    line, edge = ring(groove.line), ring(groove.edge)
+    open_end = groove.z_low - 0.5
+
+    def at(points: NDArray[np.float64], z: float) -> list[Any]:
+        return [cq.Vector(float(x), float(y), z) for x, y in points]
+
+    rings = [at(line, open_end), at(line, groove.z_high), at(edge, groove.z_low), at(edge, open_end)]
+    faces = [cq.Face.makeFromWires(_wire(cq, line, open_end), [_wire(cq, edge, open_end)])]
+    for low, high in pairwise(rings):
+        for i in range(len(line)):
+            j = (i + 1) % len(line)
+            faces.append(cq.Face.makeFromWires(cq.Wire.makePolygon([low[i], low[j], high[j], high[i]], close=True)))
+    return cq.Solid.makeSolid(cq.Shell.makeShell(faces))
+
+
+def _wire(cq: Any, points: NDArray[np.float64], z: float) -> Any:
+    return cq.Wire.makePolygon([cq.Vector(float(x), float(y), z) for x, y in points], close=True)
 
 
 def surface_of(solid: Any) -> NDArray[np.float64]:

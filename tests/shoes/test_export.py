@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from pathlib import Path
 
@@ -12,38 +14,81 @@ import trimesh
 from plantar import read_layout
 from plantar.errors import InputError
 from shoes import Foot, ShoeReport, build_shoe, export_shoe
+from shoes.mesh_file import read_mesh
+from shoes.parameters import ShoeParameters, read_parameters
 from shoes.tray import read_step
 
 
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
-    assert len(report.files) == 9
+    assert len(report.files) == 2 * 8 + 2
     figures = json.loads((folder / "check.json").read_text())
     assert figures == json.loads(json.dumps(report.as_dict()))
     assert figures["holds"] is True
+    p = report.build.parameters
     for side in ("left", "right"):
         mesh = trimesh.load(folder / f"shoe_{side}.stl", force="mesh")
         assert mesh.is_watertight
         assert mesh.volume / 1000 == pytest.approx(figures["sides"][side]["volume_cm3"], rel=5e-3)
         np.testing.assert_allclose(mesh.extents, figures["sides"][side]["size_mm"], atol=2e-3)
-        assert mesh.bounds[0, 2] == 0.0
+        assert mesh.bounds[0, 2] == pytest.approx(p.bottom)
         solid = read_step(str(folder / f"shoe_{side}.step"))
         assert solid.isValid()
         assert solid.Volume() == pytest.approx(mesh.volume, rel=5e-3)
+        triangles, unit = read_mesh(folder / f"shoe_{side}.3mf")
+        assert unit == "mm"
+        same = trimesh.Trimesh(**trimesh.triangles.to_kwargs(triangles))
+        assert same.is_watertight
+        assert same.volume == pytest.approx(mesh.volume, rel=1e-5)
+        pad = trimesh.load(folder / f"pad_{side}.stl", force="mesh")
+        assert pad.is_watertight
+        assert (pad.bounds[0, 2], pad.bounds[1, 2]) == (0.0, p.pad_thickness)
+        for name in (f"drawing_{side}.png", f"picture_{side}.png"):
+            assert (folder / name).read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+        assert (folder / f"drawing_{side}.svg").read_text().lstrip().startswith("<?xml")
+
+
+def test_the_layout_tells_a_simulator_of_the_shoe(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    for side in ("left", "right"):
         layout = read_layout(folder / f"layout_{side}.json")
-        assert (layout.side, len(layout)) == (side, figures["taxels"])
+        assert (layout.side, len(layout)) == (side, len(report.build.shoes[0].layout))
+        pad = trimesh.load(folder / f"pad_{side}.stl", force="mesh")
         low, high = layout.outline.min(axis=0) * 1000, layout.outline.max(axis=0) * 1000
-        np.testing.assert_allclose(mesh.bounds[:, :2], [low, high], atol=2e-3)
-        assert (folder / f"drawing_{side}.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+        np.testing.assert_allclose(pad.bounds[:, :2], [low, high], atol=2e-3)
+        told = json.loads((folder / f"layout_{side}.json").read_text())["shoe"]
+        assert told["thickness"] == pytest.approx(report.build.parameters.thickness / 1000)
+        weights = report.weights[side]
+        assert told["mass"] == pytest.approx(weights.total / 1000, abs=1e-6)
+        assert told["mass_printed"] == pytest.approx(report.checks[side].mass_g / 1000, abs=1e-5)
+        assert weights.pad == pytest.approx(pad.volume / 1000 * 1.15, rel=1e-3)
+        assert told["connectors"] == [int(layout.ids[i]) for i in report.build.shoes[0].plan.connectors]
+        assert len(told["cable_route"]) == len(layout) - len(told["connectors"])
+
+
+def test_the_bill_lists_what_a_shoe_needs(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    rows = list(csv.DictReader(io.StringIO((folder / "parts.csv").read_text())))
+    left = {row["part"]: row for row in rows if row["side"] == "left"}
+    assert set(left) == {"shoe, left", "pad, left", "taxel", "connection board", "cable", "strap"}
+    assert int(left["taxel"]["quantity"]) == len(report.build.shoes[0].layout)
+    assert float(left["shoe, left"]["mass_g"]) == report.checks["left"].mass_g
+    assert left["shoe, left"]["material"] == "PA12"
+
+
+def test_a_report_gives_the_same_shoe_again(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    assert read_parameters(folder / "check.json") == report.build.parameters
 
 
 def test_the_same_foot_gives_the_same_bytes(
     small_foot: Foot, exported: tuple[ShoeReport, Path], tmp_path: Path
 ) -> None:
     export_shoe(build_shoe(small_foot, side="right"), tmp_path)
-    for name in ("shoe_right.stl", "shoe_right.step", "layout_right.json", "drawing_right.png"):
-        assert (tmp_path / name).read_bytes() == (exported[1] / name).read_bytes(), name
+    for path in tmp_path.iterdir():
+        if path.name not in ("check.json", "parts.csv"):  # which list both sides there
+            assert path.read_bytes() == (exported[1] / path.name).read_bytes(), path.name
 
 
 def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot: Foot, tmp_path: Path) -> None:
@@ -52,6 +97,9 @@ def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot: Foo
     assert report.holds
     assert "watertight" not in report.as_dict()
     assert report.as_dict()["taxels"] == len(report.build.shoes[0].layout)
+    told = json.loads((tmp_path / "layout_left.json").read_text())["shoe"]
+    assert told["thickness"] == ShoeParameters().thickness / 1000
+    assert "mass" not in told
 
 
 def test_a_missing_folder_is_refused(small_foot: Foot, tmp_path: Path) -> None:

@@ -1,107 +1,12 @@
-"""Tests of feet: units, sole plane, frames, and bodies that are no foot."""
+"""Tests of feet that are given by dimensions or an outline."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
-from pathlib import Path
-
-import numpy as np
 import pytest
 import shapely
-import trimesh
-from numpy.typing import NDArray
 
-from plantar.errors import FootError, InputError
-from shoes.foot import foot_from_dimensions, foot_from_mesh
-
-Shape = Callable[..., NDArray[np.float64]]
-Writer = Callable[..., Path]
-
-
-@pytest.mark.parametrize(
-    ("scale", "unit", "note"),
-    [
-        (1.0, None, "unit mm, detected from the size (200 mm long)"),
-        (1e-3, None, "unit m, detected from the size (0.2 m long)"),
-        (0.1, "cm", "unit cm as given"),
-        (1 / 25.4, "in", "unit in as given"),
-    ],
-)
-def test_the_unit_is_found_and_stated(box: Shape, stl: Writer, scale: float, unit: str | None, note: str) -> None:
-    foot = foot_from_mesh(stl(box((-50, 150), (-40, 40), (10, 70)) * scale), unit=unit)  # type: ignore[arg-type]
-    assert note in foot.notes
-    assert foot.sole.bounds == pytest.approx((-50, -40, 150, 40), abs=2e-3)
-    assert foot.height == pytest.approx(60, abs=1e-3)
-    assert any("sole plane at the mesh's lowest point, z = 10.0 mm" in n for n in foot.notes)
-
-
-def test_another_sole_plane_and_forward_axis_can_be_given(box: Shape, stl: Writer) -> None:
-    # Along y: a foot of 200 x 80 with a stud below its sole.
-    body = np.concatenate([box((-40, 40), (-50, 150), (0, 60)), box((-5, 5), (0, 10), (-8, 0))])
-    with pytest.raises(FootError, match="no flat sole"):
-        foot_from_mesh(stl(body))
-    with pytest.raises(FootError, match="x must point forward"):
-        foot_from_mesh(stl(body), sole_z=0.0)
-    foot = foot_from_mesh(stl(body), sole_z=0.0, forward="y")
-    assert foot.sole.equals(shapely.box(-50, -40, 150, 40))
-    assert any("8.0 mm of the mesh lie below the sole plane and are ignored" in n for n in foot.notes)
-    assert foot_from_mesh(stl(body), sole_z=0.0, forward="-y").sole.equals(shapely.box(-150, -40, 50, 40))
-
-
-@pytest.mark.parametrize("forward", ["x", "-x", "y", "-y"])
-def test_a_turned_foot_is_the_same_foot(prism: Shape, stl: Writer, forward: str) -> None:
-    outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
-    turn = {"x": [[1, 0], [0, 1]], "-x": [[-1, 0], [0, -1]], "y": [[0, -1], [1, 0]], "-y": [[0, 1], [-1, 0]]}[forward]
-    foot = foot_from_mesh(stl(prism(outline @ np.array(turn).T, 0, 50)), forward=forward)  # type: ignore[arg-type]
-    assert foot.sole.equals(shapely.Polygon(outline))
-
-
-def test_a_right_foot_is_mirrored_to_the_left(prism: Shape, stl: Writer) -> None:
-    outline = np.array([[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]], dtype=float)
-    left = foot_from_mesh(stl(prism(outline, 0, 50)))
-    right = foot_from_mesh(stl(prism(outline * [1, -1], 0, 50)), mesh_side="right")
-    assert right.sole.equals(left.sole)
-
-
-def test_a_foot_that_widens_upwards_has_an_outline_for_every_height(box: Shape, stl: Writer) -> None:
-    body = np.concatenate([box((-50, 150), (-40, 40), (0, 8)), box((-60, 170), (-50, 55), (8, 60))])
-    foot = foot_from_mesh(stl(body))
-    assert foot.sole.bounds == (-50, -40, 150, 40)
-    assert foot.outline_up_to(12.0).bounds == (-60, -50, 170, 55)
-
-
-def test_open_meshes_and_far_origins_are_noted(box: Shape, stl: Writer) -> None:
-    body = box((-50, 150), (-40, 40), (0, 60))
-    assert not any("not closed" in n or "far from the sole" in n for n in foot_from_mesh(stl(body)).notes)
-    assert any("not closed" in n for n in foot_from_mesh(stl(body[1:])).notes)
-    assert any("far from the sole" in n for n in foot_from_mesh(stl(body + np.array([900, 0, 0]))).notes)
-
-
-def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
-    with pytest.raises(FootError, match="no flat sole: the lowest 5 mm cover 16 %"):
-        foot_from_mesh(stl(trimesh.creation.icosphere(radius=60.0).triangles))
-    with pytest.raises(FootError, match="is a block, not a foot"):
-        foot_from_mesh(stl(box((0, 100), (0, 100), (0, 100))))
-    with pytest.raises(FootError, match=r"0\.5 mm high"):
-        foot_from_mesh(stl(box((0, 200), (0, 100), (0, 0.5))))
-    for scale in (1.0, 1e-3):
-        with pytest.raises(FootError, match="fits neither m nor mm; allowed: a foot of 60 to 450 mm"):
-            foot_from_mesh(stl(box((0, 5000), (0, 2000), (0, 900)) * scale))
-    with pytest.raises(FootError, match="5000 mm long"):
-        foot_from_mesh(stl(box((0, 5), (0, 2), (0, 1))), unit="m")
-    with pytest.raises(FootError, match="the sole is 200 x 8 mm"):
-        foot_from_mesh(stl(box((0, 200), (0, 8), (0, 60))))
-    with pytest.raises(FootError, match="above the sole plane"):
-        foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), sole_z=500.0)
-    with pytest.raises(FootError, match="no surface in its lowest 5 mm"):
-        foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), sole_z=-500.0)
-    with pytest.raises(InputError, match="allowed: x, y, -x, -y"):
-        foot_from_mesh(stl(box((0, 200), (0, 80), (0, 60))), forward="z")  # type: ignore[arg-type]
-
-
-def test_a_square_flat_foot_is_a_foot(box: Shape, stl: Writer) -> None:
-    assert foot_from_mesh(stl(box((0, 120), (0, 120), (0, 40)))).sole.area == pytest.approx(120 * 120)
+from plantar.errors import FootError
+from shoes.foot import foot_from_dimensions, foot_from_outline
 
 
 @pytest.mark.parametrize(
@@ -121,15 +26,21 @@ def test_dimensions_out_of_range_are_refused(change: dict[str, float]) -> None:
         foot_from_dimensions("a", **(good | change))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("name", ["jvrc1", "talos", "robotis_op3"])
-def test_real_feet_have_their_known_soles(real_data: Path, name: str) -> None:
-    truth = json.loads((real_data / "feet" / f"{name}.json").read_text())
-    foot = foot_from_mesh(real_data / "feet" / f"{name}.stl")
-    assert foot.sole.area == pytest.approx(truth["lowest_5mm"]["hull_area_mm2"], rel=2e-3)
-    low_x, low_y, high_x, high_y = foot.sole.bounds
-    np.testing.assert_allclose([low_x, high_x], truth["lowest_5mm"]["x_mm"], atol=0.15)
-    np.testing.assert_allclose([low_y, high_y], truth["lowest_5mm"]["y_mm"], atol=0.15)
-    reference = shapely.Polygon(truth["outline_hull_mm"])
-    assert foot.sole.hausdorff_distance(reference) < 0.5  # the reference is simplified
-    assert any(n.startswith("unit m") for n in foot.notes)
-    assert any("not closed" in n for n in foot.notes) == (not truth["watertight"])
+def test_an_outline_of_a_foots_size_is_a_foot() -> None:
+    outline = shapely.Polygon([(-60, -40), (120, -30), (140, 10), (110, 50), (-60, 35)])
+    foot = foot_from_outline("a", outline)
+    assert foot.sole.equals(outline)
+    assert foot.passing(30.0).equals(outline)
+    for bad in (shapely.box(0, 0, 30, 20), shapely.box(0, 0, 5000, 200), shapely.box(0, 0, 90, 200)):
+        with pytest.raises(FootError, match=r"a: the outline is .*; allowed: 60 to 450 mm long"):
+            foot_from_outline("a", bad)
+
+
+def test_what_passes_a_height_holds_the_sole_and_is_worked_out_once() -> None:
+    calls = []
+    sole = shapely.box(-60, -30, 90, 30)
+    foot = foot_from_outline("a", sole)
+    wide = type(foot)("a", sole, lambda h: calls.append(h) or shapely.box(-50, -20, 80, 20 + h), 50.0)
+    assert wide.passing(20.0).bounds == (-60.0, -30.0, 90.0, 40.0)
+    assert wide.passing(20.0) is wide.passing(20.0)
+    assert calls == [20.0]

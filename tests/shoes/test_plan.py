@@ -1,4 +1,4 @@
-"""Tests of the plan: what is inside what, and the mirrored side."""
+"""Tests of the plan: what is inside what, the cable's way, and the mirrored side."""
 
 from __future__ import annotations
 
@@ -10,45 +10,93 @@ import pytest
 import shapely
 
 from plantar.errors import FootError
-from shoes.fit import LatticeFit, fit_lattice
 from shoes.foot import Foot
 from shoes.outline import ring
 from shoes.parameters import ShoeParameters
 from shoes.plan import ShoePlan, mirrored_plan, plan_shoe
+from shoes.taxels import TaxelFit, fit_taxels
 
 
 @pytest.fixture(scope="module")
-def fit(small_foot: Foot) -> LatticeFit:
-    return fit_lattice(small_foot.sole, taxels=9, overhang_max=7.7)
+def fit(small_foot: Foot) -> TaxelFit:
+    return fit_taxels(small_foot.sole, taxels=9, overhang_max=10.0, border=2.0)
 
 
 @pytest.fixture(scope="module")
-def plan(small_foot: Foot, fit: LatticeFit) -> ShoePlan:
+def plan(small_foot: Foot, fit: TaxelFit) -> ShoePlan:
     return plan_shoe(small_foot, fit, ShoeParameters())
 
 
-def test_everything_is_where_it_belongs(plan: ShoePlan, small_foot: Foot, fit: LatticeFit) -> None:
+def test_everything_is_where_it_belongs(plan: ShoePlan, small_foot: Foot) -> None:
     p = ShoeParameters()
     assert plan.cavity.exterior.distance(small_foot.sole) == pytest.approx(p.clearance, abs=0.01)
     assert plan.rim.exterior.distance(plan.cavity) == pytest.approx(p.rim_thickness, abs=0.03)
     assert plan.contact.buffer(2e-3).covers(plan.rim)
-    assert plan.contact.exterior.distance(plan.recesses[0]) >= p.border - 0.01
-    cells = shapely.polygons(fit.lattice.corners(fit.cells))
-    for cell, pocket in zip(cells, plan.pockets, strict=True):
+    for cell, pocket in zip(plan.cells, plan.pockets, strict=True):
         assert cell.exterior.distance(pocket) == pytest.approx(0.5 * p.rib)
-        assert plan.recesses[0].covers(cell)
+        assert plan.contact.exterior.distance(cell) >= p.border - 0.01
     gaps = [a.distance(b) for i, a in enumerate(plan.pockets) for b in plan.pockets[:i]]
     assert min(gaps) == pytest.approx(p.rib)
     assert 0.0 < plan.overhang <= p.overhang_max
 
 
-def test_the_layout_is_in_metres_in_the_sole_frame(plan: ShoePlan, fit: LatticeFit) -> None:
+def test_the_layout_is_in_metres_in_the_sole_frame(plan: ShoePlan, fit: TaxelFit) -> None:
     layout = plan.layout
     assert (layout.side, layout.name, len(layout)) == ("left", "small", 9)
-    np.testing.assert_allclose(layout.positions[:, :2] * 1000, fit.lattice.centres(fit.cells), atol=1e-6)
+    assert fit.lattice_cells is not None
+    centres = fit.lattices[0].centres(fit.lattice_cells)
+    np.testing.assert_allclose(layout.positions[:, :2] * 1000, centres, atol=1e-6)
     np.testing.assert_allclose(layout.areas, 691e-6, rtol=1e-6)
     np.testing.assert_allclose(layout.outline * 1000, ring(plan.contact), atol=1e-3)
     assert all(layout.neighbours)
+
+
+def test_cut_cells_share_their_corners_in_the_layout() -> None:
+    from shoes.foot import foot_from_dimensions
+
+    foot = foot_from_dimensions("b", length=0.241, width=0.138, sole_center=(0.015, 0.0), corner_radius=0.0196)
+    fit = fit_taxels(foot.sole, taxels=51, overhang_max=10.0, border=2.0)
+    layout = plan_shoe(foot, fit, ShoeParameters(border=fit.border)).layout
+    whole = fit_taxels(foot.sole.buffer(12.0), taxels=51, overhang_max=0.0)
+    assert whole.lattice_cells is not None
+    assert len(layout) == 51
+    pairs = sum(len(n) for n in layout.neighbours) // 2
+    assert pairs > 51 * 2.3  # of a patch of whole cells: 3 n less the rim
+    assert layout.cell_area == pytest.approx(691e-6)
+    assert layout.cell_shape == "hexagon"
+
+
+def test_the_cable_reaches_every_taxel_once(plan: ShoePlan) -> None:
+    assert len(plan.connectors) == 1
+    assert plan.connectors[0] == int(
+        np.argmin(np.hypot(*(plan.layout.positions[:, :2] * 1000 - np.array(plan.heel)).T))
+    )
+    assert len(plan.route) == len(plan.layout) - 1
+    reached = {plan.connectors[0]}
+    for i, j in plan.route:
+        assert i in reached
+        assert j not in reached
+        assert j in plan.layout.neighbours[i]
+        reached.add(j)
+    assert reached == set(range(len(plan.layout)))
+
+
+def test_patches_apart_get_a_connector_each(small_foot: Foot, fit: TaxelFit) -> None:
+    x = np.array([f.mean(axis=0)[0] for f in fit.cells])
+    kept = np.flatnonzero((x < x.min() + 30.0) | (x > x.max() - 30.0))
+    apart = replace(
+        fit,
+        cells=tuple(fit.cells[i] for i in kept),
+        shares=fit.shares[kept],
+        patches=fit.patches[kept],
+        lattice_cells=None,
+    )
+    plan = plan_shoe(small_foot, apart, ShoeParameters())
+    assert len(plan.connectors) == 2
+    assert len(plan.route) == len(plan.layout) - 2
+    first, second = (plan.layout.positions[i, 0] for i in plan.connectors)
+    assert first < second
+    assert second == min(v for v in plan.layout.positions[:, 0] if v > first + 0.035)  # as near to the first as can be
 
 
 def test_the_other_side_is_the_mirror_image(plan: ShoePlan) -> None:
@@ -60,25 +108,18 @@ def test_the_other_side_is_the_mirror_image(plan: ShoePlan) -> None:
         shape, mirror = getattr(plan, name), getattr(right, name)
         assert mirror.exterior.is_ccw
         assert mirror.equals(shapely.affinity.scale(shape, 1.0, -1.0, origin=(0, 0)))
-    back = mirrored_plan(right)
-    assert back.contact.equals(plan.contact)
-
-
-def test_cells_apart_get_recesses_of_their_own(small_foot: Foot) -> None:
-    lattice = fit_lattice(small_foot.sole).lattice
-    apart = LatticeFit(lattice, np.array([[-1, 0], [2, 0]]), 0.0, 0.0, 0.0)
-    plan = plan_shoe(small_foot, apart, ShoeParameters())
-    assert len(plan.recesses) == 2
-    assert plan.recesses[0].distance(plan.recesses[1]) > 10
+    assert right.route == plan.route
+    assert right.heel == pytest.approx((plan.heel[0], -plan.heel[1]))
+    assert mirrored_plan(right).contact.equals(plan.contact)
 
 
 def test_cells_too_small_for_the_ribs_are_refused(small_foot: Foot) -> None:
-    fit = fit_lattice(small_foot.sole, cell_area=100.0)
+    fit = fit_taxels(small_foot.sole, cell_area=100.0)
     with pytest.raises(FootError, match="leave no pocket between ribs of 8 mm"):
         plan_shoe(small_foot, fit, replace(ShoeParameters(), rib=8.0))
 
 
-def test_a_wide_instep_widens_the_cavity_but_not_the_sole(small_foot: Foot, fit: LatticeFit) -> None:
+def test_a_wide_instep_widens_the_cavity_but_not_the_sole(small_foot: Foot, fit: TaxelFit) -> None:
     wide = replace(small_foot, outline_up_to=lambda height: small_foot.sole.buffer(6.0))
     plan = plan_shoe(wide, fit, ShoeParameters())
     assert plan.cavity.area == pytest.approx(small_foot.sole.buffer(6.5).area, rel=1e-2)

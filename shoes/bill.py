@@ -1,0 +1,177 @@
+"""Bill of parts of a pair or a single shoe: what is printed, cut and bought, and what it weighs."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from shoes.build import Shoe, ShoeBuild
+from shoes.units import to_mm
+
+__all__ = ["Part", "Weights", "bill_of_parts", "bill_text", "weigh"]
+
+_BOARD_DENSITY = 1.85e-3  # g/mm^3, glass fibre and copper
+_BOARD_UP = 12.0  # mm of board above the shelf
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What one shoe weighs, in g.
+
+    Attributes:
+        printed: The printed part.
+        pad: The silicone pad.
+        skin: The taxels: their area times protrusion and pocket depth at the parameter skin_density.
+        board: The connection board.
+    """
+
+    printed: float
+    pad: float
+    skin: float
+    board: float
+
+    @property
+    def total(self) -> float:
+        """All together."""
+        return self.printed + self.pad + self.skin + self.board
+
+
+@dataclass(frozen=True)
+class Part:
+    """One line of the bill.
+
+    Attributes:
+        part: What it is.
+        quantity: How many for one shoe.
+        material: Of what.
+        size: How large.
+        mass_g: Mass of all of them in g; None where it is not known.
+        note: What it is for, or how it is made.
+    """
+
+    part: str
+    quantity: int
+    material: str
+    size: str
+    mass_g: float | None
+    note: str
+
+
+def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
+    """Weigh a shoe.
+
+    Args:
+        shoe: The shoe.
+        build: What it belongs to.
+        volume: Volume of the printed part in mm^3.
+
+    Returns:
+        The masses.
+    """
+    p = build.parameters
+    cells = float(shoe.layout.areas.sum()) * 1e6
+    board = p.board_length * _BOARD_UP * p.board_thickness * _BOARD_DENSITY if p.board_length > 0.0 else 0.0
+    return Weights(
+        printed=round(volume / 1000.0 * p.printed.density, 2),
+        pad=round(shoe.plan.contact.area * p.pad_thickness / 1000.0 * p.pad_density, 2),
+        skin=round(cells * (p.taxel_protrusion + p.pocket_depth) / 1000.0 * p.skin_density, 2),
+        board=round(board, 2),
+    )
+
+
+def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
+    """The parts of one shoe.
+
+    Args:
+        shoe: The shoe.
+        build: What it belongs to.
+        weights: Its masses.
+
+    Returns:
+        The lines of the bill.
+    """
+    p, plan, side = build.parameters, shoe.plan, shoe.side
+    low_x, low_y, high_x, high_y = plan.contact.bounds
+    outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
+    parts = [
+        Part(
+            f"shoe, {side}", 1, p.material, f"{outline} x {p.rim_top - p.bottom:g} mm and more", weights.printed,
+            f"printed from shoe_{side}.stl, .3mf or .step",
+        )
+    ]  # fmt: skip
+    if p.pad_thickness > 0.0:
+        parts.append(
+            Part(
+                f"pad, {side}", 1, "silicone, about 40 Shore A", f"{outline} x {p.pad_thickness:g} mm", weights.pad,
+                f"cut from sheet, or cast, to pad_{side}.stl; glued to the taxels, replaced when worn",
+            )
+        )  # fmt: skip
+    cut = int((build.fit.shares < 1.0 - 1e-6).sum())
+    note = f"in {len(plan.connectors)} patch(es)" + (f"; {cut} of them trimmed at the rim" if cut else "")
+    height = p.taxel_protrusion + p.pocket_depth
+    parts.append(
+        Part("taxel", len(shoe.layout), "skin", f"{build.fit.cell_area:g} mm2 x {height:g} mm", weights.skin, note)
+    )
+    if p.board_length > 0.0:
+        size = f"{p.board_length:g} x {_BOARD_UP:g} x {p.board_thickness:g} mm"
+        parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
+    parts.append(
+        Part(
+            "cable",
+            len(plan.connectors),
+            "flat",
+            f"{_cable(shoe):.0f} mm or longer",
+            None,
+            "patch to heel, in the channel",
+        )
+    )
+    parts += _holding(build, high_y - low_y)
+    return parts
+
+
+def _cable(shoe: Shoe) -> float:
+    """Length in mm from the farthest connector to the heel."""
+    x, y = shoe.plan.heel
+    at = to_mm(shoe.layout.positions[list(shoe.plan.connectors), :2])
+    return float(np.hypot(at[:, 0] - x, at[:, 1] - y).max()) + 20.0
+
+
+def _holding(build: ShoeBuild, width: float) -> list[Part]:
+    """What holds the shoe and is not printed with it."""
+    p, retention = build.parameters, build.retention
+    if retention is None or not retention.places:
+        return []
+    if retention.kind == "straps":
+        over = 2.5 * (width + 2.0 * min(build.foot.height, 80.0))
+        size = f"{retention.width:g} x {p.strap_thickness:g} mm, {10 * math.ceil(over / 10):g} mm long"
+        return [Part("strap", retention.straps, "hook and loop", size, None, "over the instep, through the lugs")]
+    if retention.kind == "screws":
+        size = f"M{retention.width:g} x {p.rim_thickness + 2.0 * retention.width:.0f} mm, soft tip"
+        count = len(retention.places)
+        return [
+            Part("set screw", count, "steel", size, None, "through the wall, clamps the foot's sides"),
+            Part("nut", count, "steel", f"M{retention.width:g}", None, "in the slot of the boss"),
+        ]
+    return []
+
+
+def bill_text(bills: dict[str, list[Part]]) -> str:
+    """Bills of parts of each side as CSV.
+
+    Args:
+        bills: The lines by side.
+
+    Returns:
+        The text, a header first.
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["side", *Part.__dataclass_fields__])
+    for side, parts in bills.items():
+        for part in parts:
+            writer.writerow([side, *("" if v is None else v for v in asdict(part).values())])
+    return out.getvalue()

@@ -1,0 +1,52 @@
+"""Printed materials: what the strength check and the masses need of them.
+
+Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG and PLA: filament);
+a part that carries a person or an expensive robot deserves the data of its own maker.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+__all__ = ["GRAVITY", "MATERIALS", "Material"]
+
+GRAVITY = 9.81
+"""Standard gravity in m/s^2."""
+
+
+@dataclass(frozen=True)
+class Material:
+    """A printed material.
+
+    Attributes:
+        name: Its name.
+        process: How it is printed: "powder bed" needs no supports, "filament" lays lines.
+        density: Density in g/cm^3.
+        modulus: Young's modulus in MPa.
+        strength: Tensile strength within a layer in MPa.
+        across: Share of the strength that holds across the layers, 0..1.
+        strain: Strain that a clip may take each time it is put on, 0..1.
+    """
+
+    name: str
+    process: str
+    density: float
+    modulus: float
+    strength: float
+    across: float
+    strain: float
+
+    def with_density(self, density: float) -> Material:
+        """The material with another density in g/cm^3; 0 keeps its own."""
+        return replace(self, density=density) if density > 0.0 else self
+
+
+MATERIALS: dict[str, Material] = {
+    m.name: m
+    for m in (
+        Material("PA12", "powder bed", 1.01, 1700.0, 48.0, 0.85, 0.040),
+        Material("PETG", "filament", 1.27, 2000.0, 45.0, 0.55, 0.025),
+        Material("PLA", "filament", 1.24, 3000.0, 50.0, 0.50, 0.015),
+    )
+}
+"""The printed materials by name."""

@@ -1,0 +1,333 @@
+"""The outer geometry of one body of a robot's model: MJCF or URDF, without a simulator."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from shoes.mesh_file import read_mesh
+from shoes.primitives import primitive
+from shoes.transforms import Pose, mjcf_rotation, rpy_rotation
+
+__all__ = ["MODEL_FORMATS", "BodyGeometry", "read_foot_body", "side_of_name"]
+
+MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")
+"""File endings of robot models that are read."""
+
+_MOST_INCLUDES = 100
+_SHOWN = 14  # names in a message
+
+Array = NDArray[np.float64]
+Element = ElementTree.Element
+
+
+@dataclass(frozen=True)
+class BodyGeometry:
+    """The surface of a body, its frame's origin at the origin and turned as in the model's zero pose.
+
+    Attributes:
+        triangles: Triangles (n, 3, 3) in m, z up.
+        side: Side that the body's name tells, None where it does not.
+        note: What was read.
+    """
+
+    triangles: Array
+    side: Literal["left", "right"] | None
+    note: str
+
+
+def side_of_name(name: str) -> Literal["left", "right"] | None:
+    """Side that a body's name tells.
+
+    Example:
+        >>> side_of_name("leg_left_6_link"), side_of_name("R_ANKLE_P_S"), side_of_name("LeftFoot"), side_of_name("sole")
+        ('left', 'right', 'left', None)
+    """
+    words = [w.lower() for w in re.findall(r"[A-Z]?[a-z]+|[A-Z]+|\d+", name)]
+    left, right = (s in words or name.lower().startswith(s) for s in ("left", "right"))
+    if left == right:
+        left, right = "l" in words, "r" in words
+    if left == right:
+        return None
+    return "left" if left else "right"
+
+
+def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeometry:
+    """Read the geometry of a robot's foot from its model.
+
+    What is drawn is taken (visual geometry), or what collides where nothing is drawn. Bodies fixed to it count as part
+    of it.
+
+    Args:
+        path: MJCF (.xml, .mjcf) or URDF (.urdf, .xml) file; meshes are looked for as the model says.
+        body: Name of the foot's body or link.
+
+    Returns:
+        The geometry.
+
+    Raises:
+        FootError: If the file or one of its meshes cannot be read, or there is no such body, or it has no geometry.
+    """
+    file = Path(path)
+    root = _parsed(file)
+    if root.tag == "robot":
+        bodies = _urdf_bodies(file, root)
+    elif root.tag == "mujoco":
+        bodies = _mjcf_bodies(file, root)
+    else:
+        raise FootError(f"{file}: the outermost element is <{root.tag}>; allowed: <mujoco> (MJCF), <robot> (URDF)")
+    if body is None or body not in bodies:
+        likely = [n for n in bodies if re.search("foot|ankle|sole|toe", n, re.IGNORECASE)] or list(bodies)
+        shown = ", ".join(likely[:_SHOWN]) + (", ..." if len(likely) > _SHOWN else "")
+        what = "name the foot's body (--body)" if body is None else f"there is no body '{body}'"
+        raise FootError(f"{file}: {what}; allowed: {shown}")
+    drawn, colliding = bodies[body]
+    shapes = drawn or colliding
+    if not shapes:
+        raise FootError(f"{file}: body '{body}' has no geometry; name the body that has the foot's")
+    triangles = np.concatenate([shape() for shape in shapes])
+    kind = "drawn" if drawn else "colliding"
+    return BodyGeometry(
+        triangles, side_of_name(body), f"body '{body}': {len(shapes)} {kind} shape(s), in m as models are"
+    )
+
+
+def _parsed(file: Path, depth: int = 0) -> Element:
+    """The XML of a model, MJCF includes put in their place."""
+    if depth > _MOST_INCLUDES:
+        raise FootError(f"{file}: includes itself")
+    try:
+        root = ElementTree.fromstring(file.read_bytes())
+    except OSError as error:
+        raise FootError(f"{file}: cannot be read ({error.strerror}); give an MJCF or URDF file") from None
+    except ElementTree.ParseError as error:
+        raise FootError(f"{file}: not a readable XML file ({error})") from None
+    if root.tag == "robot":
+        return root
+    for parent in root.iter():
+        for place, child in reversed(list(enumerate(parent))):
+            if child.tag == "include":
+                included = _parsed(file.parent / child.get("file", ""), depth + 1)
+                parent[place : place + 1] = list(included)
+    return root
+
+
+Shape = Any  # a callable that gives triangles: meshes are read only of the body that is asked for
+Bodies = dict[str, tuple[list[Shape], list[Shape]]]
+
+
+def _numbers(text: str | None, default: tuple[float, ...], where: str) -> Array:
+    if text is None:
+        return np.array(default)
+    try:
+        out = np.array([float(v) for v in text.split()])
+    except ValueError:
+        raise FootError(f"{where}: '{text[:40]}' is no list of numbers") from None
+    if len(out) < len(default) or not np.isfinite(out).all():
+        raise FootError(f"{where}: '{text[:40]}' needs {len(default)} finite numbers")
+    return out
+
+
+def _urdf_bodies(file: Path, root: Element) -> Bodies:
+    """Drawn and colliding shapes of every link of a URDF."""
+
+    def pose(element: Element | None) -> Pose:
+        if element is None:
+            return Pose()
+        xyz = _numbers(element.get("xyz"), (0.0, 0.0, 0.0), f"{file}: origin")
+        return Pose(xyz[:3], rpy_rotation(_numbers(element.get("rpy"), (0.0, 0.0, 0.0), f"{file}: origin")))
+
+    joints = {}
+    for joint in root.findall("joint"):
+        parent, child = joint.find("parent"), joint.find("child")
+        if parent is not None and child is not None:
+            joints[child.get("link", "")] = (parent.get("link", ""), joint.get("type", ""), pose(joint.find("origin")))
+
+    def turned(link: str) -> Array:
+        """Rotation of a link to the root at the zero pose."""
+        out, seen = np.eye(3), set()
+        while link in joints and link not in seen:
+            seen.add(link)
+            link, _, step = joints[link]
+            out = step.rotation @ out
+        return out
+
+    links = {link.get("name", ""): link for link in root.findall("link")}
+    bodies: Bodies = {}
+    for name in links:
+        found: tuple[list[Shape], list[Shape]] = ([], [])
+        queue = [(name, Pose(np.zeros(3), turned(name)))]
+        while queue:
+            here, at = queue.pop()
+            for place, tag in enumerate(("visual", "collision")):
+                for item in links[here].findall(tag) if here in links else ():
+                    geometry = item.find("geometry")
+                    if geometry is not None and len(geometry):
+                        found[place].append(_urdf_shape(file, geometry[0], at @ pose(item.find("origin"))))
+            queue += [(c, at @ p) for c, (parent, kind, p) in joints.items() if parent == here and kind == "fixed"]
+        bodies[name] = found
+    return bodies
+
+
+def _urdf_shape(file: Path, shape: Element, at: Pose) -> Shape:
+    def read() -> Array:
+        where = f"{file}: <{shape.tag}>"
+        if shape.tag == "mesh":
+            scale = _numbers(shape.get("scale"), (1.0, 1.0, 1.0), where)
+            return at.moved(read_mesh(_mesh_path(file, shape.get("filename", "")))[0], scale)
+        radius, length = (_numbers(shape.get(k), (0.0,), where)[0] for k in ("radius", "length"))
+        if shape.tag == "box":
+            return at.moved(primitive("box", 0.5 * _numbers(shape.get("size"), (0.0, 0.0, 0.0), where), where))
+        sizes = {"cylinder": (radius, 0.5 * length), "capsule": (radius, 0.5 * length), "sphere": (radius,)}
+        if shape.tag not in sizes:
+            raise FootError(f"{where} is no shape that is read; allowed: mesh, box, cylinder, capsule, sphere")
+        return at.moved(primitive(shape.tag, np.array(sizes[shape.tag]), where))
+
+    return read
+
+
+def _mesh_path(file: Path, name: str) -> Path:
+    """Where a URDF's mesh lies: `package://` is looked for beside the file and in the folders above it."""
+    plain = re.sub(r"^(package|model|file)://", "", name)
+    if name.startswith("file://") or (not name.startswith(("package:", "model:")) and Path(plain).is_absolute()):
+        return Path(plain)
+    inside = Path(*Path(plain).parts[1:]) if len(Path(plain).parts) > 1 else Path(plain)
+    for folder in (file.parent, *file.resolve().parents):
+        for candidate in (folder / plain, folder / inside):
+            if candidate.is_file():
+                return candidate
+    return file.parent / plain
+
+
+@dataclass
+class _Defaults:
+    """Attributes that MJCF elements take from their class."""
+
+    classes: dict[str, dict[str, dict[str, str]]]
+
+    @classmethod
+    def of(cls, root: Element) -> _Defaults:
+        out: dict[str, dict[str, dict[str, str]]] = {"main": {}}
+
+        def walk(element: Element, inherited: Mapping[str, dict[str, str]], top: bool) -> None:
+            name = "main" if top else element.get("class", "main")
+            own = {k: dict(v) for k, v in inherited.items()}
+            for child in element:
+                if child.tag != "default":
+                    own[child.tag] = {**own.get(child.tag, {}), **child.attrib}
+            out[name] = own
+            for child in element.findall("default"):
+                walk(child, own, False)
+
+        for element in root.findall("default"):
+            walk(element, out["main"], True)
+        return cls(out)
+
+    def of_element(self, element: Element, child_class: str | None) -> dict[str, str]:
+        """An element's attributes, those it does not state taken from its class."""
+        name = element.get("class", child_class or "main")
+        return {**self.classes.get(name, self.classes["main"]).get(element.tag, {}), **element.attrib}
+
+
+def _mjcf_bodies(file: Path, root: Element) -> Bodies:
+    """Drawn and colliding shapes of every body of an MJCF."""
+    compiler: dict[str, str] = {}
+    for element in root.iter("compiler"):
+        compiler.update(element.attrib)
+    degrees = compiler.get("angle", "degree") != "radian"
+    sequence = compiler.get("eulerseq", "xyz")
+    defaults = _Defaults.of(root)
+    meshes = {}
+    for mesh in root.iter("mesh"):
+        attributes = defaults.of_element(mesh, None)
+        if "file" in attributes or "name" in attributes:
+            meshes[attributes.get("name", Path(attributes.get("file", "")).stem)] = attributes
+    bodies: Bodies = {}
+
+    def pose(element: Element, attributes: Mapping[str, str]) -> Pose:
+        where = f"{file}: <{element.tag} name='{element.get('name', '')}'>"
+        return Pose(
+            _numbers(attributes.get("pos"), (0.0, 0.0, 0.0), where)[:3],
+            mjcf_rotation(attributes, degrees, sequence, where),
+        )
+
+    def shapes(element: Element, at: Pose, child_class: str | None) -> Iterator[tuple[bool, Shape]]:
+        """Shapes of a body and of what is fixed to it."""
+        child_class = element.get("childclass", child_class)
+        for child in element:
+            if child.tag == "geom":
+                attributes = defaults.of_element(child, child_class)
+                if attributes.get("type") in ("plane", "hfield"):
+                    continue
+                drawn = attributes.get("contype", "1") == "0" and attributes.get("conaffinity", "1") == "0"
+                yield drawn, _mjcf_shape(file, attributes, meshes, compiler, at, pose(child, attributes))
+            elif child.tag == "frame" or (child.tag == "body" and not _moves(child)):
+                yield from shapes(child, at @ pose(child, child.attrib), child_class)
+
+    def walk(element: Element, rotation: Array, child_class: str | None) -> None:
+        for child in element:
+            if child.tag not in ("body", "frame"):
+                continue
+            own = child.get("childclass", child_class)
+            turned = rotation @ pose(child, child.attrib).rotation
+            if child.tag == "body":
+                found: tuple[list[Shape], list[Shape]] = ([], [])
+                for drawn, shape in shapes(child, Pose(np.zeros(3), turned), child_class):
+                    found[0 if drawn else 1].append(shape)
+                bodies[child.get("name", "")] = found
+            walk(child, turned, own)
+
+    for world in root.findall("worldbody"):
+        walk(world, np.eye(3), None)
+    return bodies
+
+
+def _moves(body: Element) -> bool:
+    return any(child.tag in ("joint", "freejoint") for child in body)
+
+
+def _mjcf_shape(
+    file: Path,
+    attributes: Mapping[str, str],
+    meshes: Mapping[str, Mapping[str, str]],
+    compiler: Mapping[str, str],
+    body: Pose,
+    own: Pose,
+) -> Shape:
+    def read() -> Array:
+        where = f"{file}: <geom name='{attributes.get('name', '')}'>"
+        kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
+        at = body @ own
+        if kind in ("mesh", "sdf"):
+            name = attributes.get("mesh", "")
+            if name not in meshes or "file" not in meshes[name]:
+                raise FootError(f"{where} names mesh '{name}', which is no <asset> with a file")
+            mesh = meshes[name]
+            folder = compiler.get("meshdir", compiler.get("assetdir", ""))
+            stated = Path(mesh["file"])
+            stated = Path(stated.name) if compiler.get("strippath", "false") == "true" else stated
+            triangles = read_mesh(file.parent / folder / stated)[0]
+            origin = _numbers(mesh.get("refpos"), (0.0, 0.0, 0.0), where)
+            turn = mjcf_rotation({"quat": mesh.get("refquat", "1 0 0 0")}, False, "xyz", where)
+            scale = _numbers(mesh.get("scale"), (1.0, 1.0, 1.0), where)
+            return at.moved((triangles * scale - origin[:3]) @ turn)
+        size = _numbers(attributes.get("size"), (), where)
+        if "fromto" in attributes:
+            ends = _numbers(attributes["fromto"], (0.0,) * 6, where)
+            along = ends[:3] - ends[3:6]
+            half = 0.5 * float(np.linalg.norm(along))
+            turn = mjcf_rotation({"zaxis": " ".join(str(v) for v in along)}, False, "xyz", where)
+            at = body @ Pose(0.5 * (ends[:3] + ends[3:6]), turn)
+            size = np.array([size[0], size[0], half] if kind in ("box", "ellipsoid") else [*size[:1], half])
+        return at.moved(primitive(kind, size, where))
+
+    return read

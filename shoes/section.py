@@ -1,0 +1,166 @@
+"""Plane sections of a closed surface, and the thickness of walls measured in them. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["cut_segments", "section", "section_along", "thinnest_wall", "wall_thickness"]
+
+_OPPOSITE = -0.8  # cosine between the normals of two faces that count as the sides of one wall
+_SPACING = 3.0  # mm between two measurements along a wall
+
+Array = NDArray[np.float64]
+Bands = tuple[tuple[float, float], ...]
+
+
+def cut_segments(triangles: Array, height: float) -> tuple[Array, Array]:
+    """Where a surface crosses the plane z = height.
+
+    Args:
+        triangles: Surface (n, 3, 3) in mm, outward counter-clockwise; no corner lies at the height.
+        height: Height in mm.
+
+    Returns:
+        Segments (m, 2, 2), and the direction (m, 3) of length 1 that points out of the solid at each.
+    """
+    z = triangles[..., 2]
+    above = z > height
+    crossing = triangles[above.any(axis=1) & ~above.all(axis=1)]
+    ends = []
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        a, b = crossing[:, i], crossing[:, j]
+        crosses = (a[:, 2] > height) != (b[:, 2] > height)
+        rise = np.where(crosses, b[:, 2] - a[:, 2], 1.0)
+        point = a[:, :2] + ((height - a[:, 2]) / rise)[:, None] * (b - a)[:, :2]
+        ends.append(np.where(crosses[:, None], point, np.nan))
+    pairs = np.stack(ends, axis=1)  # each triangle has two of three points
+    segments = pairs[np.isfinite(pairs[..., 0])].reshape(-1, 2, 2).round(4)
+    normal = np.cross(crossing[:, 1] - crossing[:, 0], crossing[:, 2] - crossing[:, 0])
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
+    long = (segments[:, 0] != segments[:, 1]).any(axis=1)
+    return segments[long], normal[long]
+
+
+def section(triangles: Array, height: float) -> Any:
+    """The solid's cross-section at z = height.
+
+    Args:
+        triangles: Closed surface (n, 3, 3) in mm; no corner lies at the height.
+        height: Height in mm.
+
+    Returns:
+        A shapely polygon or multipolygon in mm, empty where nothing is cut.
+    """
+    import shapely
+
+    segments, _ = cut_segments(triangles, height)
+    return shapely.build_area(shapely.union_all(shapely.linestrings(segments))) if len(segments) else shapely.Polygon()
+
+
+def section_along(triangles: Array, axis: int, at: float) -> Any:
+    """The solid's cross-section in a plane x = at (axis 0) or y = at (axis 1).
+
+    Args:
+        triangles: Closed surface (n, 3, 3) in mm.
+        axis: 0 or 1.
+        at: Where to cut, in mm.
+
+    Returns:
+        A shapely polygon or multipolygon over (y, z) or (x, z) in mm.
+    """
+    return section(triangles[..., [1, 2, 0] if axis == 0 else [0, 2, 1]], at)
+
+
+def wall_thickness(segments: Array, outwards: Array, leave_out: tuple[int, Bands] | None = None) -> float:
+    """Smallest thickness of the solid between two faces that look away from each other, in a section.
+
+    Args:
+        segments: Segments (m, 2, 2) of the section's border.
+        outwards: Direction (m, 3) of length 1 out of the solid at each, its last component across the section.
+        leave_out: Axis of the section, and bands of it in which nothing is measured; None for none.
+
+    Returns:
+        The thickness in mm; infinite for no segments.
+
+    Example:
+        >>> square = np.array([[[0, 0], [3, 0]], [[3, 0], [3, 9]], [[3, 9], [0, 9]], [[0, 9], [0, 0]]], dtype=float)
+        >>> wall_thickness(square, np.array([[0, -1, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0]], dtype=float))
+        3.0
+    """
+    length = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
+    keep = length > 1e-3
+    segments, length, outwards = segments[keep], length[keep], outwards[keep]
+    if not len(segments):
+        return math.inf
+    along = (segments[:, 1] - segments[:, 0]) / length[:, None]
+    normal = np.column_stack([along[:, 1], -along[:, 0]])
+    normal *= np.where(np.einsum("ij,ij->i", normal, outwards[:, :2]) < 0.0, -1.0, 1.0)[:, None]
+    count = np.maximum(1, np.ceil(length / _SPACING)).astype(int)
+    which = np.repeat(np.arange(len(segments)), count)
+    place = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    share = (place + 0.5) / count[which]
+    start = segments[which, 0] + share[:, None] * (segments[which, 1] - segments[which, 0])
+    if leave_out is not None:
+        at = start[:, leave_out[0]]
+        measured = ~np.any([(at > low) & (at < high) for low, high in leave_out[1]], axis=0)
+        start, which = start[measured], which[measured]
+    thinnest = math.inf
+    step = max(1, 4_000_000 // len(segments))
+    for i in range(0, len(start), step):
+        part = slice(i, i + step)
+        way, first = _first_met(start[part], -normal[which[part]], segments, along, normal, length)
+        opposite = np.einsum("ij,ij->i", outwards[which[part]], outwards[first]) < _OPPOSITE
+        thinnest = min(thinnest, float(np.min(way, initial=math.inf, where=opposite)))
+    return thinnest
+
+
+def _first_met(
+    start: Array, inwards: Array, segments: Array, along: Array, normal: Array, length: Array
+) -> tuple[Array, NDArray[np.int64]]:
+    """Way from each start inwards to the first segment it meets, infinite for none, and which segment that is."""
+    facing = inwards @ normal.T  # > 0: the ray leaves the solid there
+    offset = segments[None, :, 0] - start[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        way = np.einsum("sij,ij->si", offset, normal) / facing
+        at = np.einsum("sij,ij->si", way[..., None] * inwards[:, None] - offset, along)
+    meets = (np.abs(facing) > 1e-9) & (way > 1e-6) & (at >= -1e-6) & (at <= length + 1e-6)
+    way = np.where(meets, way, np.inf)
+    first = way.argmin(axis=1)
+    return way[np.arange(len(start)), first], first
+
+
+def thinnest_wall(triangles: Array, engraved: Bands = ()) -> float:
+    """Thinnest wall, floor or bar of a body: measured in sections along all three axes.
+
+    Args:
+        triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
+        engraved: Bands (low, high) of z in which only lines are engraved: what stands between these is no wall.
+
+    Returns:
+        The thickness in mm.
+    """
+    thinnest = math.inf
+    for order, count in (((0, 1, 2), None), ((1, 2, 0), 17), ((2, 0, 1), 13)):
+        turned = triangles[..., order]
+        upwards = order.index(2)
+        for height in _heights(turned, count):
+            if upwards == 2 and any(low < height < high for low, high in engraved):
+                continue
+            bands = (upwards, engraved) if upwards < 2 and engraved else None
+            thinnest = min(thinnest, wall_thickness(*cut_segments(turned, height), bands))
+    return thinnest
+
+
+def _heights(triangles: Array, count: int | None) -> list[float]:
+    """Heights to cut at: so many, evenly, or one between each two levels at which flat faces lie."""
+    z = triangles[..., 2]
+    if count is not None:
+        low, high = float(z.min()), float(z.max())
+        return [low + (high - low) * (i + 0.517) / count for i in range(count)]
+    flat = np.unique(z[np.ptp(z, axis=1) < 1e-6].round(2))
+    return [float(0.5 * (a + b)) + 1.7e-5 for a, b in pairwise(flat) if b - a > 0.15]

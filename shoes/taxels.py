@@ -1,0 +1,275 @@
+"""The taxels of a sole: one lattice or one for each part of the sole, cells whole or cut at the rim. Lengths in mm."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from plantar.hex_lattice import HexLattice
+from shoes.fit import LatticeFit, fit_lattice
+
+__all__ = ["CORNER", "CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
+
+CORNER = 1.2
+"""How much farther than its edges the corner of a grown outline may lie."""
+
+LEAST_SHARE = 0.6
+"""Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
+
+LEAST_BORDER = 0.5
+"""Border in mm that is left around the cells where a number of them needs the room."""
+
+CUT_CORNER = 1.02
+"""How much farther than its edges a corner of the outline that cuts cells may lie."""
+
+_SAMPLES = 14  # lattice offsets along each axis of the unit cell, where cells are cut
+_ANGLES = (0.0, 30.0)  # degrees, where cells are cut: rows along or across the foot
+
+_SHORT = 1.2  # mm: shortest edge of a cut cell
+_OFF_CENTRE = 0.005  # share of a cell that a mm off the middle is worth
+
+Cells = tuple[NDArray[np.float64], ...]
+
+
+@dataclass(frozen=True)
+class TaxelFit:
+    """The cells of the left sole.
+
+    Attributes:
+        cells: Corners (k, 2) of each cell, counter-clockwise; patch by patch, row by row.
+        shares: Share of a whole cell (n,) that each has, 1 where it is whole.
+        patches: Patch (n,) that each belongs to, 0 first.
+        lattices: Placement of each patch's lattice.
+        cell_area: Area of a whole cell in mm^2.
+        overhang: How far a cell may reach beyond the sole's outline, as used.
+        covered: Area of the sole under the cells in mm^2.
+        covered_area_ratio: `covered` over the sole's area, 0..1.
+        bound: Proven: no placement holds more whole cells with this overhang (of several parts: their sum).
+        border: Border around the cells that this leaves room for.
+        lattice_cells: Axial coordinates (n, 2), where there is one lattice and all cells are whole; else None.
+        notes: What was done to make them fit.
+    """
+
+    cells: Cells
+    shares: NDArray[np.float64]
+    patches: NDArray[np.int64]
+    lattices: tuple[HexLattice, ...]
+    cell_area: float
+    overhang: float
+    covered: float
+    covered_area_ratio: float
+    bound: int
+    border: float
+    lattice_cells: NDArray[np.int64] | None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def whole(self) -> int:
+        """Number of whole cells."""
+        return int((self.shares > 1.0 - 1e-6).sum())
+
+
+def fit_taxels(
+    sole: Any,
+    *,
+    parts: Sequence[Any] = (),
+    cell_area: float = 691.0,
+    taxels: int | None = None,
+    overhang: float = 0.0,
+    overhang_max: float = 0.0,
+    border: float = 0.0,
+) -> TaxelFit:
+    """Fit taxels to a sole.
+
+    As many whole cells as fit, or a number of them: that may reach beyond the sole, as little as it can; where it does
+    not fit with the border, the border is left out, and where it still does not, cells at the rim are cut.
+
+    Args:
+        sole: Outline of the sole, a shapely polygon.
+        parts: Outlines of parts of the sole that get a patch each; empty or one for one patch.
+        cell_area: Area of a cell in mm^2.
+        taxels: Number of cells; None takes as many whole ones as fit.
+        overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
+        overhang_max: How far the shoe may reach beyond the outline.
+        border: Sole that is wanted beyond the cells.
+
+    Returns:
+        The cells.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If they do not fit.
+    """
+    if taxels is None:
+        if len(parts) > 1:
+            fits = [_part(p, cell_area, overhang) for p in parts]
+            kept = [(p, f) for p, f in zip(parts, fits, strict=True) if f is not None]
+            if kept:
+                note = f"the sole touches in {len(parts)} parts far from each other: {len(kept)} patches"
+                return _joined(sole, [f for _, f in kept], cell_area, border, (note,))
+        fit = fit_lattice(sole, cell_area=cell_area, overhang=overhang)
+        return _joined(sole, [fit], cell_area, border, ())
+    problem: FootError | None = None
+    for wanted in sorted({border, min(border, LEAST_BORDER)}, reverse=True):
+        room = max(overhang, overhang_max - CORNER * wanted)
+        try:
+            fit = fit_lattice(sole, cell_area=cell_area, taxels=taxels, overhang=overhang, overhang_max=room)
+        except FootError as error:
+            problem = problem or error
+            continue
+        return _joined(sole, [fit], cell_area, wanted, () if wanted == border else (_narrow(border),))
+    border_left = min(border, LEAST_BORDER)
+    reach = max(overhang, (overhang_max - 0.05) / CUT_CORNER - CORNER * border_left)
+    cut = _cut_fit(sole, cell_area, taxels, reach)
+    if cut is None:
+        assert problem is not None
+        raise problem
+    notes = ((_narrow(border),) if border > border_left else ()) + cut.notes
+    return replace(cut, border=border_left, notes=notes)
+
+
+def _narrow(border: float) -> str:
+    return f"the border around the cells is {LEAST_BORDER:g} instead of {border:g} mm: so many taxels need the room"
+
+
+def _part(part: Any, cell_area: float, overhang: float) -> LatticeFit | None:
+    """The fit of one part of a sole; None where no cell fits it."""
+    try:
+        return fit_lattice(part, cell_area=cell_area, overhang=overhang)
+    except FootError:
+        return None
+
+
+def _joined(sole: Any, fits: Sequence[LatticeFit], cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
+    """Whole cells of one or more lattices."""
+    cells = [ring for fit in fits for ring in fit.lattice.corners(fit.cells)]
+    covered = _covered(sole, cells)
+    return TaxelFit(
+        cells=tuple(cells),
+        shares=np.ones(len(cells)),
+        patches=np.repeat(np.arange(len(fits)), [len(f.cells) for f in fits]),
+        lattices=tuple(f.lattice for f in fits),
+        cell_area=cell_area,
+        overhang=fits[0].overhang,
+        covered=covered,
+        covered_area_ratio=covered / sole.area,
+        bound=sum(f.bound for f in fits),
+        border=border,
+        lattice_cells=fits[0].cells if len(fits) == 1 else None,
+        notes=notes,
+    )
+
+
+def _covered(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
+    import shapely
+
+    return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
+
+
+def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit | None:
+    """So many cells within a distance of the sole, of which the rim cuts the least; None where they do not fit."""
+    import shapely
+
+    from shoes.fit_bound import bound_whole_cells
+
+    # Gentle corners stay one point: a cut cell gets no short edges.
+    region = shapely.set_precision(sole.simplify(0.1).buffer(reach, join_style="mitre", mitre_limit=CUT_CORNER), 1e-4)
+    shapely.prepare(region)
+    found: list[tuple[float, tuple[float, float, float]]] = []
+    step = 1.0 / _SAMPLES
+    trials = [(d, i * step, j * step) for d in _ANGLES for i in range(_SAMPLES) for j in range(_SAMPLES)]
+    for _ in range(4):
+        placed = [(_cut_placement(region, cell_area, taxels, *trial), trial) for trial in trials]
+        found += [(p[0], trial) for p, trial in placed if p is not None]
+        if not found:
+            return None
+        step /= 2.0
+        degrees, i, j = max(found, key=lambda f: round(f[0], 9))[1]
+        trials = [(degrees, i + a * step, j + b * step) for a in (-1, 0, 1) for b in (-1, 0, 1) if a or b]
+    best = _cut_placement(region, cell_area, taxels, degrees, i, j)
+    assert best is not None
+    _, lattice, axial, shares = best
+    cells = []
+    for corners, share in zip(lattice.corners(axial), shares, strict=True):
+        whole = shapely.Polygon(corners)
+        cells.append(corners if share > 1.0 - 1e-6 else _cut(whole, region))
+    covered = _covered(sole, cells)
+    cut = int((shares <= 1.0 - 1e-6).sum())
+    bound = bound_whole_cells(region, cell_area).bound
+    note = (
+        f"{taxels} whole cells do not fit within {reach:.2f} mm of the sole (at most {bound} do): {cut} cells at the "
+        f"rim are cut, to {100 * shares.min():.0f} % of a cell or more"
+    )
+    return TaxelFit(
+        cells=tuple(cells),
+        shares=shares,
+        patches=np.zeros(len(cells), dtype=np.int64),
+        lattices=(lattice,),
+        cell_area=cell_area,
+        overhang=reach,
+        covered=covered,
+        covered_area_ratio=covered / sole.area,
+        bound=bound,
+        border=0.0,
+        lattice_cells=None,
+        notes=(note,),
+    )
+
+
+def _largest(shape: Any) -> Any:
+    return max((p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon"), key=lambda p: p.area)
+
+
+def _cut(cell: Any, region: Any) -> NDArray[np.float64]:
+    """Corners of what a region leaves of a cell, without edges too short to print."""
+    import shapely
+
+    corners = shapely.get_coordinates(cell.exterior)[:-1]
+    points = shapely.get_coordinates(shapely.geometry.polygon.orient(_largest(cell.intersection(region))).exterior)[:-1]
+    own = np.hypot(*(points[:, None] - corners[None]).transpose(2, 0, 1)).min(axis=1) < 1e-6
+    kept = list(range(len(points)))
+    while True:
+        lengths = [float(math.hypot(*(points[kept[k]] - points[kept[k - 1]]))) for k in range(len(kept))]
+        k = int(np.argmin(lengths))
+        if lengths[k] >= _SHORT or len(kept) <= 4:
+            return np.asarray(points[kept])
+        # Of the two ends of a short edge a corner of the whole cell stays, which its neighbours share.
+        kept.pop(k - 1 if own[kept[k]] and not own[kept[k - 1]] else k)
+
+
+def _cut_placement(
+    region: Any, cell_area: float, taxels: int, degrees: float, i: float, j: float
+) -> tuple[float, HexLattice, NDArray[np.int64], NDArray[np.float64]] | None:
+    """The cells of one placement that the region cuts least: their score, lattice, axial coordinates and shares."""
+    import shapely
+
+    angle = math.radians(degrees)
+    start = HexLattice(cell_area, angle=angle)
+    c, s = math.cos(angle), math.sin(angle)
+    u, v = i * start.width, j * 1.5 * start.side
+    x, y = region.centroid.x + c * u - s * v, region.centroid.y + s * u + c * v
+    lattice = HexLattice(cell_area, (round(x, 4), round(y, 4)), angle)
+    box = np.array(region.bounds).reshape(2, 2)
+    axial = lattice.cells_near(box[0], box[1])
+    polygons = shapely.polygons(lattice.corners(axial))
+    shares = np.where(shapely.contains(region, polygons), 1.0, 0.0)
+    partly = np.flatnonzero((shares == 0.0) & shapely.intersects(region, polygons))
+    shares[partly] = shapely.area(shapely.intersection(polygons[partly], region)) / cell_area
+    order = np.sort(np.argsort(-shares, kind="stable")[:taxels])
+    if len(order) < taxels or shares[order].min() < LEAST_SHARE:
+        return None
+    # The smallest counts as much as all together, so that no cell is given up for the others; then the middle counts.
+    centre = lattice.centres(axial[order]).mean(axis=0)
+    off = math.hypot(centre[0] - region.centroid.x, centre[1] - region.centroid.y)
+    return (
+        float(shares[order].sum() + taxels * (shares[order].min() - _OFF_CENTRE * off)),
+        lattice,
+        axial[order],
+        shares[order],
+    )

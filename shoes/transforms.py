@@ -1,0 +1,118 @@
+"""Poses and rotations as robot models write them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+
+__all__ = ["Pose", "mjcf_rotation", "rpy_rotation"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """A position and a rotation.
+
+    Attributes:
+        position: Position (3,) in m.
+        rotation: Rotation (3, 3).
+    """
+
+    position: Array = field(default_factory=lambda: np.zeros(3))
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+
+    def __matmul__(self, other: Pose) -> Pose:
+        return Pose(self.position + self.rotation @ other.position, self.rotation @ other.rotation)
+
+    def moved(self, triangles: Array, scale: Array | None = None) -> Array:
+        """Triangles (n, 3, 3) in this pose, scaled before; a mirroring scale keeps their outer side outside."""
+        if scale is not None:
+            triangles = triangles * scale
+            triangles = triangles[:, ::-1] if np.prod(scale) < 0.0 else triangles
+        return np.asarray(triangles @ self.rotation.T + self.position)
+
+
+def _about(axis: Array, angle: float) -> Array:
+    """Rotation (3, 3) about a unit axis."""
+    k = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
+    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
+
+
+def rpy_rotation(rpy: Array) -> Array:
+    """Rotation (3, 3) from roll, pitch and yaw in rad about fixed axes, as URDF has it.
+
+    Example:
+        >>> rpy_rotation(np.array([0.0, 0.0, np.pi / 2])).round(3)[:, 0].tolist()
+        [0.0, 1.0, 0.0]
+    """
+    x, y, z = np.eye(3)
+    return _about(z, rpy[2]) @ _about(y, rpy[1]) @ _about(x, rpy[0])
+
+
+def mjcf_rotation(attributes: Mapping[str, str], degrees: bool, sequence: str, where: str) -> Array:
+    """Rotation (3, 3) from an MJCF element's quat, axisangle, euler, xyaxes or zaxis; none of them is no rotation.
+
+    Args:
+        attributes: The element's attributes.
+        degrees: Whether angles are in degrees.
+        sequence: Axes of euler angles, for example "xyz": small letters turn with the frame, capitals are fixed.
+        where: What the element is, for messages.
+
+    Returns:
+        The rotation.
+
+    Raises:
+        FootError: If the numbers give none.
+    """
+    for name, count in (("quat", 4), ("axisangle", 4), ("euler", 3), ("xyaxes", 6), ("zaxis", 3)):
+        if name not in attributes:
+            continue
+        try:
+            values = np.array([float(v) for v in attributes[name].split()])
+        except ValueError:
+            values = np.array([])
+        if len(values) != count or not np.isfinite(values).all():
+            raise FootError(f"{where}: {name} is '{attributes[name][:40]}'; allowed: {count} finite numbers")
+        try:
+            return _rotation(name, values, degrees, sequence)
+        except ZeroDivisionError:
+            raise FootError(f"{where}: {name} is '{attributes[name][:40]}', which gives no direction") from None
+    return np.eye(3)
+
+
+def _unit(vector: Array) -> Array:
+    length = float(np.linalg.norm(vector))
+    if length < 1e-12:
+        raise ZeroDivisionError
+    return np.asarray(vector / length)
+
+
+def _rotation(name: str, values: Array, degrees: bool, sequence: str) -> Array:
+    unit = math.pi / 180.0 if degrees else 1.0
+    if name == "quat":
+        w, *v = _unit(values)
+        return _about(_unit(np.array(v)), 2.0 * math.atan2(math.hypot(*v), w)) if math.hypot(*v) > 1e-12 else np.eye(3)
+    if name == "axisangle":
+        return _about(_unit(values[:3]), values[3] * unit)
+    if name == "euler":
+        out = np.eye(3)
+        for letter, angle in zip(sequence, values, strict=True):
+            turn = _about(np.eye(3)["xyz".index(letter.lower())], angle * unit)
+            out = turn @ out if letter.isupper() else out @ turn
+        return out
+    if name == "xyaxes":
+        x = _unit(values[:3])
+        y = _unit(values[3:] - (values[3:] @ x) * x)
+        return np.column_stack([x, y, np.cross(x, y)])
+    z = _unit(values)
+    axis = np.cross([0.0, 0.0, 1.0], z)
+    if np.linalg.norm(axis) < 1e-12:
+        return np.eye(3) if z[2] > 0.0 else np.diag([1.0, -1.0, -1.0])
+    return _about(_unit(axis), math.acos(max(-1.0, min(1.0, float(z[2])))))
