@@ -47,7 +47,7 @@ from plantar.zmp import divergent_component
 if TYPE_CHECKING:
     from gait.wrench_balance import WrenchBalanceGains
 
-__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
+__all__ = ["Command", "ControllerSettings", "FootTarget", "FootholdFelt", "Sensors", "WalkingController"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
@@ -137,6 +137,25 @@ class FootTarget:
 
 
 @dataclass(frozen=True)
+class FootholdFelt:
+    """What a foot was found to stand on.
+
+    Attributes:
+        step: The step that put it down.
+        side: Which foot.
+        polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
+        area_ratio: Its share of the sole's cells.
+        vrp: VRP (2,) over it in the world in m.
+    """
+
+    step: int
+    side: Side
+    polygon: NDArray[np.float64]
+    area_ratio: float
+    vrp: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class Command:
     """What the controller asks of the body, for inverse kinematics and servos.
 
@@ -151,6 +170,7 @@ class Command:
         dcm: Estimated DCM (2,) in m.
         percepts: What each sole felt.
         ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
+        footholds: What feet have been found to stand on at this tick.
     """
 
     com: NDArray[np.float64]
@@ -163,6 +183,7 @@ class Command:
     dcm: NDArray[np.float64]
     percepts: Mapping[Side, Percept]
     ankle_loads: Mapping[Side, SoleWrench] = field(default_factory=dict)
+    footholds: tuple[FootholdFelt, ...] = ()
 
 
 class WalkingController:
@@ -227,6 +248,7 @@ class WalkingController:
         self._turning = {s: LandingCompliance(settings.period) for s in _SIDES}
         self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
         self._step_of: dict[Side, int | None] = {"left": None, "right": None}
+        self._felt: list[FootholdFelt] = []
         self._replanned, self._replanned_step = -math.inf, -1
         way = self.plan.end - self.plan.at(begin - 1.0).com
         length = float(np.hypot(*way))
@@ -273,6 +295,7 @@ class WalkingController:
         )
         self._ticks += 1
         self._rotations_sole = state.rotations_sole
+        self._felt.clear()
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:
             self._align(state)
@@ -315,6 +338,7 @@ class WalkingController:
             dcm=xi,
             percepts=percepts,
             ankle_loads=ankles,
+            footholds=tuple(self._felt),
         )
 
     def _compensate(
@@ -399,25 +423,26 @@ class WalkingController:
             if not contact.update(sensors.readings[side], state.loads[side]):
                 continue
             known = self._support[side] is not None
+            polygon = polygon_in_world(contact.polygon_in_sole, state.rotations_sole[side], state.positions_sole[side])
+            place = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
+            point = place[:2]
+            self._felt.append(FootholdFelt(step, side, polygon, contact.area_ratio, point))
             if contact.whole:
                 self._strip.clear()
             if contact.whole and not known:
                 continue  # as planned
-            self._support[side] = polygon_in_world(
-                contact.polygon_in_sole, state.rotations_sole[side], state.positions_sole[side]
-            )
+            self._support[side] = polygon
             self._center_in_sole[side] = contact.center_in_sole
-            point = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
             if not contact.whole:
-                self._strip.add(step, side, point[:2])
+                self._strip.add(step, side, point)
             rules = self.settings.contact
             if sensors.time < self._replanned + rules.replan_pause and self._replanned_step == step:
                 continue
             later = self._follow_strip(step, phase)
-            if max(math.dist(point[:2], self.plan.stance(step)), math.hypot(*later.tolist())) < rules.least_move:
+            if max(math.dist(point, self.plan.stance(step)), math.hypot(*later.tolist())) < rules.least_move:
                 continue
             self._replanned, self._replanned_step = sensors.time, step
-            self.plan.move(step, point[:2], sensors.time, self._zmp_region(phase), later)
+            self.plan.move(step, point, sensors.time, self._zmp_region(phase), later)
             self.replans += 1
             changed = True
         return changed

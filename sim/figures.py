@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from plantar.layout import Side
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recording import Recording, read_mcap
+from sim.foothold_figure import draw_footholds
 
 __all__ = ["plot_run"]
 
@@ -25,15 +26,14 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
         folder: Folder to write to; it must exist.
 
     Returns:
-        The files: balance.png, plane.png, feet.png.
+        The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
-    return [
-        save_figure(_balance(run), folder / "balance.png"),
-        save_figure(_plane(run), folder / "plane.png"),
-        save_figure(_feet(run), folder / "feet.png"),
-    ]
+    drawn = {"balance": _balance(run), "plane": _plane(run), "feet": _feet(run)}
+    if "/foothold" in run.topics and len(run.topics["/foothold"].time):
+        drawn["footholds"] = draw_footholds(run)
+    return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
 
 
 def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:

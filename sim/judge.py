@@ -36,6 +36,7 @@ class Landing:
         impact: Largest vertical ground force in N within 50 ms.
         area: Largest contact area in m^2 (hull of the contact points) in the 0.6 s after touchdown.
         angle: Angle in degrees between the sole and the face that it touched first, at touchdown; None on round ground.
+        margin: Smallest true ZMP margin in m from this landing to the next one.
     """
 
     side: Side
@@ -43,6 +44,7 @@ class Landing:
     impact: float = 0.0
     area: float = 0.0
     angle: float | None = None
+    margin: float = math.inf
 
 
 @dataclass
@@ -114,6 +116,8 @@ class Judge:
         truth = ground_truth(list(contacts.values()))
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
+            if self.landings:
+                self.landings[-1].margin = min(self.landings[-1].margin, truth.margin)
         tilt = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
         self.tilt_max = max(self.tilt_max, tilt)
         center = data.subtree_com[world.torso]

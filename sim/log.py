@@ -16,10 +16,13 @@ from plantar.recorder import Recorder
 from sim.contact_truth import GroundTruth
 from sim.world import World
 
-__all__ = ["RunLog"]
+__all__ = ["MOST_VERTICES", "RunLog"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _NAN2 = np.full(2, np.nan)
+
+MOST_VERTICES = 24
+"""Vertices of a recorded support polygon; further ones are left out."""
 
 
 class RunLog:
@@ -29,9 +32,10 @@ class RunLog:
         path: MCAP file to write.
         world: The world.
         metadata: What identifies the run.
+        zmps: Whether the ZMPs of skin and ankles are recorded, too.
     """
 
-    def __init__(self, path: Path, world: World, metadata: Mapping[str, object]) -> None:
+    def __init__(self, path: Path, world: World, metadata: Mapping[str, object], *, zmps: bool = False) -> None:
         k = len(world.servos)
         self._world = world
         self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in _SIDES})
@@ -46,6 +50,10 @@ class RunLog:
             s: channel(f"/truth/{s}", [("normal_force", 1), ("position", 3), ("rotation", 9)]) for s in _SIDES
         }
         self._body = channel("/truth/body", [("com", 3), ("zmp", 2), ("zmp_margin", 1), ("rotation", 9), ("wrench", 6)])
+        self._foothold = channel(
+            "/foothold", [("step", 1), ("side", 1), ("area_ratio", 1), ("vrp", 2), ("polygon", 2 * MOST_VERTICES)]
+        )
+        self._zmps = channel("/zmp", [("skin", 2), ("force_torque", 2)]) if zmps else None
         self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
 
@@ -60,6 +68,27 @@ class RunLog:
         """Record the soles' latest readings at the time of their samples."""
         for side, channel in self._skin.items():
             channel.write(readings[side].time, readings[side].force)
+
+    def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
+        """Record the filtered ZMP (2,) in m of the skin and that of the ankles' sensors; NaN for none.
+
+        Args:
+            time: Time in s.
+            skin: ZMP from the skin.
+            force_torque: ZMP from the ankles.
+        """
+        if self._zmps is not None:
+            row = [_NAN2 if zmp is None else zmp for zmp in (skin, force_torque)]
+            self._zmps.write(time, np.concatenate(row))
+
+    def _footholds(self, time: float, command: Command) -> None:
+        """Record what feet have been found to stand on; polygons end with NaN."""
+        for felt in command.footholds:
+            row = np.full(5 + 2 * MOST_VERTICES, np.nan)
+            row[:5] = felt.step, _SIDES.index(felt.side), felt.area_ratio, *felt.vrp
+            ring = felt.polygon[:MOST_VERTICES].ravel()
+            row[5 : 5 + len(ring)] = ring
+            self._foothold.write(time, row)
 
     def tick(self, sensors: Sensors, command: Command, joints: NDArray[np.float64], truth: GroundTruth) -> None:
         """Record one control tick.
@@ -94,3 +123,5 @@ class RunLog:
         row[3:5] = _NAN2 if truth.zmp is None else truth.zmp
         row[5] = np.nan if truth.margin is None else truth.margin
         self._body.write(time, row)
+        if command.footholds:
+            self._footholds(time, command)

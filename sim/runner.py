@@ -27,6 +27,7 @@ from plantar.polygon import centroid
 from sim.judge import Judge
 from sim.log import RunLog
 from sim.pushing import Pusher
+from sim.recovery import Recovery
 from sim.render import FRAME_RATE, Film
 from sim.robots.robot import Robot, load_robot
 from sim.scene import Scene
@@ -35,6 +36,7 @@ from sim.servos import LegServos
 from sim.standing import stand
 from sim.terrain import Footprint, PlannedFeet
 from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world
+from sim.zmp_comparison import ZmpComparison
 
 __all__ = ["Simulation", "run_scene"]
 
@@ -113,7 +115,7 @@ class Simulation:
             self.settings, self.feet, self.steps, robot.layouts, self.legs, begin=walk.begin
         )
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
-        self.facts = ground.facts
+        self.ground = ground
         self.world: World = build_world(robot, ground)
         self.sensors = SensorSuite(
             self.world,
@@ -124,6 +126,10 @@ class Simulation:
         )
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
+        self.recovery = Recovery(self.pusher.shoves, self.controller.end) if scene.push.count else None
+        self.zmps: ZmpComparison | None = None
+        if scene.sensing.force_torque:
+            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, CONTROL_PERIOD)
         centers = {}
         for side in _SIDES:
             middle = centroid(robot.layouts[side].outline)
@@ -169,7 +175,7 @@ class Simulation:
         with ExitStack() as stack:
             log = film = None
             if record is not None:
-                log = stack.enter_context(RunLog(Path(record), self.world, self._identity()))
+                log = stack.enter_context(RunLog(Path(record), self.world, self._identity(), zmps=bool(self.zmps)))
             if video is not None:
                 film = stack.enter_context(Film(video, self.world))
             result = self._loop(log, film, progress)
@@ -195,8 +201,14 @@ class Simulation:
                 ticks.append(1e6 * (clock.perf_counter() - start))
                 skipped["percept_members"] += _compute_rest(command, everything)
                 truth = judge.look(command.state.com, command.state.zmp)
+                if self.recovery is not None:
+                    plan, com = command.reference, data.subtree_com[world.torso, :2]
+                    self.recovery.look(data.time, truth.zmp, com, plan.vrp, plan.com)
+                zmps = None if self.zmps is None else self.zmps.look(data.time, command)
                 if log is not None:
                     log.tick(reading, command, joints, truth)
+                    if zmps is not None:
+                        log.zmps(data.time, *zmps)
                 else:
                     skipped["recorded_ticks"] += 1
                 if judge.fell:
@@ -229,6 +241,7 @@ class Simulation:
             "robot": self.robot.name,
             "seed": self.seed,
             "mass_kg": self.legs.mass,
+            "ground": self.ground.seen_from_above(),
             "settings": {
                 name: asdict(getattr(self.scene, name)) for name in ("terrain", "walk", "sensing", "push", "control")
             },
@@ -240,6 +253,8 @@ class Simulation:
         position, yaw = self._final_error()
         upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
         completed = not judge.fell and taken == len(self.steps) and position < 0.10 and yaw < 5.0 and upright < 5.0
+        balance = {} if self.recovery is None else self.recovery.summary()
+        completed = completed and balance.get("recovered", 0) == len(balance.get("pushes", ()))
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in _SIDES}
         summary: dict[str, Any] = {
@@ -259,6 +274,7 @@ class Simulation:
             "landings_s": [round(x.time, 3) for x in judge.landings],
             "landing_sides": [x.side for x in judge.landings],
             "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in judge.landings],
+            "zmp_margins_m": [round(x.margin, 4) if math.isfinite(x.margin) else None for x in judge.landings],
             "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in judge.landings],
             "replans": self.controller.replans,
             "control_us": {
@@ -278,14 +294,18 @@ class Simulation:
                 else None,
             },
         }
-        if self.facts:
-            summary["terrain"] = dict(self.facts)
+        if self.ground.facts:
+            summary["terrain"] = dict(self.ground.facts)
+        if self.zmps is not None:
+            balance["skin_against_force_torque"] = self.zmps.summary()
+        if balance:
+            summary["balance"] = balance
         if self.pusher.step is not None:
             summary["push"] = {
                 "impulse_Ns": self.scene.push.impulse,
                 "direction": self.pusher.direction,
                 "step": self.pusher.step,
-                "time_s": round(self.pusher.start, 3),
+                "time_s": round(self.pusher.shoves[0].start, 3),
             }
         return summary
 

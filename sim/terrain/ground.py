@@ -148,6 +148,20 @@ class Ground:
     friction: float
     facts: Mapping[str, float] = field(default_factory=dict)
 
+    def seen_from_above(self) -> list[list[list[float]]]:
+        """Outlines [[x, y], ...] in m of the faces that the solids turn upwards, for figures; round ones as 16-gons."""
+        rings = []
+        turns = np.linspace(0.0, 2.0 * math.pi, 17)[:-1]
+        for solid in self.solids:
+            if solid.shape == "box":
+                a, b, c = solid.size
+                corners = np.array([[a, b, c], [-a, b, c], [-a, -b, c], [a, -b, c]]) @ solid.rotation.T
+            else:
+                radius = solid.size[0]
+                corners = radius * np.column_stack([np.cos(turns), np.sin(turns), np.zeros(16)])
+            rings.append(np.round(corners[:, :2] + solid.position[:2], 5).tolist())
+        return rings
+
     @property
     def moving(self) -> tuple[tuple[int, Solid], ...]:
         """Solids that move, with their number."""
