@@ -484,7 +484,7 @@ def demo(
     seed: Annotated[int, typer.Option(help="Seed of the sensor noise.")] = 0,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
 ) -> None:
-    """The main job in one go: build the H1's tactile shoes, walk on them, analyse the walk.
+    """The main job in one go: build the H1's tactile shoes, walk a 12 cm beam on what they feel, analyse the walk.
 
     The simulator wears the layouts that the shoe builder has just written, and the analysis reads the recording that
     the simulator has just made.
@@ -516,7 +516,7 @@ def demo(
             build, folder / "shoe", progress=lambda share, text: tell(0.3 + 0.2 * share, f"shoe: {text}")
         ).as_dict()
         walk = run_scene(
-            load_scene("flat"),
+            load_scene("beam"),
             seed,
             layouts={s: read_layout(folder / "shoe" / f"layout_{s}.json") for s in ("left", "right")},
             record=folder / "walk" / "run.mcap",
