@@ -101,7 +101,8 @@ class FootRecording:
         with np.errstate(invalid="ignore"):
             loaded = self.vertical_force >= max(minimum_force, 1e-9)
         if self.cop is not None:
-            return np.where(loaded[:, None], self.cop, np.nan)
+            known = loaded & np.isfinite(self.cop).all(axis=1)
+            return np.where(known[:, None], self.cop, np.nan)
         if self.layout is None:
             return None
         normal = self.layout.rotations[:, 2, 2]

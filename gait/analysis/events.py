@@ -4,8 +4,9 @@ A foot's load is measured against its own range: from the level it rests at in s
 noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above one share of
 that range and ends when it falls below another; two levels keep noise from splitting a contact, and where noise is
 large they are raised to 4 and 8 of its standard deviations. The time of an event is where the force crosses its level,
-between samples by a straight line. Shares serve a child's insole and a robot alike. They depend on what measures
-(`EVENT_LEVELS`): a shoe presses on its insole after the foot has left the ground, a platform does not.
+between samples by a straight line, or midway where it jumps by half of the range. Shares serve a child's insole and a
+robot alike. They depend on what measures (`EVENT_LEVELS`): a shoe presses on its insole after the foot has left the
+ground, a platform does not.
 """
 
 from __future__ import annotations
@@ -231,11 +232,12 @@ def _contacts_of_span(
             merged.append(spans[k])
     contacts: list[Contact] = []
     for a, b in merged:
-        strike = _crossing(time, force, a, levels.release) if a > 0 else None
+        jump = 0.5 * (levels.peak - levels.rest)
+        strike = _crossing(time, force, a, levels.release, jump) if a > 0 else None
         lift = None
         if b < len(force):
             b = a + int(np.flatnonzero(force[a:b] >= min(levels.lift, levels.contact))[-1]) + 1
-            lift = _crossing(time, force, b, min(levels.lift, levels.contact))
+            lift = _crossing(time, force, b, min(levels.lift, levels.contact), jump)
         if strike is not None and lift is not None and lift - strike < minimum_stance:
             continue
         contacts.append(Contact(strike, lift, a + offset, b + offset))
@@ -252,8 +254,10 @@ def _longest_gap(
     )
 
 
-def _crossing(time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float) -> float:
-    """Time at which the force crosses the level between a frame and the one before it."""
+def _crossing(
+    time: NDArray[np.float64], force: NDArray[np.float64], frame: int, level: float, jump: float = np.inf
+) -> float:
+    """Time at which the force crosses the level between a frame and the one before it: midway where it jumps."""
     f0, f1 = force[frame - 1], force[frame]
-    share = 0.5 if f0 == f1 else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
+    share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
     return float(time[frame - 1] + share * (time[frame] - time[frame - 1]))

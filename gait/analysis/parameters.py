@@ -78,6 +78,7 @@ class FootGait:
             platform the largest of all; None without geometry.
         footprint: The footprint of that picture in an insole or sole; None without geometry, and of platforms.
         region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none; None without geometry.
+        footprint_measured: Whether the footprint is one of a foot, of which an arch index means something.
         warnings: What was found odd.
     """
 
@@ -90,6 +91,7 @@ class FootGait:
     picture: NDArray[np.float64] | None = None
     footprint: Footprint | None = None
     region: NDArray[np.int64] | None = None
+    footprint_measured: bool = False
     warnings: tuple[str, ...] = ()
 
 
@@ -210,7 +212,7 @@ def _with_picture(recording: PressureRecording, gait: FootGait, highest: list[ND
     region = np.full(len(layout), -1)
     of_sole = float(layout.outline[:, 0].max() - print_.origin[0]) if recording.kind == "insole" else None
     region[top > gait.cell_threshold] = regions_of(print_, of_sole)
-    return replace(gait, footprint=print_, region=region)
+    return replace(gait, footprint=print_, region=region, footprint_measured=recording.kind == "insole")
 
 
 def _footprint(

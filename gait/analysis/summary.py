@@ -18,7 +18,7 @@ __all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
     """Each measure of a foot over its complete steps; an insole's footprint is that of its mean picture (n is 1)."""
     out = {name: spread([step[name] for step in gait.steps]) for name in MEASURES}
-    if gait.footprint is not None and gait.steps:
+    if gait.footprint is not None and gait.footprint_measured and gait.steps:
         print_ = gait.footprint
         of_print = {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
         out |= {name: spread([value]) for name, value in of_print.items()}

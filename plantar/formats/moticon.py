@@ -218,7 +218,7 @@ def _layout(
     if total is None or unit.kind == "raw":
         return layout
     sums = pressure @ (unit.factor * layout.areas)
-    known = np.isfinite(sums) & np.isfinite(total) & (total > 50.0)
+    known = np.isfinite(sums) & (sums > 0.0) & np.isfinite(total) & (total > 50.0)
     if known.sum() < 10:
         return layout
     ratio = float(np.median(total[known] / sums[known]))
@@ -241,6 +241,7 @@ def _device_cop(
     outward = 1.0 if side == "right" else -1.0
     out = np.column_stack([(along + 0.5) * length, outward * across * WIDTH * length])
     out[(np.abs(along) > 0.75) | (np.abs(across) > 0.75) | ((along == 0.0) & (across == 0.0))] = np.nan
+    out[np.isnan(out).any(axis=1)] = np.nan
     return out
 
 

@@ -269,8 +269,8 @@ def _rate(facts: dict[str, str], warnings: list[str]) -> float:
     if value is None or value <= 0.0:
         warnings.append(f"the file states no time per picture: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
         return _USUAL_RATE
-    if not re.search(r"\d\s*m?s", text):
-        warnings.append("the file states no unit of the time per picture: ms is assumed")
+    if not re.fullmatch(r"\s*\d+(?:[.,]\d+)?\s*m?s\W*", text):
+        warnings.append(f"the time per picture {text.strip()!r} is not clear: check the rate")
     in_s = re.search(r"\d\s*s", text) is not None
     return 1.0 / (value if in_s else value * 1e-3)
 

@@ -260,8 +260,11 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
 
 
 def _rate(header: dict[str, str], warnings: list[str]) -> float:
-    period = number_in(header.get("SECONDS_PER_FRAME", ""))
+    text = header.get("SECONDS_PER_FRAME", "")
+    period = number_in(text)
     if period is not None and period > 0.0:
+        if number(text) is None:
+            warnings.append(f"SECONDS_PER_FRAME {text!r} is not clear: check the rate")
         return 1.0 / period
     rate = number_in(header.get("FREQUENCY", header.get("FRAMES_PER_SECOND", "")))
     if rate is not None and rate > 0.0:
