@@ -60,12 +60,11 @@ class Beam(Terrain):
         # The beam's ends run 50 mm into the platforms, so that no gap opens where it is turned.
         beam_middle = near + 0.5 * reach * line
         half = 0.5 * reach + 0.05
-        drop = 2e-4  # below the platforms' faces, so that where they overlap only one carries
         return Ground(
             (
                 platform(self.start - 1.2, self.start),
                 platform(self.start + self.length, max(self.start + self.length, distance) + 1.0),
-                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z - drop]), rotation_of(turned)),
+                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), rotation_of(turned)),
             ),
             self.height - self.depth,
             self.friction,
