@@ -1,6 +1,9 @@
-"""Pushes on the base, as a scene asks for them."""
+"""Pushes on the base, as a scene asks for them: one in a step of a walk, or several while the robot stands."""
 
 from __future__ import annotations
+
+import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +13,7 @@ from plantar.errors import SceneError
 from sim.scene import Push
 from sim.world import World
 
-__all__ = ["Pusher"]
+__all__ = ["Pusher", "Shove"]
 
 _DIRECTIONS = {
     "forward": (1.0, 0.0, 0.0),
@@ -18,19 +21,48 @@ _DIRECTIONS = {
     "left": (0.0, 1.0, 0.0),
     "right": (0.0, -1.0, 0.0),
 }
+_FIRST = 1.5  # s: a robot that stands is left alone for so long
+_WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
+
+
+@dataclass(frozen=True)
+class Shove:
+    """One push.
+
+    Attributes:
+        start: Time in s at which it begins.
+        end: Time in s at which it ends.
+        impulse: Impulse (3,) in N s, world frame.
+        smooth: Whether the force swells and fades as a half sine, as a hand's does; else it is constant.
+    """
+
+    start: float
+    end: float
+    impulse: NDArray[np.float64]
+    smooth: bool
+
+    def force(self, time: float) -> NDArray[np.float64]:
+        """Force (3,) in N at a time in s."""
+        length = self.end - self.start
+        share = (time - self.start) / length
+        if not 0.0 <= share < 1.0:
+            return np.zeros(3)
+        shape = 0.5 * math.pi * math.sin(math.pi * share) if self.smooth else 1.0
+        return np.asarray(self.impulse * (shape / length))
 
 
 class Pusher:
-    """Applies a push to the torso body.
+    """Applies pushes to the torso body.
 
     Args:
-        push: The push of the scene.
-        schedule: Phases of the walk, which give the time of the push.
-        seed: Chooses direction and step where the scene leaves them open: seeds 0-3 push forward, backward, left and
-            right, seeds 4-7 again, and so on; the step is drawn.
+        push: The pushes of the scene.
+        schedule: Phases of the walk, which give the time of a push in a step.
+        seed: Chooses what the scene leaves open. A push in a step: seeds 0-3 push forward, backward, left and right,
+            seeds 4-7 again, and so on; the step is drawn. Pushes while standing: each one's direction, all around, and
+            its strength, from 0.6 times the scene's impulse up to all of it.
 
     Raises:
-        SceneError: If the scene pushes at a step that the walk does not have.
+        SceneError: If the scene pushes at a step that the walk does not have, or when nobody stands any more.
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
@@ -38,23 +70,53 @@ class Pusher:
         if self.direction == "seeded":
             self.direction = tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)]
         self.step: int | None = None
-        self.start = self.end = float("inf")
-        self._force: NDArray[np.float64] = np.zeros(3)
+        self.shoves: tuple[Shove, ...] = ()
+        self._next = 0
+        self._height = push.height
         if push.impulse <= 0.0:
+            return
+        rng = np.random.default_rng([seed, 0xB0])
+        if push.count:
+            self.shoves = _while_standing(push, schedule, rng)
             return
         swings = [p for p in schedule.phases if p.swing is not None]
         if not swings or push.step >= len(swings):
             raise SceneError(f"[push] step is {push.step}; the walk has {len(swings)} steps, counted from 0")
-        rng = np.random.default_rng([seed, 0xB0])
         self.step = int(rng.integers(len(swings))) if push.step < 0 else push.step
         phase = swings[self.step]
-        self.start = phase.start + push.phase * (phase.end - phase.start)
-        self.end = self.start + push.duration
-        self._force = np.array(_DIRECTIONS[self.direction]) * (push.impulse / push.duration)
+        start = phase.start + push.phase * (phase.end - phase.start)
+        impulse = push.impulse * np.array(_DIRECTIONS[self.direction])
+        self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
 
     def apply(self, world: World) -> None:
         """Set the external force on the torso for the next physics step."""
-        time = world.data.time + 1e-9
-        if time < self.start:
+        if self._next >= len(self.shoves):
             return
-        world.data.xfrc_applied[world.torso, :3] = self._force if time < self.end else 0.0
+        shove, time = self.shoves[self._next], world.data.time + 1e-9
+        if time < shove.start:
+            return
+        fx, fy, fz = shove.force(time).tolist()
+        world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
+        if time >= shove.end:
+            self._next += 1
+
+
+def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> tuple[Shove, ...]:
+    """Pushes at equal intervals on a robot that takes no step."""
+    if schedule.steps:
+        raise SceneError(f"[push] count is {push.count}; allowed: 0 in a walk of {len(schedule.steps)} steps")
+    needed = _FIRST + push.count * push.interval
+    if push.duration > push.interval or needed > schedule.end:
+        raise SceneError(
+            f"[push] {push.count} pushes of {push.duration:g} s every {push.interval:g} s need a scene of {needed:g} s "
+            f"(walk.settle) and a duration below the interval; the scene ends after {schedule.end:g} s"
+        )
+    shoves = []
+    for i in range(push.count):
+        angle, strength = rng.uniform(-math.pi, math.pi), rng.uniform(_WEAKEST, 1.0)
+        along = np.array([math.cos(angle), push.sideways * math.sin(angle), 0.0])
+        if push.direction != "seeded":
+            along, strength = np.array(_DIRECTIONS[push.direction]), 1.0
+        start = _FIRST + i * push.interval
+        shoves.append(Shove(start, start + push.duration, strength * push.impulse * along, smooth=True))
+    return tuple(shoves)

@@ -108,6 +108,8 @@ class Push:
         phase: Share of the single support at which it begins.
         count: Number of pushes on a robot that stands; 0 pushes once, in a step.
         interval: Time in s from one such push to the next.
+        sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
+        height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
     """
 
     impulse: float = field(default=0.0, metadata=limits(0.0, 1000.0))
@@ -117,6 +119,8 @@ class Push:
     phase: float = field(default=0.5, metadata=limits(0.0, 1.0))
     count: int = field(default=0, metadata=limits(0, 1000))
     interval: float = field(default=4.0, metadata=limits(0.1, 60.0))
+    sideways: float = field(default=1.0, metadata=limits(0.0, 1.0))
+    height: float = field(default=0.0, metadata=limits(-1.0, 1.0))
 
 
 @dataclass(frozen=True)

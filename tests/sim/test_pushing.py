@@ -14,7 +14,7 @@ SCHEDULE = WalkSchedule(straight_plan(6)[1], Timing(), begin=1.0)
 def test_the_push_has_its_impulse_time_and_direction(world: World) -> None:
     pusher = Pusher(Push(impulse=20.0, duration=0.1, direction="left", step=2), SCHEDULE, seed=0)
     swing = next(p for p in SCHEDULE.phases if p.swing and p.step == 2)
-    assert pusher.start == pytest.approx(0.5 * (swing.start + swing.end))
+    assert pusher.shoves[0].start == pytest.approx(0.5 * (swing.start + swing.end))
     impulse = np.zeros(3)
     for k in range(8000):
         world.data.time = 0.001 * k
