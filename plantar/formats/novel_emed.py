@@ -142,12 +142,12 @@ def _take_row(page: _Page, text: str) -> None:
     label = cells[0].strip()
     if not page.columns:
         numbers = [c.strip() for c in cells if c.strip() and c.strip().lower() != "force"]
-        if numbers and all(n.isdigit() for n in numbers):
+        if numbers and all(n.isascii() and n.isdigit() for n in numbers):
             page.columns = [int(n) for n in numbers]
         return
     if label.lower() == "force":
         page.force = number(cells[len(page.columns) + 1]) if len(cells) > len(page.columns) + 1 else None
-    elif label.isdigit() and len(cells) > len(page.columns):
+    elif label.isascii() and label.isdigit() and len(cells) > len(page.columns):
         for column, cell in zip(page.columns, cells[1:], strict=False):
             value = number(cell)
             page.cells.append((int(label), column, np.nan if value is None else value))

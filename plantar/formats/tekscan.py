@@ -136,7 +136,7 @@ def _take_frames(
                 body.append(line.strip())
         bodies.append(body)
     rows = _stated(header, "ROWS") or int(np.median([len(b) for b in bodies]))
-    delimiter = next((d for d in ",;\t" if bodies[0] and d in bodies[0][0]), None)
+    delimiter = next((d for d in ";\t," if bodies[0] and d in bodies[0][0]), None)
     widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in bodies[0]] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
     if rows < 1 or columns < 1 or rows * columns * len(bodies) > 50 * _LARGEST or rows * columns > _LARGEST:

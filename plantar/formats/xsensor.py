@@ -29,6 +29,7 @@ __all__ = ["FORMAT"]
 _USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
 _LARGEST = 100_000
 _THRESHOLD = 1e3
+_KEYWORDS = ("FRAME", "SENSOR", "GROUP", "SENSELS", "DATE", "TIME")
 _ENOUGH = 50.0
 """Load in N from which the header's figures are taken to check the unit and the cells' area."""
 
@@ -177,6 +178,16 @@ def _scan(stream: TextIO) -> _Scan:
             _take_fact(scan.facts, sensor, key, value)
     finish()
     return scan
+
+
+def _is_row(line: str, taken: int, rows: int) -> bool:
+    """Whether a line is a row of the matrix, perhaps a damaged one: one that is due and begins with no keyword."""
+    if line[:1].isdigit():
+        return True
+    content = line.strip().strip(",;\t ")
+    if not content or content[:1].isalpha() and content.partition(",")[0].strip().upper() in _KEYWORDS:
+        return False
+    return taken < rows and any(c.isdigit() for c in content)
 
 
 def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> None:

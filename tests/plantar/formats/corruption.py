@@ -1,0 +1,76 @@
+"""Random damage to files: a reader raises a PlantarError of one line or gives a recording, never anything else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from plantar import PlantarError
+from plantar.formats import read_recording
+from plantar.formats.format import ReadOptions
+from plantar.pressure_recording import PressureRecording
+
+
+def survive_corruption(
+    path: Path,
+    trials: int = 40,
+    seed: int = 0,
+    options: ReadOptions | None = None,
+    header: int = 1500,
+    check: Callable[[PressureRecording], None] | None = None,
+) -> int:
+    """Damage a file in many ways and read each; returns how many were read.
+
+    Args:
+        path: The file, which is put back afterwards.
+        trials: How many damages.
+        seed: Of their places.
+        options: Given to the reader.
+        header: Bytes at the beginning that half of the damages fall into.
+        check: Called with each recording that was read.
+    """
+    whole = path.read_bytes()
+    before = read_recording(path, options=options)
+    usual = peaks(before)
+    random = np.random.default_rng(seed)
+    read = 0
+    lines: list[str] = []
+    for trial in range(trials):
+        data = bytearray(whole)
+        top = min(header, len(data)) if trial % 2 else len(data)
+        for at in random.integers(0, top, size=random.integers(1, 20)):
+            data[at] = random.integers(0, 256)
+        if trial % 5 == 3:
+            data = data[: random.integers(1, len(data))]
+        if trial % 5 == 4:
+            at = int(random.integers(0, top))
+            del data[at : at + int(random.integers(1, 100))]
+        path.write_bytes(bytes(data))
+        try:
+            recording = read_recording(path, options=options)
+        except PlantarError as error:
+            lines.append(str(error))
+            continue
+        read += 1
+        assert np.isfinite(recording.time).all()
+        assert (np.diff(recording.time) > 0.0).all()
+        new = set(recording.warnings) - set(before.warnings)
+        for side, peak in peaks(recording).items():
+            wrong = side in usual and not 0.8 < peak / max(usual[side], 1e-9) < 1.25
+            assert not wrong or new or recording.raw, f"trial {trial}: {usual[side]} N became {peak} N in silence"
+        if check is not None:
+            check(recording)
+    path.write_bytes(whole)
+    assert [line for line in lines if "\n" in line] == []
+    return read
+
+
+def peaks(recording: PressureRecording) -> dict[str, float]:
+    """A robust peak of each foot's force."""
+    out = {}
+    for side, foot in recording.feet.items():
+        force = foot.vertical_force[np.isfinite(foot.vertical_force)]
+        out[side] = float(np.percentile(force, 90.0)) if len(force) else 0.0
+    return out
