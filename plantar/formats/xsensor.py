@@ -140,8 +140,7 @@ def _scan(stream: TextIO) -> _Scan:
         rows = None
 
     for line in stream:
-        first = line[:1]
-        if rows is not None and sensor is not None and (first.isdigit() or first in '-"'):
+        if rows is not None and sensor is not None and _is_row(line, len(rows), sensor.rows):
             row = _row(line, delimiter, sensor.columns)
             if row is None:
                 sensor.damaged += 1
@@ -185,7 +184,7 @@ def _is_row(line: str, taken: int, rows: int) -> bool:
     if line[:1].isdigit():
         return True
     content = line.strip().strip(",;\t ")
-    if not content or content[:1].isalpha() and content.partition(",")[0].strip().upper() in _KEYWORDS:
+    if content.partition(",")[0].strip().upper() in _KEYWORDS:
         return False
     return taken < rows and any(c.isdigit() for c in content)
 
