@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from shoes.build import Shoe, ShoeBuild
+from shoes.pad import pad_surface, volume_of
 from shoes.units import to_mm
 
 __all__ = ["Part", "Weights", "bill_of_parts", "bill_text", "weigh"]
@@ -74,10 +75,11 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
     """
     p = build.parameters
     cells = float(shoe.layout.areas.sum()) * 1e6
+    pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
     board = p.board_length * _BOARD_UP * p.board_thickness * _BOARD_DENSITY if p.board_length > 0.0 else 0.0
     return Weights(
         printed=round(volume / 1000.0 * p.printed.density, 2),
-        pad=round(shoe.plan.contact.area * p.pad_thickness / 1000.0 * p.pad_density, 2),
+        pad=round(pad / 1000.0 * p.pad_density, 2),
         skin=round(cells * (p.taxel_protrusion + p.pocket_depth) / 1000.0 * p.skin_density, 2),
         board=round(board, 2),
     )
@@ -107,7 +109,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
         parts.append(
             Part(
                 f"pad, {side}", 1, "silicone, about 40 Shore A", f"{outline} x {p.pad_thickness:g} mm", weights.pad,
-                f"cut from sheet, or cast, to pad_{side}.stl; glued to the taxels, replaced when worn",
+                f"cast, or cut from sheet and rim, to pad_{side}.stl; glued to the taxels, replaced when worn",
             )
         )  # fmt: skip
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())

@@ -65,7 +65,15 @@ class Step:
 
 
 def box_block(low: tuple[float, float, float], high: tuple[float, float, float]) -> Block:
-    """A box from its lower corner (x, y, z) to its upper; gives the block."""
+    """A box.
+
+    Args:
+        low: Its lower corner (x, y, z) in mm.
+        high: Its upper corner.
+
+    Returns:
+        The block.
+    """
     import shapely
 
     return Block(shapely.box(low[0], low[1], high[0], high[1]), low[2], high[2])

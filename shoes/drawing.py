@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from plantar.plotting import COLOURS, new_figure, save_figure
 from shoes.build import Shoe, ShoeBuild
 from shoes.outline import ring
+from shoes.pad import pad_rim
 from shoes.section import section_along
 from shoes.units import to_mm
 
@@ -39,10 +40,10 @@ def draw_shoe(
     body = triangles.reshape(-1, 3)
     low, high = body.min(axis=0), body.max(axis=0)
     length, width = high[0] - low[0] + 56.0, high[1] - low[1] + 40.0
-    tall = p.rim_top + max(0.0, high[2] - p.rim_top) + 22.0
-    heights = [width, tall, tall * length / max(width, 0.55 * length)]
-    scale = 10.5 / length
-    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 2.4, rows=3, height_ratios=heights)
+    tall = high[2] + 10.0  # of a section, in mm
+    heights = [width, tall, tall * length / width]
+    scale = 9.3 / length
+    figure, (top, along, across) = new_figure(10.5, scale * sum(heights) + 2.6, rows=3, height_ratios=heights)
     _plan(top, shoe, build, low, high)
     cut_y, cut_x = _cuts(shoe, build)
     _section(along, shoe, build, triangles, 1, cut_y, "A-A")
@@ -123,6 +124,10 @@ def _section(
     start, end = face[across], face[across + 2]
     if p.pad_thickness > 0.0:
         axes.fill_between((start, end), 0.0, p.pad_thickness, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
+        rim = pad_rim(shoe.plan, p).intersection(line)
+        for part in () if rim.is_empty else getattr(rim, "geoms", [rim]):
+            ends = (part.bounds[across], part.bounds[across + 2])
+            axes.fill_between(ends, p.pad_thickness, p.bottom, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
     foot = shoe.plan.foot.intersection(line).bounds
     top = min(p.rim_top + 14.0, p.thickness + build.foot.height)
     axes.fill_between((foot[across], foot[across + 2]), p.thickness, top, facecolor=COLOURS["truth"], alpha=0.06, lw=0)

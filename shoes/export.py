@@ -192,7 +192,7 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
         write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
         if p.pad_thickness > 0.0:
             names.append(f"pad_{side}.stl")
-            write_stl(pad_surface(shoe.plan.contact, p.pad_thickness), target / names[3])
+            write_stl(pad_surface(shoe.plan, p), target / names[3])
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
     return read_stl(target / names[0]), read_step(str(target / names[1])), names
@@ -202,7 +202,7 @@ def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Pa
     """Draw a shoe; gives the files' names."""
     side, p = shoe.side, build.parameters
     drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.png", target / f"drawing_{side}.svg"])
-    pad = pad_surface(shoe.plan.contact, p.pad_thickness) if p.pad_thickness > 0.0 else None
+    pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
     title = f"{shoe.layout.name}, {side} shoe"
     drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))
     return [path.name for path in drawn]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from plantar.hex_lattice import HexLattice, hexagon_side
-from shoes.fit_bound import CellBound, bound_whole_cells
+from shoes.fit_bound import bound_whole_cells
 
 __all__ = ["CELL_AREAS", "LatticeFit", "fit_lattice", "whole_cell_region"]
 
@@ -20,6 +21,8 @@ CELL_AREAS = (100.0, 5000.0)
 
 _ANGLES = (0.0, 30.0, 15.0, 45.0, 5.0, 10.0, 20.0, 25.0, 35.0, 40.0, 50.0, 55.0)
 """Lattice angles in degrees, in the order in which ties are decided; a hexagonal lattice repeats every 60."""
+_LONG_EDGE = 0.1  # of the outline's length
+_MOST_EDGE_ANGLES = 6
 _DECIMALS = 4  # of a placement in mm
 _COARSE = 12  # sampled offsets along each axis of the lattice's unit cell
 _OVERHANG_STEP = 0.5  # mm
@@ -128,11 +131,12 @@ def fit_lattice(
     if taxels is not None:
         overhang = _least_overhang(sole, cell_area, taxels, overhang, overhang_max)
     region = sole.buffer(overhang) if overhang > 0.0 else sole
-    placements, most = _search(sole, cell_area, overhang, taxels)
+    scans = _scan(sole, cell_area, overhang)
+    most = _most(scans)
     proven = bound_whole_cells(region, cell_area, known=most)
-    if proven.best > most and taxels is None:
-        turned = _turned(sole, region, cell_area, proven)
-        placements = [p for p in turned if len(p.cells) > most] or placements
+    if proven.bound > most:
+        scans += _scan(sole, cell_area, overhang, proven.angles)
+    placements = _placements(sole, cell_area, taxels, scans)
     if not placements:
         raise FootError(
             f"no whole cell of {cell_area:g} mm^2 fits the sole ({sole.area:.0f} mm^2); use a smaller cell area"
@@ -147,7 +151,7 @@ def _least_overhang(sole: Any, cell_area: float, taxels: int, overhang: float, o
     steps = max(0, math.floor((overhang_max - overhang) / _OVERHANG_STEP + 1e-9))
 
     def most(step: int) -> int:
-        return max((int(p.counts.max()) for p in _scan(sole, cell_area, overhang + step * _OVERHANG_STEP)), default=0)
+        return _most(_scan(sole, cell_area, overhang + step * _OVERHANG_STEP))
 
     if most(0) >= taxels:
         return overhang
@@ -175,15 +179,21 @@ class _Scan:
     counts: NDArray[np.int64]
 
 
-def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
-    """Count whole cells at every angle, at lattice origins among which is the best of that angle."""
+def _scan(sole: Any, cell_area: float, overhang: float, angles: Sequence[float] | None = None) -> list[_Scan]:
+    """Count whole cells at angles (in rad), at lattice origins among which is the best of that angle.
+
+    Where none are given: those of _ANGLES, and rows along and across the outline's long edges.
+    """
     import shapely
 
     region = sole.buffer(overhang) if overhang > 0.0 else sole
     side = hexagon_side(cell_area)
     out = []
-    for rank, degrees in enumerate(_ANGLES):
-        lattice = HexLattice(cell_area, angle=math.radians(degrees))
+    first = 0 if angles is None else len(_ANGLES)
+    for rank, angle in enumerate(
+        [*np.radians(_ANGLES), *_edge_angles(sole)] if angles is None else angles, start=first
+    ):
+        lattice = HexLattice(cell_area, angle=float(angle))
         allowed = whole_cell_region(region, side, lattice.angle)
         if allowed.is_empty:
             continue
@@ -193,23 +203,33 @@ def _scan(sole: Any, cell_area: float, overhang: float) -> list[_Scan]:
     return out
 
 
-def _turned(sole: Any, region: Any, cell_area: float, proven: CellBound) -> list[_Candidate]:
-    """The placement that the search over all angles has found."""
-    x, y = (round(v, _DECIMALS) for v in proven.origin)
-    lattice = HexLattice(cell_area, (x, y), proven.angle)
-    cells = _cells_inside(whole_cell_region(region, lattice.side, lattice.angle), lattice)
-    return [_candidate(sole, lattice, cells, len(_ANGLES))] if len(cells) else []
+def _edge_angles(sole: Any) -> list[float]:
+    """Angles in rad of rows along and across the outline's long edges, but for those of _ANGLES; the longest first."""
+    points = np.array(sole.exterior.coords)
+    edge = np.diff(points, axis=0)
+    length = np.hypot(*edge.T)
+    out: list[float] = []
+    for i in np.argsort(-length, kind="stable"):
+        if length[i] < _LONG_EDGE * length.sum() or len(out) >= _MOST_EDGE_ANGLES:
+            break
+        along = math.degrees(math.atan2(edge[i, 1], edge[i, 0]))
+        for degrees in (along % 60.0, (along + 30.0) % 60.0):
+            known = [*_ANGLES, *np.degrees(out)]
+            if min(min(abs(degrees - k), 60.0 - abs(degrees - k)) for k in known) > 1e-3:
+                out.append(math.radians(degrees))
+    return out
 
 
-def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) -> tuple[list[_Candidate], int]:
-    """Placements worth comparing, and the most whole cells there are at these angles.
+def _most(scans: list[_Scan]) -> int:
+    """Most whole cells at any of the origins and angles."""
+    return max((int(s.counts.max()) for s in scans), default=0)
 
-    They hold the most, or with `taxels` just so many (or the next more, cut down to them).
-    """
-    scans = _scan(sole, cell_area, overhang)
-    known = most = max((int(s.counts.max()) for s in scans), default=0)
+
+def _placements(sole: Any, cell_area: float, taxels: int | None, scans: list[_Scan]) -> list[_Candidate]:
+    """Placements worth comparing: with the most whole cells, or with `taxels` (the next more, cut down to them)."""
+    most = _most(scans)
     if not most:
-        return [], 0
+        return []
     if taxels is not None:  # a placement that holds just so many needs no gap in its rim
         most = min(int(s.counts[s.counts >= taxels].min(initial=most)) for s in scans)
     out = []
@@ -222,7 +242,7 @@ def _search(sole: Any, cell_area: float, overhang: float, taxels: int | None) ->
             if taxels is not None:
                 cells = _reduced(sole, lattice, cells, taxels)
             out.append(_candidate(sole, lattice, cells, scan.rank))
-    return out, known
+    return out
 
 
 def _sampled_offsets(lattice: HexLattice) -> NDArray[np.float64]:

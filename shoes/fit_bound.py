@@ -24,6 +24,9 @@ from plantar.hex_lattice import HexLattice
 __all__ = ["CellBound", "bound_whole_cells"]
 
 _BUDGET = 40_000_000  # conditions looked at: boxes x cells x edges
+_LEFT_OVER = 4000  # boxes
+_APART = math.radians(0.2)  # two angles that differ
+_MOST_ANGLES = 6
 _AT_ONCE = 1000  # boxes
 _CHUNK = 6_000_000  # numbers held at a time
 _SLACK = 1e-3  # mm by which a cell may leave the outline, as in the fit
@@ -42,6 +45,7 @@ class CellBound:
         origin: Centre of a cell of that placement in mm.
         angle: Angle of its rows in rad.
         boxes: Boxes of placements that were looked at.
+        angles: Angles in rad at which more cells than the best may fit: of the boxes left over.
     """
 
     bound: int
@@ -49,6 +53,7 @@ class CellBound:
     origin: tuple[float, float]
     angle: float
     boxes: int
+    angles: tuple[float, ...] = ()
 
 
 def bound_whole_cells(region: Any, cell_area: float, *, known: int = 0, share: float = 1.0) -> CellBound:
@@ -102,12 +107,16 @@ def bound_whole_cells(region: Any, cell_area: float, *, known: int = 0, share: f
         boxes, half, upper = boxes[order], half[order], upper[order]
     else:
         bound = best
+    angles: list[float] = [] if placement is None else [float(placement[2])]
+    for angle in boxes[np.argsort(-upper, kind="stable"), 2][:_LEFT_OVER].tolist() if bound > best else ():
+        if all(abs(angle - a) > _APART for a in angles) and len(angles) < _MOST_ANGLES:
+            angles.append(angle)
     if placement is None:
-        return CellBound(bound, 0, (0.0, 0.0), 0.0, looked)
+        return CellBound(bound, 0, (0.0, 0.0), 0.0, looked, tuple(angles))
     u, v, angle = (float(x) for x in placement)
     c, s = math.cos(angle), math.sin(angle)
     origin = (outline.centre[0] + c * u - s * v, outline.centre[1] + s * u + c * v)
-    return CellBound(bound, best, origin, angle, looked)
+    return CellBound(bound, best, origin, angle, looked, tuple(angles))
 
 
 @dataclass(frozen=True)

@@ -1,46 +1,98 @@
-"""The replaceable silicone pad under the taxels: a flat sheet of the contact face's outline. Lengths in mm."""
+"""The replaceable silicone pad: a sheet under the taxels, with a rim around them up to the print. Lengths in mm."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.outline import ring
+from shoes.outline import GRID
+from shoes.parameters import ShoeParameters
+from shoes.plan import ShoePlan
 
-__all__ = ["pad_surface"]
+__all__ = ["pad_rim", "pad_surface", "volume_of"]
+
+_PLAY = 0.3  # mm between the taxels' heads and the rim
+_LEAST = 2.0  # mm: a narrower rim is left out
+
+Array = NDArray[np.float64]
 
 
-def pad_surface(outline: Any, thickness: float) -> NDArray[np.float64]:
-    """Surface of the pad, its lower face at z = 0.
+def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
+    """Where the pad reaches up to the printed part: the contact face beside the taxels, where it is wide enough.
 
     Args:
-        outline: Outline of the contact face, a shapely polygon in mm.
-        thickness: Thickness in mm, above 0.
+        plan: The sole.
+        parameters: Dimensions.
 
     Returns:
-        Closed surface (n, 3, 3) in mm, outward counter-clockwise.
-
-    Example:
-        >>> import shapely
-        >>> len(pad_surface(shapely.box(0, 0, 10, 10), 2.0))
-        12
+        A shapely polygon or multipolygon in mm, empty where the taxels reach the edge or do not stand out.
     """
     import shapely
 
-    caps = []
-    for triangle in shapely.constrained_delaunay_triangles(outline).geoms:
-        caps.append(ring(shapely.geometry.polygon.orient(triangle)))
-    flat = np.array(caps)
-    corners = ring(outline)
-    after = np.roll(corners, -1, axis=0)
+    if parameters.taxel_protrusion <= 0.0:
+        return shapely.Polygon()
+    beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))
+    wide = beside.buffer(-0.5 * _LEAST).buffer(0.5 * _LEAST, quad_segs=2).intersection(beside)
+    parts = [p for p in getattr(wide, "geoms", [wide]) if p.geom_type == "Polygon" and p.area > _LEAST**2]
+    return shapely.set_precision(shapely.MultiPolygon(parts), GRID) if parts else shapely.Polygon()
 
-    def at(points: NDArray[np.float64], z: float) -> NDArray[np.float64]:
-        return np.concatenate([points, np.full((*points.shape[:-1], 1), z)], axis=-1)
 
-    sides = [
-        np.stack([at(corners, 0.0), at(after, 0.0), at(after, thickness)], axis=1),
-        np.stack([at(corners, 0.0), at(after, thickness), at(corners, thickness)], axis=1),
-    ]
-    return np.concatenate([at(flat, thickness), at(flat, 0.0)[:, ::-1], *sides])
+def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
+    """Surface of the pad, its lower face at z = 0.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions; `pad_thickness` above 0.
+
+    Returns:
+        Closed surface (n, 3, 3) in mm, outward counter-clockwise.
+    """
+    import shapely
+
+    p = parameters
+    rim = pad_rim(plan, p)
+    # Borders cut each other where they meet, so that neighbouring faces share their corners.
+    lines = shapely.union_all([plan.contact.boundary, rim.boundary], grid_size=GRID)
+    faces = [f for f in shapely.polygonize([lines]).geoms if plan.contact.buffer(GRID).covers(f)]
+    high = [rim.buffer(GRID).covers(f) for f in faces]
+    parts = []
+    for face, raised in zip(faces, high, strict=True):
+        flat = _triangles(face)
+        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, p.bottom if raised else p.pad_thickness)]
+    owners: dict[tuple[tuple[float, float], tuple[float, float]], bool] = {}
+    for face, raised in zip(faces, high, strict=True):
+        face = shapely.geometry.polygon.orient(face)
+        for line in (face.exterior, *face.interiors):
+            points = [tuple(c) for c in np.array(line.coords)]
+            owners |= dict.fromkeys(pairwise(points), raised)
+    for (a, b), raised in owners.items():
+        beyond = owners.get((b, a))
+        top = p.bottom if raised else p.pad_thickness
+        low = 0.0 if beyond is None else (p.bottom if beyond else p.pad_thickness)
+        if top > low:
+            levels = [low, p.pad_thickness, top] if low < p.pad_thickness < top else [low, top]
+            for z, up in pairwise(levels):
+                wall = np.array([[*a, z], [*b, z], [*b, up], [*a, up]])
+                parts.append(wall[[[0, 1, 2], [0, 2, 3]]])
+    return np.concatenate(parts)
+
+
+def _triangles(face: Any) -> Array:
+    """Triangles (n, 3, 2) of a polygon, counter-clockwise, with its own corners only."""
+    import shapely
+
+    oriented = [shapely.geometry.polygon.orient(t) for t in shapely.constrained_delaunay_triangles(face).geoms]
+    return np.array([np.array(t.exterior.coords)[:3, :2] for t in oriented])
+
+
+def _at(flat: Array, z: float) -> Array:
+    return np.concatenate([flat, np.full((*flat.shape[:-1], 1), z)], axis=-1)
+
+
+def volume_of(surface: Array) -> float:
+    """Volume in mm^3 that a closed surface (n, 3, 3) in mm encloses."""
+    a, b, c = np.moveaxis(surface, 1, 0)
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)

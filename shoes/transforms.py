@@ -32,7 +32,15 @@ class Pose:
         return Pose(self.position + self.rotation @ other.position, self.rotation @ other.rotation)
 
     def moved(self, triangles: Array, scale: Array | None = None) -> Array:
-        """Triangles (n, 3, 3) in this pose, scaled before; a mirroring scale keeps their outer side outside."""
+        """Triangles in this pose.
+
+        Args:
+            triangles: Triangles (n, 3, 3) in the frame of the pose.
+            scale: Scale (3,) along its axes before; one that mirrors keeps the outer side outside.
+
+        Returns:
+            The triangles (n, 3, 3) in the frame the pose is in.
+        """
         if scale is not None:
             triangles = triangles * scale
             triangles = triangles[:, ::-1] if np.prod(scale) < 0.0 else triangles
