@@ -12,6 +12,7 @@ from plantar.layout import Side
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recording import Recording, read_mcap
 from sim.foothold_figure import draw_footholds
+from sim.zmp_figure import draw_zmp_plane, draw_zmps
 
 __all__ = ["plot_run"]
 
@@ -26,13 +27,16 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
         folder: Folder to write to; it must exist.
 
     Returns:
-        The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at.
+        The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at, zmp.png and
+        zmp_plane.png where the ankles were felt.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
     drawn = {"balance": _balance(run), "plane": _plane(run), "feet": _feet(run)}
     if "/foothold" in run.topics and len(run.topics["/foothold"].time):
         drawn["footholds"] = draw_footholds(run)
+    if "/zmp" in run.topics and len(run.topics["/zmp"].time):
+        drawn |= {"zmp": draw_zmps(run), "zmp_plane": draw_zmp_plane(run)}
     return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
 
 

@@ -43,3 +43,48 @@ def test_no_impulse_pushes_nobody(world: World) -> None:
 def test_a_step_that_is_not_walked_is_an_error() -> None:
     with pytest.raises(SceneError, match="6 steps"):
         Pusher(Push(impulse=1.0, step=6), SCHEDULE, 0)
+
+
+STANDING = WalkSchedule((), Timing(settle=24.0), begin=1.0)
+
+
+def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:
+    push = Push(impulse=30.0, duration=1.0, count=6, interval=3.5, sideways=0.5)
+    angles = []
+    for seed in range(20):
+        shoves = Pusher(push, STANDING, seed).shoves
+        assert [s.start for s in shoves] == pytest.approx(1.5 + 3.5 * np.arange(6))
+        for shove in shoves:
+            times = np.arange(shove.start - 0.1, shove.end + 0.1, 1e-3)
+            forces = np.array([shove.force(t) for t in times])
+            assert forces.sum(axis=0) * 1e-3 == pytest.approx(shove.impulse, rel=1e-3, abs=1e-9)
+            assert np.abs(np.diff(forces, axis=0)).max() < 0.5
+            assert 0.6 * 30.0 * 0.5 <= np.linalg.norm(shove.impulse) <= 30.0
+            assert abs(shove.impulse[1]) <= 15.0
+            angles.append(np.arctan2(shove.impulse[1], shove.impulse[0]))
+    assert np.histogram(angles, 4, (-np.pi, np.pi))[0].min() > 10
+
+
+def test_a_push_at_the_neck_tips_as_well(world: World) -> None:
+    pusher = Pusher(Push(impulse=20.0, duration=1.0, count=1, height=0.6, direction="forward"), STANDING, 0)
+    world.data.time = 2.0
+    pusher.apply(world)
+    fx = float(world.data.xfrc_applied[world.torso, 0])
+    assert fx == pytest.approx(20.0 * np.pi / 2.0, rel=1e-6)
+    assert world.data.xfrc_applied[world.torso].tolist() == pytest.approx([fx, 0.0, 0.0, 0.0, 0.6 * fx, 0.0])
+    world.data.time = 2.6
+    pusher.apply(world)
+    assert not world.data.xfrc_applied[world.torso].any()
+
+
+@pytest.mark.parametrize(
+    ("push", "schedule", "word"),
+    [
+        (Push(impulse=1.0, count=3), SCHEDULE, "6 steps"),
+        (Push(impulse=1.0, count=60), STANDING, "ends after 25 s"),
+        (Push(impulse=1.0, count=2, duration=5.0, interval=1.0), STANDING, "duration below"),
+    ],
+)
+def test_pushes_that_do_not_fit_are_refused(push: Push, schedule: WalkSchedule, word: str) -> None:
+    with pytest.raises(SceneError, match=word):
+        Pusher(push, schedule, 0)

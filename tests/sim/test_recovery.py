@@ -1,0 +1,47 @@
+import math
+
+import numpy as np
+import pytest
+
+from sim.pushing import Shove
+from sim.recovery import Recovery
+
+SHOVES = [
+    Shove(1.0, 2.0, np.array([0.0, 20.0, 0.0]), smooth=True),
+    Shove(5.0, 6.0, np.array([-10.0, 0.0, 0.0]), smooth=True),
+]
+ORIGIN = np.zeros(2)
+
+
+def run(zmp_at, com_at, end: float = 9.0) -> dict:
+    recovery = Recovery(SHOVES, end)
+    for time in np.arange(0.0, end, 0.005):
+        recovery.look(time, zmp_at(time), com_at(time), ORIGIN, ORIGIN)
+    return recovery.summary()
+
+
+def test_a_push_is_over_when_zmp_and_com_stay_near_the_plan() -> None:
+    def zmp(time: float) -> np.ndarray:
+        return np.array([0.08, 0.0]) if 1.2 < time < 2.5 else ORIGIN
+
+    summary = run(zmp, lambda time: np.array([0.02, 0.0]) if 5.5 < time < 7.0 else ORIGIN)
+    first, second = summary["pushes"]
+    assert first["zmp_off_max_m"] == pytest.approx(0.08)
+    assert first["recovered_s"] == pytest.approx(0.5, abs=0.01)
+    assert (first["direction_deg"], first["impulse_Ns"]) == (90.0, 20.0)
+    assert second["recovered_s"] == pytest.approx(1.0, abs=0.01)
+    assert abs(second["direction_deg"]) == 180.0
+    assert summary["recovered"] == 2
+
+
+def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered() -> None:
+    away = run(lambda time: np.array([0.05, 0.0]) if time > 5.2 else ORIGIN, lambda time: ORIGIN)
+    assert [p["recovered_s"] is None for p in away["pushes"]] == [False, True]
+    sway = run(lambda time: np.array([0.03 * math.sin(9.0 * time), 0.0]), lambda time: ORIGIN)
+    assert sway["recovered"] == 0
+    air = run(lambda time: None if time > 5.2 else ORIGIN, lambda time: ORIGIN)
+    assert air["recovered"] == 1
+    # A run that ends in the fall never saw the robot at rest.
+    recovery = Recovery(SHOVES, 9.0)
+    recovery.look(1.1, ORIGIN, ORIGIN, ORIGIN, ORIGIN)
+    assert recovery.summary()["recovered"] == 0
