@@ -24,6 +24,7 @@ from gait.walk_plan import vrp_of_step
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
 from plantar.polygon import centroid
+from sim.foothold_truth import FootholdTruth
 from sim.judge import Judge
 from sim.log import RunLog
 from sim.pushing import Pusher
@@ -136,6 +137,7 @@ class Simulation:
             assert middle is not None
             centers[side] = vrp_of_step(self.feet[side], middle)
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
+        self.foothold_truth = FootholdTruth(self.world, ground)
         self.judge = Judge(self.world, self.settings.com_height)
 
     def _planned_feet(self) -> PlannedFeet:
@@ -200,6 +202,8 @@ class Simulation:
                 joints = servos.command(command)
                 ticks.append(1e6 * (clock.perf_counter() - start))
                 skipped["percept_members"] += _compute_rest(command, everything)
+                if command.footholds:
+                    self.foothold_truth.look(command.footholds)
                 truth = judge.look(command.state.com, command.state.zmp)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
@@ -294,6 +298,9 @@ class Simulation:
                 else None,
             },
         }
+        footholds = self.foothold_truth.summary()
+        if footholds:
+            summary["footholds"] = dict(footholds)
         if self.ground.facts:
             summary["terrain"] = dict(self.ground.facts)
         if self.zmps is not None:
