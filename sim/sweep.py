@@ -41,6 +41,10 @@ _COLUMNS = (
     "heading_error_deg",
     "com_error_max_m",
     "control_p99_us",
+    "replans",
+    "foothold_error_p95_m",
+    "area_ratios",
+    "zmp_margins_mm",
     "error",
 )
 
@@ -143,6 +147,10 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
             "heading_error_deg": summary["final"]["heading_error_deg"],
             "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
             "control_p99_us": summary["control_us"]["p99"],
+            "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
+            # A value a landing, in their order.
+            "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
+            "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
         }
     )
 
