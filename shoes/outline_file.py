@@ -185,9 +185,9 @@ def _read_geojson(data: bytes) -> tuple[Lines, Unit | None, float]:
             for geometry in item["geometries"]:
                 yield from rings(geometry, depth + 1)
         elif kind == "Polygon":
-            yield item["coordinates"][0]
+            yield [*item["coordinates"][0], item["coordinates"][0][0]]  # a ring that was left open too
         elif kind == "MultiPolygon":
-            yield from (polygon[0] for polygon in item["coordinates"])
+            yield from ([*polygon[0], polygon[0][0]] for polygon in item["coordinates"])
         elif kind == "LineString":
             yield item["coordinates"]
         elif kind == "MultiLineString":

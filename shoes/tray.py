@@ -24,8 +24,11 @@ def load_cadquery() -> Any:
     """
     try:
         import cadquery
+        from OCP.Message import Message, Message_PrinterOStream
     except ImportError:
         raise DependencyError("cadquery", "shoes") from None
+    # The kernel prints what it finds wrong in a file to stdout, which belongs to the command; errors are raised anyhow.
+    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
     return cadquery
 
 

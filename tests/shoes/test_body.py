@@ -1,0 +1,54 @@
+"""Tests of the body's parts: walls that follow the foot, and the mark."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from numpy.typing import NDArray
+
+from shoes import build_shoe
+from shoes.body import cavity_levels, mark_outline
+from shoes.foot import Foot
+from shoes.foot_mesh import foot_from_triangles
+from shoes.parameters import ShoeParameters
+
+
+def test_upright_walls_have_one_level(small_foot: Foot) -> None:
+    p = ShoeParameters()
+    plan = build_shoe(small_foot, layout_only=True).shoes[0].plan
+    ((low, high, outline),) = cavity_levels(small_foot, plan, p)
+    assert (low, high) == (0.0, p.rim_height)
+    assert outline.symmetric_difference(plan.cavity).area < 1.0
+
+
+@pytest.mark.parametrize("name", ["rounded", "flared", "plate"])
+def test_walls_leave_room_for_all_that_passes(generated_feet: dict[str, NDArray[np.float64]], name: str) -> None:
+    p = ShoeParameters()
+    foot = foot_from_triangles(name, generated_feet[name], where=name)
+    plan = build_shoe(foot, layout_only=True).shoes[0].plan
+    levels = cavity_levels(foot, plan, p)
+    assert len(levels) == (1 if name == "plate" else 3)
+    assert [a[1] for a in levels[:-1]] == [b[0] for b in levels[1:]]
+    for low, high, outline in levels:
+        for height in np.linspace(low, high, 4):
+            assert outline.buffer(0.01).covers(foot.passing(float(height)))
+        gap = outline.exterior.hausdorff_distance(foot.passing(high).exterior)
+        assert gap < 1.3 * p.clearance + 0.35  # and no more room than that
+    below, above = levels[0][2], levels[-1][2]
+    assert (above.area > below.area + 500.0) == (name != "plate")
+
+
+def test_the_mark_says_side_and_name_and_fits(small_foot: Foot) -> None:
+    p = ShoeParameters()
+    plans = {s.side: s.plan for s in build_shoe(small_foot, layout_only=True).shoes}
+    for side, plan in plans.items():
+        mark = mark_outline(plan, p, side)
+        assert plan.cavity.buffer(-3.9).covers(mark)
+        assert mark.bounds[3] - mark.bounds[1] > 4.0
+    assert not mark_outline(plans["left"], p, "left").equals(mark_outline(plans["left"], p, "right"))
+    assert mark_outline(plans["left"], replace(p, mark_height=0.0), "left").is_empty
+    tight = replace(plans["left"], cavity=shapely.box(0, 0, 9, 9))
+    assert mark_outline(tight, p, "left").is_empty

@@ -1,0 +1,34 @@
+"""Tests of letters: they differ, have the height asked for, and leave no fins."""
+
+from __future__ import annotations
+
+import pytest
+import shapely
+
+from shoes.lettering import lettering
+
+
+def test_every_letter_is_its_own() -> None:
+    letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./"
+    shapes = [lettering(c, 10.0) for c in letters]
+    assert all(s.is_valid and s.area > 1.0 for s in shapes)
+    assert len({round(s.area, 3) for s in shapes}) >= len(letters) - 2
+    for a, b in (("L", "R"), ("O", "0"), ("I", "1"), ("S", "5")):
+        assert lettering(a, 10.0).symmetric_difference(lettering(b, 10.0)).area > 1.0
+
+
+def test_a_line_is_as_high_as_asked_and_runs_to_the_right() -> None:
+    line = lettering("L h1", 8.0)
+    assert line.bounds[3] - line.bounds[1] == pytest.approx(8.0 + 0.9 * 8.0 / 6.0, abs=0.4)
+    assert line.bounds[2] > 3 * 8.0
+    assert line.equals(lettering("l H1", 8.0))
+    assert lettering("", 8.0).is_empty
+    assert lettering("é?", 8.0).is_empty
+
+
+def test_nothing_narrow_is_left_between_strokes() -> None:
+    for letter in "AMKRW8":
+        shape = lettering(letter, 9.0)
+        closed = shape.buffer(0.5).buffer(-0.5)
+        assert (closed - shape).area < 0.6  # but for the corners
+        assert isinstance(shape, shapely.MultiPolygon)

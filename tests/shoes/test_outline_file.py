@@ -1,0 +1,129 @@
+"""Tests of drawings: DXF, SVG and GeoJSON give the outline that is drawn."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from plantar.errors import FootError, InputError
+from shoes.outline_file import foot_from_drawing
+
+RING = [[-60, -40], [120, -30], [140, 10], [110, 50], [-60, 35]]
+OUTLINE = shapely.Polygon(RING)
+
+
+def dxf(path: Path, units: int = 4, scale: float = 1.0) -> Path:
+    import ezdxf
+
+    document = ezdxf.new()
+    document.header["$INSUNITS"] = units
+    space = document.modelspace()
+    points = (np.array(RING) * scale).tolist()
+    space.add_lwpolyline(points[:3])  # in pieces that meet
+    space.add_line(points[2], points[3])
+    space.add_lwpolyline([points[3], points[4], points[0]])
+    space.add_text("sole of the foot")
+    document.saveas(path)
+    return path
+
+
+def svg(path: Path, body: str, head: str = 'width="200mm" viewBox="0 0 200 100"') -> Path:
+    path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {head}>{body}</svg>')
+    return path
+
+
+def geojson(path: Path, scale: float = 1.0) -> Path:
+    ring = (np.array([*RING, RING[0]]) * scale).tolist()
+    feature = {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}}
+    path.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    return path
+
+
+def test_every_kind_gives_the_same_outline(tmp_path: Path) -> None:
+    up = " ".join(f"{x},{-y}" for x, y in RING)
+    pieces = f'<g transform="translate(10 5)"><polygon transform="translate(-10,-5)" points="{up}"/></g>'
+    for path, note in (
+        (dxf(tmp_path / "mm.dxf"), "unit mm as the file states"),
+        (dxf(tmp_path / "m.dxf", 6, 1e-3), "unit m as the file states"),
+        (dxf(tmp_path / "none.dxf", 0, 1e-3), "unit m, detected"),
+        (svg(tmp_path / "a.svg", pieces), "unit mm as the file states"),
+        (svg(tmp_path / "half.svg", f'<polygon points="{up}"/>', 'width="20cm" viewBox="0 0 200 100"'), "unit cm as"),
+        (svg(tmp_path / "plain.svg", f'<path d="M {up} z"/>', ""), "unit mm, detected"),
+        (geojson(tmp_path / "a.geojson"), "unit mm, detected"),
+        (geojson(tmp_path / "m.json", 1e-3), "unit m, detected"),
+    ):
+        foot = foot_from_drawing(path)
+        assert foot.sole.symmetric_difference(OUTLINE).area < 15.0, path.name
+        assert note in foot.notes[0], path.name
+        assert any("sides are taken to be upright" in n for n in foot.notes)
+
+
+def test_curves_are_followed(tmp_path: Path) -> None:
+    import ezdxf
+
+    document = ezdxf.new(units=4)
+    document.modelspace().add_ellipse((30, 0), (100, 0), ratio=0.45)
+    document.saveas(tmp_path / "e.dxf")
+    ellipse = "<ellipse cx='30' cy='0' rx='100' ry='45'/>"
+    arcs = "<path d='M-70 0 A100 45 0 0 1 130 0 A100 45 0 0 1 -70 0 Z'/>"
+    beziers = (
+        "<path d='M-70,0 C-70,-24.85 -25.2,-45 30,-45 S130,-24.85 130,0 S85.2,45 30,45 S-70,24.85 -70,0'/>"
+        "<defs><rect width='900' height='900'/></defs>"
+    )
+    for path in (
+        tmp_path / "e.dxf",
+        svg(tmp_path / "e.svg", ellipse),
+        svg(tmp_path / "arc.svg", arcs),
+        svg(tmp_path / "b.svg", beziers),
+        svg(tmp_path / "turned.svg", f"<g transform='rotate(180, 30, 0)'>{ellipse}</g>"),
+    ):
+        assert foot_from_drawing(path).sole.area == pytest.approx(np.pi * 100 * 45, rel=6e-3), path.name
+
+
+def test_the_toes_the_side_and_the_origin_are_found_or_given(tmp_path: Path) -> None:
+    right = foot_from_drawing(geojson(tmp_path / "a.geojson"), mesh_side="right")
+    assert right.sole.symmetric_difference(shapely.affinity.scale(OUTLINE, 1, -1, origin=(0, 0))).area < 15.0
+    (tmp_path / "up.geojson").write_text(
+        json.dumps({"type": "Polygon", "coordinates": [[[300, 100], [380, 100], [380, 320], [300, 320]]]})
+    )
+    turned = foot_from_drawing(tmp_path / "up.geojson")
+    assert turned.sole.bounds == pytest.approx((-110.0, -40.0, 110.0, 40.0), abs=0.05)
+    assert any("its longer side" in n for n in turned.notes)
+    assert any("origin lies outside" in n for n in turned.notes)
+    back = foot_from_drawing(geojson(tmp_path / "a.geojson"), forward="-x")
+    assert back.sole.bounds == pytest.approx((-140, -50, 60, 40), abs=0.1)
+    with pytest.raises(InputError, match="allowed: x, -x, y, -y"):
+        foot_from_drawing(geojson(tmp_path / "a.geojson"), forward="z")
+
+
+def test_bad_drawings_are_refused_in_one_line(tmp_path: Path) -> None:
+    open_line = json.dumps({"type": "LineString", "coordinates": [[0, 0], [200, 0], [200, 80]]})
+    cases = {
+        "empty.dxf": ("", "is empty"),
+        "text.dxf": ("hello", "not a readable DXF|no lines"),
+        "cut.svg": ("<svg><path d='M0 0", "not a readable SVG"),
+        "none.svg": ("<svg/>", "holds no lines"),
+        "bad.svg": ("<svg><path d='M 0 0 L 10 x'/></svg>", "not a readable SVG|no closed line|has no size"),
+        "turn.svg": ("<svg><g transform='warp(3)'><rect width='9' height='9'/></g></svg>", "transform 'warp'"),
+        "a.geojson": ("{", "not a readable GEOJSON"),
+        "b.geojson": ('{"type": "Potato"}', "type is 'Potato'"),
+        "c.geojson": (open_line, "no closed line"),
+        "d.geojson": ('{"type": "Polygon", "coordinates": [[[0, 0], [1e999, 0], [0, 1]]]}', "not finite"),
+        "e.geojson": (
+            '{"type": "Polygon", "coordinates": [[[0, 0], [5000, 0], [5000, 900]]]}',
+            "fits neither m nor mm",
+        ),
+        "f.png": ("x", "no drawing that is read"),
+    }
+    for name, (text, reason) in cases.items():
+        (tmp_path / name).write_text(text)
+        with pytest.raises(FootError, match=reason) as caught:
+            foot_from_drawing(tmp_path / name)
+        assert "\n" not in str(caught.value)
+        assert name in str(caught.value)
+    with pytest.raises(FootError, match="cannot be read"):
+        foot_from_drawing(tmp_path / "missing.svg")

@@ -1,0 +1,35 @@
+"""Tests of 3MF files: what is read back, and the bytes."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shoes.mesh_file import read_mesh
+from shoes.package_3mf import write_3mf
+
+
+def test_triangles_come_back_in_mm_and_bytes_repeat(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+    surface = box((-10.25, 20), (0, 3.125), (1, 2))
+    first = write_3mf(surface, 'a <shoe> & "left"', tmp_path / "a.3mf")
+    second = write_3mf(surface, 'a <shoe> & "left"', tmp_path / "b.3mf")
+    assert first.read_bytes() == second.read_bytes()
+    triangles, unit = read_mesh(first)
+    assert unit == "mm"
+    np.testing.assert_allclose(triangles, surface)
+    with zipfile.ZipFile(first) as package:
+        assert package.testzip() is None
+        assert {"[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"} == set(package.namelist())
+        model = package.read("3D/3dmodel.model").decode()
+    assert 'unit="millimeter"' in model
+    assert model.count("<vertex ") == len(np.unique(surface.reshape(-1, 3), axis=0))  # corners are shared
+
+
+def test_triangles_without_area_are_left_out(tmp_path: Path, box: Callable[..., NDArray[np.float64]]) -> None:
+    surface = np.concatenate([box((0, 1), (0, 1), (0, 1)), np.zeros((1, 3, 3))])
+    triangles, _ = read_mesh(write_3mf(surface, "a", tmp_path / "a.3mf"))
+    assert len(triangles) == len(surface) - 1

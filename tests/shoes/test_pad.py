@@ -1,0 +1,29 @@
+"""Tests of the pad: closed, of the right volume, with a rim beside the taxels."""
+
+from __future__ import annotations
+
+import pytest
+import shapely
+import trimesh
+
+from shoes import Foot, ShoeParameters, build_shoe
+from shoes.pad import pad_rim, pad_surface, volume_of
+
+
+@pytest.mark.parametrize("side", [0, 1])
+@pytest.mark.parametrize("protrusion", [0.0, 2.5])
+def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, protrusion: float) -> None:
+    p = ShoeParameters(taxel_protrusion=protrusion)
+    plan = build_shoe(small_foot, layout_only=True, parameters=p).shoes[side].plan
+    surface = pad_surface(plan, p)
+    mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    rim = pad_rim(plan, p)
+    assert (rim.area > 0.0) == (protrusion > 0.0)
+    expected = plan.contact.area * p.pad_thickness + rim.area * protrusion
+    assert mesh.volume == pytest.approx(expected, rel=1e-5)
+    assert volume_of(surface) == pytest.approx(expected, rel=1e-5)
+    cells = shapely.union_all(plan.cells)
+    assert rim.is_empty or rim.distance(cells) == pytest.approx(0.3, abs=0.01)
+    assert rim.is_empty or plan.contact.buffer(2e-3).covers(rim)

@@ -1,0 +1,70 @@
+"""Tests of what holds the shoe: chosen by what the foot offers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from shoes import build_shoe
+from shoes.foot import Foot
+from shoes.foot_mesh import foot_from_triangles
+from shoes.parameters import ShoeParameters
+from shoes.plan import ShoePlan
+from shoes.retention import choose_retention, retention_steps
+
+
+@pytest.fixture(scope="module")
+def plate(generated_feet: dict[str, NDArray[np.float64]]) -> tuple[Foot, ShoePlan]:
+    foot = foot_from_triangles("plate", generated_feet["plate"], where="plate")
+    return foot, build_shoe(foot, layout_only=True).shoes[0].plan
+
+
+def test_clips_reach_over_a_free_edge(plate: tuple[Foot, ShoePlan]) -> None:
+    foot, plan = plate
+    found = choose_retention(foot, plan, ShoeParameters())
+    assert found.kind == "clips"
+    assert len(found.places) == 4
+    assert {p.side for p in found.places} == {1, -1}
+    assert [p.edge for p in found.places] == pytest.approx([18.0] * 4, abs=0.01)
+    p = ShoeParameters()
+    assert found.strain == pytest.approx(1.5 * p.clip_thickness * p.clip_hook / (18.0 + 2.5) ** 2, rel=0.02)
+    steps = retention_steps(foot, plan, found, p)[1]
+    tops = [b.z_high for s in steps if s.name == "clips" for b in s.blocks]  # type: ignore[union-attr]
+    assert max(tops) == pytest.approx(p.thickness + found.top(p), abs=0.5)
+    hooks = [b for s in steps if s.name == "clips" for b in s.blocks if b.z_high > p.thickness + 18.0]  # type: ignore[union-attr]
+    assert any(b.low.intersection(plan.foot).area > p.clip_hook for b in hooks)  # type: ignore[union-attr]
+
+
+def test_straps_take_over_where_clips_cannot_hold(plate: tuple[Foot, ShoePlan]) -> None:
+    foot, plan = plate
+    for change, reason in (
+        ({"clip_height_max": 12.0}, "18 mm high, above clip_height_max"),
+        ({"clip_thickness": 5.0, "clip_hook": 4.0, "material": "PLA"}, "PLA takes 1.5 %"),
+    ):
+        found = choose_retention(foot, plan, ShoeParameters(**change))  # type: ignore[arg-type]
+        assert found.kind == "straps"
+        assert found.straps == 2
+        assert reason in found.note
+    with pytest.raises(FootError, match=r"no clips: .*; use straps"):
+        choose_retention(foot, plan, ShoeParameters(retention="clips", clip_height_max=12.0))
+    flat = replace(foot, triangles=None)
+    assert "upper side is not known" in choose_retention(flat, plan, ShoeParameters()).note
+
+
+def test_a_short_foot_takes_one_narrow_strap(small_foot: Foot) -> None:
+    plan = build_shoe(small_foot, layout_only=True).shoes[0].plan
+    found = choose_retention(small_foot, plan, ShoeParameters())
+    assert (found.kind, found.straps, found.width) == ("straps", 1, 20.0)
+    narrow = choose_retention(small_foot, plan, ShoeParameters(strap_width=40.0))
+    assert narrow.width == pytest.approx(120.0 / 6.0)
+
+
+def test_what_is_asked_for_is_given(plate: tuple[Foot, ShoePlan]) -> None:
+    foot, plan = plate
+    for kind, places in (("none", 0), ("screws", 4), ("straps", 4), ("clips", 4)):
+        found = choose_retention(foot, plan, ShoeParameters(retention=kind))
+        assert (found.kind, len(found.places)) == (kind, places)

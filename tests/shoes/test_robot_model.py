@@ -1,0 +1,153 @@
+"""Tests of reading a robot's foot from MJCF and URDF."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+from shoes.robot_model import read_foot_body, side_of_name
+from shoes.stl import write_stl
+
+Shape = Callable[..., NDArray[np.float64]]
+
+MJCF = """<mujoco model="walker">
+ <compiler angle="{angle}" meshdir="meshes"/>
+ <default>
+  <geom contype="1"/>
+  <default class="visual"><geom type="mesh" contype="0" conaffinity="0"/></default>
+ </default>
+ <include file="assets.xml"/>
+ <worldbody><geom type="plane" size="1 1 1"/>
+  <body name="hips" pos="0 0 1" euler="0 0 {quarter}"><freejoint/>
+   <body name="left_shin" pos="0 .1 -.4"><joint/>
+    <body name="left_foot" pos="0 0 -.4" euler="0 0 -{quarter}"><joint/>
+     <geom type="box" size=".1 .04 .02" pos=".03 0 -.08"/>
+     {visual}
+     <body name="left_toe" pos=".13 0 -.08"><geom type="capsule" size=".02" fromto="0 -.02 0 0 .02 0"/></body>
+     <body name="sensor"><joint/><geom type="sphere" size="1"/></body>
+    </body>
+   </body>
+  </body>
+ </worldbody>
+</mujoco>"""
+
+
+def bounds(triangles: NDArray[np.float64]) -> list[float]:
+    points = triangles.reshape(-1, 3)
+    return [*points.min(axis=0).round(6).tolist(), *points.max(axis=0).round(6).tolist()]
+
+
+def mjcf(folder: Path, box: Shape, visual: str = "", angle: str = "degree") -> Path:
+    (folder / "meshes").mkdir(exist_ok=True)
+    write_stl(box((-60, 140), (-45, 45), (-100, -40)), folder / "meshes" / "foot.stl")
+    (folder / "assets.xml").write_text(
+        '<mujoco><asset><mesh name="foot" file="foot.stl" scale=".001 .001 .001"/></asset></mujoco>'
+    )
+    quarter = "90" if angle == "degree" else str(np.pi / 2)
+    path = folder / "walker.xml"
+    path.write_text(MJCF.format(visual=visual, angle=angle, quarter=quarter))
+    return path
+
+
+@pytest.mark.parametrize("angle", ["degree", "radian"])
+def test_simple_shapes_of_a_body_and_what_is_fixed_to_it(tmp_path: Path, box: Shape, angle: str) -> None:
+    found = read_foot_body(mjcf(tmp_path, box, angle=angle), "left_foot")
+    assert found.side == "left"
+    assert "2 colliding shape(s)" in found.note
+    assert bounds(found.triangles) == pytest.approx([-0.07, -0.04, -0.1, 0.15, 0.04, -0.06], abs=1e-3)
+
+
+def test_what_is_drawn_comes_before_what_collides(tmp_path: Path, box: Shape) -> None:
+    found = read_foot_body(mjcf(tmp_path, box, '<geom class="visual" mesh="foot"/>'), "left_foot")
+    assert "1 drawn shape(s)" in found.note
+    assert bounds(found.triangles) == pytest.approx([-0.06, -0.045, -0.1, 0.14, 0.045, -0.04], abs=1e-6)
+
+
+def test_a_body_is_turned_as_in_the_zero_pose(tmp_path: Path, box: Shape) -> None:
+    shin = mjcf(tmp_path, box).read_text().replace('euler="0 0 -90"', "")
+    (tmp_path / "turned.xml").write_text(shin)
+    found = read_foot_body(tmp_path / "turned.xml", "left_foot")  # its x points to the world's y
+    assert bounds(found.triangles) == pytest.approx([-0.04, -0.07, -0.1, 0.04, 0.15, -0.06], abs=1e-3)
+
+
+URDF = """<robot name="walker">
+ <link name="base"/>
+ <link name="l_ankle">
+  <visual><origin xyz="0.03 0 -0.08" rpy="0 0 0"/><geometry><box size="0.2 0.08 0.04"/></geometry></visual>
+  <collision><geometry><sphere radius="1"/></geometry></collision>
+ </link>
+ <link name="l_sole"><visual><origin xyz="0 0 0"/>
+  <geometry><mesh filename="package://walker/meshes/foot.stl" scale="0.001 0.001 0.001"/></geometry></visual></link>
+ <link name="r_ankle"/>
+ <joint name="a" type="revolute"><parent link="base"/><child link="l_ankle"/><origin rpy="0 0 1.5707963"/></joint>
+ <joint name="b" type="fixed"><parent link="l_ankle"/><child link="l_sole"/><origin xyz="0 0 -0.01"/></joint>
+ <joint name="c" type="revolute"><parent link="base"/><child link="r_ankle"/></joint>
+</robot>"""
+
+
+def test_a_urdf_link_with_what_is_fixed_to_it(tmp_path: Path, box: Shape) -> None:
+    (tmp_path / "walker" / "meshes").mkdir(parents=True)
+    (tmp_path / "walker" / "urdf").mkdir()
+    write_stl(box((-60, 140), (-45, 45), (-100, -40)), tmp_path / "walker" / "meshes" / "foot.stl")
+    path = tmp_path / "walker" / "urdf" / "walker.urdf"
+    path.write_text(URDF)
+    found = read_foot_body(path, "l_ankle")
+    assert found.side == "left"
+    assert bounds(found.triangles) == pytest.approx([-0.045, -0.07, -0.11, 0.045, 0.14, -0.05], abs=1e-5)
+    with pytest.raises(FootError, match="body 'r_ankle' has no geometry"):
+        read_foot_body(path, "r_ankle")
+
+
+def test_bad_models_are_refused_in_one_line(tmp_path: Path, box: Shape) -> None:
+    path = mjcf(tmp_path, box)
+    cases = {
+        "missing": (tmp_path / "none.xml", "left_foot", "cannot be read"),
+        "no body": (path, "tail", "there is no body 'tail'; allowed: left_foot, left_toe"),
+        "not named": (path, None, r"name the foot's body \(--body\); allowed: left_foot"),
+    }
+    for name, text, reason in (
+        ("empty", "", "not a readable XML file"),
+        ("html", "<html/>", "allowed: <mujoco>"),
+        ("cut", MJCF[:300], "not a readable XML file"),
+        ("mesh", MJCF.format(visual='<geom class="visual" mesh="nose"/>', angle="degree", quarter="0"), "mesh 'nose'"),
+        ("nan", MJCF.format(visual="", angle="degree", quarter="nan"), "euler is '0 0 nan'; allowed: 3 finite"),
+        ("size", MJCF.format(visual="", angle="degree", quarter="0").replace(".1 .04 .02", ".1 -4 .02"), "sizes above"),
+        ("self", '<mujoco><include file="self.xml"/></mujoco>', "includes itself"),
+    ):
+        (tmp_path / f"{name}.xml").write_text(text)
+        cases[name] = (tmp_path / f"{name}.xml", "left_foot", reason)
+    for file, body, reason in cases.values():
+        with pytest.raises(FootError, match=reason) as caught:
+            read_foot_body(file, body)
+        assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "side"),
+    [
+        ("leg_left_6_link", "left"),
+        ("R_ANKLE_P_S", "right"),
+        ("l_foot", "left"),
+        ("RightFoot", "right"),
+        ("rightfoot", "right"),
+        ("sole", None),
+        ("lower_leg", None),
+        ("left_right_adapter", None),
+    ],
+)
+def test_the_side_is_read_from_the_name(name: str, side: str | None) -> None:
+    assert side_of_name(name) == side
+
+
+def test_the_real_robots_feet_are_those_of_its_meshes(real_data: Path) -> None:
+    model = real_data / "robots" / "jvrc1" / "xml" / "scene.xml"
+    left, right = (read_foot_body(model, f"{s}_ANKLE_P_S") for s in "LR")
+    assert (left.side, right.side) == ("left", "right")
+    expected = [-0.0951, -0.05, -0.1077, 0.1571, 0.05, 0.007]  # feet/jvrc1.json
+    assert bounds(left.triangles) == pytest.approx(expected, abs=2e-4)
+    assert bounds(right.triangles) == pytest.approx(expected, abs=2e-4)
