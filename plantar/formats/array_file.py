@@ -111,13 +111,16 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
     if not path.is_file():
         raise FormatError(f"{path}: cannot be read (no such file)")
     try:
-        loaded = np.load(path, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return {"values": loaded}
-        with loaded, zipfile.ZipFile(path) as archive:
-            if sum(i.file_size for i in archive.infolist()) > _LARGEST:
-                raise FormatError(f"{path}: the arrays are larger than {_LARGEST / 1e9:g} GB")
-            return {name: loaded[name] for name in loaded.files}
+        with path.open("rb") as stream:
+            if stream.read(2) != b"PK":
+                stream.seek(0)
+                return {"values": np.lib.format.read_array(stream, allow_pickle=False)}
+            with zipfile.ZipFile(stream) as archive:
+                if sum(i.file_size for i in archive.infolist()) > _LARGEST:
+                    raise FormatError(f"{path}: the arrays are larger than {_LARGEST / 1e9:g} GB")
+            stream.seek(0)
+            with np.load(stream, allow_pickle=False) as loaded:
+                return {name: loaded[name] for name in loaded.files}
     except FormatError:
         raise
     except _BROKEN as error:

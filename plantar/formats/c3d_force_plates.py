@@ -31,7 +31,10 @@ _LEAST = 20.0
 
 
 def _recognises(head: bytes) -> bool:
-    return len(head) >= 512 and head[1] == 0x50 and 2 <= head[0] < 200
+    if len(head) < 1024 or head[1] != 0x50 or not 2 <= head[0] <= 100:
+        return False
+    processor = (head[0] - 1) * 512 + 3  # in the head of the parameters: Intel, DEC or SGI
+    return processor < len(head) and head[processor] in (84, 85, 86)
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -114,8 +117,9 @@ def _sides(plates: list[_Plate], options: ReadOptions, warnings: list[str]) -> d
     travel = plates[int(order[-1])].centre - plates[int(order[0])].centre
     path = np.vstack([p.cop[np.isfinite(p.cop).all(axis=1)][[0, -1]] for p in plates if np.isfinite(p.cop).any()])
     along = sum((path[i + 1] - path[i] for i in range(0, len(path), 2)), np.zeros(2))
-    direction = along if np.hypot(*along) > 0.02 else travel
-    direction = direction / max(float(np.hypot(*direction)), 1e-9)
+    steps = along if np.hypot(*along) > 0.02 else travel
+    direction = np.zeros(2)  # along the laboratory's axis that the walk follows most
+    direction[int(np.argmax(np.abs(steps)))] = np.sign(steps[int(np.argmax(np.abs(steps)))]) or 1.0
     places = [np.nanmean(p.cop, axis=0) if np.isfinite(p.cop).any() else p.centre for p in plates]
     leftward = np.array([place @ np.array([-direction[1], direction[0]]) for place in places])
     middle = 0.5 * (leftward.max() + leftward.min())

@@ -169,7 +169,9 @@ def _foreground(cv2: Any, image: NDArray[np.uint8]) -> NDArray[np.uint8]:
         return np.zeros(image.shape[:2], dtype=np.uint8)
     level, _ = cv2.threshold(scaled, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
     noise = float(np.percentile(scaled[:rim], 99.0))
-    mask = (scaled > max(0.7 * level, min(noise + 6.0, level))).astype(np.uint8)
+    inside = scaled[scaled > 0.7 * level]
+    edge = min(level, 0.5 * float(np.median(inside)) if inside.size else level)  # halfway: where the edge is
+    mask = (scaled > max(edge, min(noise + 6.0, level))).astype(np.uint8)
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (3, 3))
     return np.asarray(cv2.morphologyEx(cv2.morphologyEx(mask, cv2.MORPH_OPEN, kernel), cv2.MORPH_CLOSE, kernel))
 

@@ -1,0 +1,158 @@
+"""Footprints in images, drawn so that their measures are known."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import cli
+from gait.analysis.analyse import analyse_recording
+from plantar import FormatError, InputError
+from plantar.formats import detect_format, read_recording
+from plantar.formats.footprint_image import read_footprints
+from plantar.formats.format import ReadOptions
+
+cv2 = pytest.importorskip("cv2", reason="OpenCV is not installed: pip install 'plantar[formats]'")
+
+MM = 0.5
+
+
+def canvas(feet: int = 1, background: int = 255) -> np.ndarray:
+    return np.full((640, 320 * feet, 3), background, dtype=np.uint8)
+
+
+def draw_foot(image: np.ndarray, middle: float, side: str, colour: tuple[int, int, int], toes: bool = True) -> None:
+    """A foot of 240 mm, toes up: heel, lateral midfoot, ball, and toes apart from it."""
+    medial = 1.0 if side == "left" else -1.0  # in the image to the right of a left foot
+
+    def disc(u: float, v: float, a: float, b: float) -> None:
+        centre = round(middle + medial * v / MM), round(600 - u / MM)
+        cv2.ellipse(image, centre, (round(b / MM), round(a / MM)), 0, 0, 360, colour, -1, cv2.LINE_AA)
+
+    disc(35, 0, 35, 26)
+    x0, x1 = sorted((middle - medial * 32 / MM, middle - medial * 2 / MM))
+    cv2.rectangle(image, (round(x0), round(600 - 160 / MM)), (round(x1), round(600 - 30 / MM)), colour, -1)
+    disc(155, 0, 38, 45)
+    if toes:
+        disc(222, 24, 18, 12)
+        for v in (2, -10, -20, -29):
+            disc(214 - 0.3 * abs(v), v, 9, 5)
+
+
+def save(path: Path, image: np.ndarray) -> Path:
+    assert cv2.imwrite(str(path), image)
+    return path
+
+
+@pytest.mark.parametrize("suffix", ["png", "jpg", "tif", "bmp"])
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_drawn_foot(tmp_path: Path, suffix: str, side: str) -> None:
+    image = canvas()
+    draw_foot(image, 160, side, (60, 60, 160))
+    path = save(tmp_path / f"print.{suffix}", image)
+    assert detect_format(path).name == "image"
+    result = analyse_recording(path, tmp_path / "out", mm_per_pixel=MM)
+    (name,) = result["feet"]
+    foot = result["feet"][name]["footprint"]
+    assert name == side
+    assert foot["length_m"] == pytest.approx(0.240, abs=0.002)
+    assert foot["width_m"] == pytest.approx(0.090, abs=0.003)
+    assert foot["toeless_length_m"] == pytest.approx(0.193, abs=0.004)
+    assert foot["toes_told_apart"]
+    assert foot["axis_angle_deg"] == pytest.approx(0.0, abs=6.0)
+    assert 0.2 < foot["arch_index"] < 0.35
+    assert foot["region_areas_m2"]["heel"] > foot["region_areas_m2"]["hallux"] > 0.0
+    names = {p.name for p in (tmp_path / "out").iterdir()}
+    assert names == {"metrics.json", "footprints.csv", "footprint.png", "footprint.svg", "report.html"}
+    assert json.loads((tmp_path / "out" / "metrics.json").read_text())["feet"][side]["footprint"] == foot
+
+
+def test_an_ellipse_has_its_measures_at_any_angle_and_background(tmp_path: Path) -> None:
+    third = (2 / math.pi) * (math.asin(1 / 3) + math.sqrt(8) / 9)
+    for angle, background, colour in ((0, 255, (40, 40, 40)), (25, 20, (200, 220, 210)), (-40, 128, (60, 180, 60))):
+        image = canvas(2, background)
+        cv2.ellipse(image, (320, 320), (90, 240), angle, 0, 360, colour, -1, cv2.LINE_AA)
+        path = save(tmp_path / "ellipse.png", image)
+        result = analyse_recording(path, tmp_path / "out", mm_per_pixel=MM, options=ReadOptions(side="left"))
+        foot = result["feet"]["left"]["footprint"]
+        assert foot["arch_index"] == pytest.approx(third, rel=0.01)
+        assert foot["area_m2"] == pytest.approx(math.pi * 0.045 * 0.120, rel=0.02)
+        assert foot["length_m"] == pytest.approx(0.240, rel=0.015)
+        assert foot["width_m"] == pytest.approx(0.090, rel=0.02)
+        assert not foot["toes_told_apart"]
+        assert abs(foot["axis_angle_deg"]) % 180 == pytest.approx(abs(angle), abs=1.0) or abs(
+            abs(foot["axis_angle_deg"]) - 180 + abs(angle)
+        ) == pytest.approx(0.0, abs=1.0)
+
+
+def test_two_feet_a_scan_with_noise_and_resolution(tmp_path: Path) -> None:
+    image = canvas(2, 235)
+    draw_foot(image, 170, "left", (120, 140, 90))
+    draw_foot(image, 470, "right", (120, 140, 90))
+    random = np.random.default_rng(0)
+    noisy = np.clip(image + random.normal(0.0, 6.0, image.shape), 0, 255).astype(np.uint8)
+    noisy[100:104, 20:24] = 0  # dust
+    result = analyse_recording(save(tmp_path / "scan.png", noisy), tmp_path / "out", mm_per_pixel=MM)
+    assert list(result["feet"]) == ["left", "right"]
+    left, right = (result["feet"][s]["footprint"] for s in ("left", "right"))
+    assert left["length_m"] == pytest.approx(0.240, abs=0.003)
+    assert left["arch_index"] == pytest.approx(right["arch_index"], abs=0.01)
+    bare = analyse_recording(tmp_path / "scan.png", tmp_path / "out2")
+    assert bare["mm_per_pixel"] is None
+    assert bare["feet"]["left"]["footprint"]["length_m"] is None
+    assert bare["feet"]["left"]["footprint"]["arch_index"] == pytest.approx(left["arch_index"], abs=1e-9)
+    assert any("give --mm-per-pixel" in w for w in bare["warnings"])
+
+
+def test_the_stated_resolution_is_used(tmp_path: Path) -> None:
+    from PIL import Image
+
+    image = canvas()
+    draw_foot(image, 160, "left", (40, 40, 40))
+    for suffix in ("png", "jpg"):
+        path = tmp_path / f"scan.{suffix}"
+        Image.fromarray(image).save(path, dpi=(50.8, 50.8) if suffix == "png" else (51, 51))
+        found = read_footprints(path)
+        assert found.pixel == pytest.approx(0.5e-3, rel=0.01)
+        assert any("resolution that the image states" in w for w in found.warnings)
+
+
+def test_what_is_no_footprint(tmp_path: Path) -> None:
+    blank = save(tmp_path / "blank.png", canvas())
+    with pytest.raises(FormatError, match="no footprint stands out"):
+        read_footprints(blank)
+    with pytest.raises(FormatError, match="no recording over time"):
+        read_recording(blank)
+    with pytest.raises(InputError, match=r"allowed: 0\.001 to 50"):
+        read_footprints(blank, -1.0)
+    (tmp_path / "bad.png").write_bytes(blank.read_bytes()[:60])
+    with pytest.raises(FormatError, match="not an image that can be read"):
+        read_footprints(tmp_path / "bad.png")
+    for arguments in (["analyze", str(blank)], ["analyze", str(tmp_path / "bad.png")]):
+        done = CliRunner().invoke(cli.app, [*arguments, "-o", str(tmp_path / "none")])
+        assert isinstance(done.exception, FormatError)
+    assert not (tmp_path / "none").exists()
+
+
+def test_damage(tmp_path: Path) -> None:
+    image = canvas()
+    draw_foot(image, 160, "left", (40, 40, 40))
+    random = np.random.default_rng(0)
+    for suffix in ("png", "jpg", "tif", "bmp"):
+        whole = save(tmp_path / f"print.{suffix}", image).read_bytes()
+        for trial in range(12):
+            data = bytearray(whole)
+            for at in random.integers(0, 200 if trial % 2 else len(data), size=6):
+                data[at] = random.integers(0, 256)
+            path = tmp_path / f"bad.{suffix}"
+            path.write_bytes(bytes(data[: random.integers(20, len(data))]) if trial % 3 == 0 else bytes(data))
+            try:
+                read_footprints(path, MM)
+            except FormatError as error:
+                line = str(error)
+                assert "\n" not in line

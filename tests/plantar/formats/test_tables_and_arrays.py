@@ -1,0 +1,202 @@
+"""Tables and arrays of any origin, with a layout file beside them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar import FormatError, InputError, SoleLayout, hex_layout, write_layout
+from plantar.formats import detect_format, read_recording
+from plantar.formats.format import ReadOptions
+from plantar.layout_file import layout_to_dict
+
+from .corruption import survive_corruption
+
+
+@pytest.fixture(scope="module")
+def layout() -> SoleLayout:
+    return hex_layout([[0, -0.04], [0.2, -0.04], [0.2, 0.04], [0, 0.04]], name="mine", cell_area=691e-6)
+
+
+@pytest.fixture(scope="module")
+def values(layout: SoleLayout) -> np.ndarray:
+    return np.round(np.random.default_rng(3).uniform(0.0, 90.0, size=(50, len(layout))), 3)
+
+
+def write_csv(
+    path: Path,
+    columns: dict[str, np.ndarray],
+    *,
+    delimiter: str = ",",
+    comma: bool = False,
+    end: str = "\n",
+    comments: tuple[str, ...] = (),
+    header: bool = True,
+) -> None:
+    rows = [delimiter.join(columns)] if header else []
+    for line in np.column_stack(list(columns.values())):
+        cells = ["" if np.isnan(v) else f"{v:.6g}" for v in line]
+        rows.append(delimiter.join(c.replace(".", ",") if comma else c for c in cells))
+    path.write_bytes((end.join([*comments, *rows]) + end).encode())
+
+
+def both(layout: SoleLayout, values: np.ndarray, unit: str = "[kPa]") -> dict[str, np.ndarray]:
+    columns = {"time [s]": np.arange(50) * 0.01}
+    for side, gain in (("left", 1.0), ("right", 2.0)):
+        columns |= {f"{side} {i} {unit}".strip(): gain * values[:, k] for k, i in enumerate(layout.ids)}
+    return columns
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"delimiter": ";", "comma": True},
+        {"delimiter": "\t"},
+        {"end": "\r\n"},
+        {"comments": ("# unit: kPa", "# hello")},
+    ],
+)
+def test_two_feet_with_units(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray, options: dict[str, object]
+) -> None:
+    path = tmp_path / "walk.csv"
+    write_csv(path, both(layout, values, "" if "comments" in options else "[kPa]"), **options)  # type: ignore[arg-type]
+    assert detect_format(path).name == "csv"
+    recording = read_recording(path, layout=layout)
+    assert (recording.rate_hz, recording.raw) == (pytest.approx(100.0), False)
+    assert recording.feet["left"].force == pytest.approx(values * 1e3 * layout.areas, rel=1e-4)
+    assert recording.feet["right"].force == pytest.approx(2.0 * values * 1e3 * layout.areas, rel=1e-4)
+    assert recording.feet["right"].layout.side == "right"  # type: ignore[union-attr]
+
+
+def test_the_cells_are_found_by_their_ids(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "walk.csv"
+    columns = {"t_ms": np.arange(50) * 10.0}
+    columns |= {f"L_{i}_N": values[:, k] for k, i in reversed(list(enumerate(layout.ids)))}
+    write_csv(path, columns)
+    recording = read_recording(path, layout=layout)
+    foot = recording.feet["left"]
+    assert recording.rate_hz == pytest.approx(100.0)
+    assert foot.layout is not None
+    assert foot.layout.ids.tolist() == layout.ids.tolist()[::-1]
+    assert foot.force == pytest.approx(values[:, ::-1], rel=1e-4)
+
+
+def test_what_is_not_stated_is_raw_or_assumed_aloud(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "walk.csv"
+    write_csv(path, both(layout, values, ""))
+    recording = read_recording(path, layout=layout)
+    assert recording.raw
+    assert any("raw counts (--unit" in w for w in recording.warnings)
+    known = read_recording(path, options=ReadOptions(layout=layout, unit="N"))
+    assert known.feet["left"].force == pytest.approx(values, rel=1e-4)
+    write_csv(path, {str(i): values[:, k] for k, i in enumerate(layout.ids)}, header=False)
+    bare = read_recording(path, options=ReadOptions(layout=layout, unit="N"))
+    text = " ".join(bare.warnings)
+    for word in ("no row of names", "states no rate", "does not say which foot"):
+        assert word in text
+    with pytest.raises(FormatError, match="give a layout with --layout"):
+        read_recording(path, options=ReadOptions(unit="kPa"))
+    with pytest.raises(InputError, match="unknown unit 'x'"):
+        read_recording(path, options=ReadOptions(unit="x"))
+    with pytest.raises(InputError, match="a rate of -1"):
+        read_recording(path, options=ReadOptions(rate_hz=-1.0))
+
+
+def test_missing_values_stay_missing(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "walk.csv"
+    columns = both(layout, values)
+    gone = columns["left 0 [kPa]"].copy()
+    gone[10:20] = np.nan
+    write_csv(path, {**columns, "left 0 [kPa]": gone})
+    foot = read_recording(path, layout=layout).feet["left"]
+    assert np.isnan(foot.force[10:20, 0]).all()
+    assert np.isnan(foot.force).sum() == 10
+    lines = path.read_text().splitlines()
+    lines[5] = lines[5].replace(",", ",oops,", 1)
+    lines[-1] = lines[-1][:30]
+    path.write_text("\n".join(lines))
+    damaged = read_recording(path, layout=layout)
+    text = " ".join(damaged.warnings)
+    assert "1 damaged row(s)" in text
+    assert "last row is cut short" in text
+
+
+def test_a_table_that_fits_no_layout(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "walk.csv"
+    write_csv(path, {"time": np.arange(50) * 0.01, **{f"left {i} [N]": values[:, i] for i in range(3)}})
+    small = read_recording(path, layout=layout)  # the ids are there: a part of the sole
+    assert small.feet["left"].force.shape == (50, 3)
+    write_csv(path, {"time": np.arange(50) * 0.01, **{f"left {i + 500} [N]": values[:, i] for i in range(3)}})
+    with pytest.raises(FormatError, match=r"left foot has 3 cells, layout 'mine' \d+"):
+        read_recording(path, layout=layout)
+    columns = both(layout, values)
+    write_csv(path, {k.replace("right 1 [kPa]", "right 1 [N]"): v for k, v in columns.items()})
+    with pytest.raises(FormatError, match="different units"):
+        read_recording(path, layout=layout)
+    path.write_text("a,b,c\n")
+    with pytest.raises(FormatError):
+        read_recording(path)
+
+
+def test_arrays(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "walk.npz"
+    text = json.dumps(layout_to_dict(layout))
+    np.savez(path, time=np.arange(50) * 0.02, left=values, right=2 * values, unit="kPa", layout_left=text)
+    assert detect_format(path).name == "arrays"
+    with pytest.raises(FormatError, match="give a layout"):
+        read_recording(path)  # there is none of the right sole
+    recording = read_recording(path, layout=layout)
+    assert recording.rate_hz == pytest.approx(50.0)
+    assert recording.feet["right"].force == pytest.approx(2 * values * 1e3 * layout.areas)
+    np.savez(path, left=values, rate_hz=200.0, unit="N", layout_left=text)
+    one = read_recording(path)
+    assert (one.rate_hz, list(one.feet)) == (200.0, ["left"])
+    assert one.feet["left"].layout is not None
+    np.save(tmp_path / "x.npy", values.reshape(50, -1, 1))
+    bare = read_recording(tmp_path / "x.npy")
+    assert bare.raw
+    assert any("100 Hz is assumed" in w for w in bare.warnings)
+    np.savez(path, left=np.array([{"a": 1}], dtype=object))
+    with pytest.raises(FormatError, match="not an array file that can be read"):
+        read_recording(path)
+    np.savez(path, name="x")
+    with pytest.raises(FormatError, match="no array of frames and cells"):
+        read_recording(path)
+
+
+def test_a_plantar_recording_survives_the_way_over_npz_and_csv(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray
+) -> None:
+    from plantar.recorder import Recorder
+    from plantar.recording import read_mcap
+
+    with Recorder(tmp_path / "run.mcap", {}, {"left": layout}) as recorder:
+        channel = recorder.channel("/skin/left", [("force", len(layout))])
+        for i, row in enumerate(values):
+            channel.write(i * 0.004, row)
+    run = read_mcap(tmp_path / "run.mcap")
+    arrays = read_recording(run.to_npz(tmp_path / "run.npz"))
+    assert not arrays.raw
+    assert arrays.rate_hz == pytest.approx(250.0)
+    assert arrays.feet["left"].force == pytest.approx(values)
+    run.to_csv(tmp_path / "out")
+    table = read_recording(
+        tmp_path / "out" / "skin_left.csv", options=ReadOptions(layout=layout, unit="N", side="left")
+    )
+    assert table.feet["left"].force == pytest.approx(values)
+
+
+def test_damage(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    options = ReadOptions(layout=layout)
+    write_csv(tmp_path / "walk.csv", both(layout, values))
+    assert survive_corruption(tmp_path / "walk.csv", options=options) > 5
+    np.savez(tmp_path / "walk.npz", time=np.arange(50) * 0.02, left=values, unit="kPa")
+    survive_corruption(tmp_path / "walk.npz", options=options, trials=60)
+    np.savez_compressed(tmp_path / "walk.npz", time=np.arange(50) * 0.02, left=values, unit="kPa")
+    survive_corruption(tmp_path / "walk.npz", options=options, trials=60)
+    write_layout(layout, tmp_path / "layout.json")
