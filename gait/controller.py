@@ -322,9 +322,10 @@ class WalkingController:
         target = np.array([*self._frame.to_command(com), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
         posture = self._posture(target, torso)
-        feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
-        for side, action in actions.items():
-            feet[side] = self._acted(feet[side], side, action)
+        if actions:
+            feet = self._shared_targets(actions)
+        else:
+            feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
         if feedback:
             self._compensate(feet, phase, target, torso, posture, state)
         return Command(
@@ -537,22 +538,23 @@ class WalkingController:
             known = self._contact_of[side] = (position, place, contact)
         return known[2]
 
-    def _acted(self, foot: FootTarget, side: Side, action: FootAction) -> FootTarget:
-        """A foot's target as the balance law wants it: turned about its centre, shifted, and with its own wrench."""
-        position, rotation = foot.position, foot.rotation
-        if action.roll or action.pitch or action.shift:
-            rotation = foot.rotation @ rotation_from_vector(np.array([action.roll, action.pitch, 0.0]))
-            position = foot.position + (foot.rotation - rotation)[:, :2] @ self._center_in_sole[side]
-            position[2] += action.shift
-        fx, fy, fz, tx, ty, _ = action.wrench.tolist()
-        if fz <= 0.0:
-            return replace(foot, position=position, rotation=rotation, force=np.zeros(3))
-        return FootTarget(
-            position,
-            rotation,
-            foot.rotation @ np.array([fx, fy, fz]),
-            foot.position[:2] + foot.rotation[:2, :2] @ np.array([-ty / fz, tx / fz]),
-        )
+    def _shared_targets(self, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
+        """Feet as a balance law wants them: turned about their centres, shifted, each with a wrench of its own."""
+        targets: dict[Side, FootTarget] = {}
+        for side, action in actions.items():
+            position = self.motion.footholds[side][0]
+            level = rotation = self.motion.rotation(side)
+            center, turn = self._center_in_sole[side], self._turning[side].turn
+            if action.roll or action.pitch or action.shift or turn.any():
+                vector = np.array([turn[0] + action.roll, turn[1] + action.pitch, 0.0])
+                rotation = level @ rotation_from_vector(vector)
+                position = position + (level - rotation)[:, :2] @ center
+                position[2] += action.shift
+            fx, fy, fz, tx, ty, _ = action.wrench.tolist()
+            cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else center
+            place = self.motion.footholds[side][0][:2] + level[:2, :2] @ cop
+            targets[side] = FootTarget(position, rotation, level @ np.array([fx, fy, fz]), place)
+        return targets
 
     def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""

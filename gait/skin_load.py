@@ -41,9 +41,12 @@ class SkinLoad:
         Returns:
             The wrench on the sole after the filter (T 4.23).
         """
-        force = np.where(np.isfinite(reading.force), reading.force, 0.0)
+        force, sound = reading.force, np.isfinite(reading.force)
+        whole = bool(sound.all())
+        if not whole:
+            force = np.where(sound, force, 0.0)
         if self._mean is None:
             self._mean = force
         self._mean = self._mean + self.share * (force - self._mean)
-        load = np.where(np.isfinite(reading.force), unclipped_mean(self._mean, self.noise), 0.0)
-        return SoleWrench(np.asarray(self.layout.wrench_map @ load))
+        load = unclipped_mean(self._mean, self.noise)
+        return SoleWrench(np.asarray(self.layout.wrench_map @ (load if whole else np.where(sound, load, 0.0))))

@@ -127,6 +127,8 @@ class WrenchBalance:
         desired = self._desired_zmp(reference, dcm, region)
         acceleration = self.omega**2 * (reference.com + self._offset - desired)
         actions = self._act(desired, acceleration, feet)
+        if g.zmp_gain == 0.0:
+            return BalanceState(desired, reference.com, reference.com_velocity, acceleration, actions)
         error = -self._error if zmp is None else zmp - desired - self._error
         self._error += dt / (g.zmp_filter + dt) * error
         rate = g.zmp_gain * self._error - g.com_gain * self._offset

@@ -121,6 +121,7 @@ class _Workspace:
         self.jacobian = np.zeros((6, n))
         # What does not depend on poses and ratio.
         self.own = np.diag(np.tile([1.0, 1.0, 0.0, 0.0, 0.0, 1.0], feet)) * weights.friction
+        self.fixed = np.zeros((n, n))  # what does not depend on the ratio
         self.hessian = np.eye(n)
         self.gradient = np.zeros(n)
         self.constraints = np.zeros((_ROWS * feet, n))
@@ -275,6 +276,9 @@ class WrenchDistribution:
             work.forget()
             return None
         if moved or limited or ratio != work.ratio:
+            if moved or limited:
+                np.matmul(work.jacobian.T, self.weights.net * work.jacobian, out=work.fixed)
+                work.fixed += work.own
             work.ratio = ratio
             self._weigh(work, ratio)
             if work.solver is None:
@@ -314,8 +318,7 @@ class WrenchDistribution:
     def _weigh(self, work: _Workspace, ratio: float) -> None:
         """Hessian of the cost, in the program's units."""
         hessian = work.hessian
-        np.matmul(work.jacobian.T, self.weights.net * work.jacobian, out=hessian)
-        hessian += work.own
+        np.copyto(hessian, work.fixed)
         if len(work.contacts) == 2:
             pressure, rest = self.weights.pressure, 1.0 - ratio
             hessian[2, 2] += pressure * rest * rest

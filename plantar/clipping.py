@@ -20,11 +20,13 @@ from plantar.errors import InputError
 
 __all__ = ["clipped_mean", "unclipped_mean"]
 
+_NEGLIGIBLE = 1e-12  # N
 _FORCE = np.linspace(0.0, 6.0, 601)  # in sigma; above it nothing is cut off
 _MEAN = np.array(
     [0.5 * f * math.erfc(-f / math.sqrt(2.0)) + math.exp(-0.5 * f * f) / math.sqrt(2.0 * math.pi) for f in _FORCE]
 )
-_SLOPE = 2.0  # of the inverse where the force is 0
+# The inverse, with the tangent below the mean without load (slope 2) and itself far above.
+_TABLE = (np.array([0.0, *_MEAN, 1e300]), np.array([-2.0 * _MEAN[0], *_FORCE, 1e300]))
 
 
 def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
@@ -42,7 +44,7 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
         [0.399, 10.0]
     """
     given = np.asarray(force, dtype=float)
-    if noise == 0.0:
+    if noise < _NEGLIGIBLE:
         return np.asarray(np.maximum(given, 0.0), dtype=np.float64)
     return np.asarray(np.where(given > 6.0 * noise, given, noise * np.interp(given / noise, _FORCE, _MEAN)))
 
@@ -70,10 +72,6 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
     if not 0.0 <= noise < math.inf:
         raise InputError(f"noise of a sensor is {noise} N; allowed: finite, 0 or more")
     given = np.asarray(mean, dtype=float)
-    if noise == 0.0:
+    if noise < _NEGLIGIBLE:
         return np.array(given)
-    scaled = given / noise
-    inside = np.interp(scaled, _MEAN, _FORCE)
-    low, high = _MEAN[0], _MEAN[-1]
-    force = np.where(scaled > high, scaled, np.where(scaled < low, _SLOPE * (scaled - low), inside))
-    return np.asarray(noise * force, dtype=np.float64)
+    return np.asarray(np.interp(given, noise * _TABLE[0], noise * _TABLE[1]), dtype=np.float64)

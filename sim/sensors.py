@@ -120,15 +120,13 @@ class SensorSuite:
             return {}
         s, data = self._sensing, self._world.data.sensordata
         wrenches: dict[Side, NDArray[np.float64]] = {}
-        for side, (force, torque) in self._world.ankle_wrench.items():
-            noise = self._ankle_noise.standard_normal(6)
+        scale = np.array([s.ankle_force_noise] * 3 + [s.ankle_torque_noise] * 3)
+        noise = scale * self._ankle_noise.standard_normal((2, 6))
+        for row, (side, (force, torque)) in zip(noise, self._world.ankle_wrench.items(), strict=True):
             # MuJoCo gives what the leg does to the foot.
-            wrenches[side] = np.concatenate(
-                [
-                    s.ankle_force_noise * noise[:3] - data[force : force + 3],
-                    s.ankle_torque_noise * noise[3:] - data[torque : torque + 3],
-                ]
-            )
+            row[:3] -= data[force : force + 3]
+            row[3:] -= data[torque : torque + 3]
+            wrenches[side] = row
         return wrenches
 
 

@@ -62,14 +62,15 @@ class ZmpComparison:
             wrench = command.ankle_loads[side].wrench_in_sole
             last = self._wrenches.get(side, wrench)
             self._wrenches[side] = last + self._share * (wrench - last)
-            position, rotation = command.state.positions_sole[side], command.state.rotations_sole[side]
+            place = command.state.positions_sole[side][:2]
+            turn = command.state.rotations_sole[side][:2, :2]
             for points, loads, sole in (
                 (skin, skin_loads, self._skins[side].update(command.percepts[side].reading)),
                 (ankle, ankle_loads, SoleWrench(self._wrenches[side])),
             ):
                 cop = sole.position_cop_in_sole
                 loads.append(sole.vertical_force)
-                points.append(None if cop is None else (position + rotation[:, :2] @ cop)[:2])
+                points.append(None if cop is None else place + turn @ cop)
         one, other = zmp_of_feet(skin, skin_loads), zmp_of_feet(ankle, ankle_loads)
         if one is not None and other is not None and time >= self._begin:
             self._differences.append(one - other)
