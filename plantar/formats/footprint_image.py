@@ -182,7 +182,7 @@ def _prints(cv2: Any, mask: NDArray[np.uint8], pixel: float | None, warnings: li
     areas = stats[1:, cv2.CC_STAT_AREA].astype(float)
     if not len(areas):
         return []
-    big = [i + 1 for i in range(count - 1) if areas[i] >= 0.02 * areas.max() and areas[i] >= 0.0002 * mask.size]
+    big = [i + 1 for i in range(count - 1) if areas[i] >= 0.005 * areas.max() and areas[i] >= 0.0002 * mask.size]
     big = [i for i in big if not (stats[i, 2] > 0.98 * mask.shape[1] and stats[i, 3] > 0.98 * mask.shape[0])]
     if not big:
         return []
