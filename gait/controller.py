@@ -24,6 +24,7 @@ from gait.estimator import (
     heading,
     rotation_from_vector,
 )
+from gait.feasibility import FeasibilityRules
 from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footsteps import Footstep, other_side
 from gait.landing_compliance import LandingCompliance
@@ -31,12 +32,14 @@ from gait.lip import pendulum_frequency
 from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
 from gait.stance_contact import ContactSettings, StanceContact
+from gait.step_guard import StepGuard
 from gait.support_strip import SupportStrip
 from gait.swing_compliance import ComplianceGains, SwingCompliance
 from gait.vrp_plan import LipReference
 from gait.walk_plan import WalkPlan, vrp_of_step
 from gait.wrench_cone import FootContact, Rectangle
 from plantar.contact_rectangle import safe_rectangle
+from plantar.errors import InputError
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
 from plantar.polygon import centroid, inner_offset
@@ -65,6 +68,7 @@ class ControllerSettings:
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
+        feasibility: Rules of step feasibility, which need compliance; None steps on everything.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
         lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
@@ -85,6 +89,7 @@ class ControllerSettings:
     swing_height: float = 0.05
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
+    feasibility: FeasibilityRules | None = None
     trunk_lean: float = 0.0
     lean_reach: float = 0.053
     alignment_time: float = 0.3
@@ -231,14 +236,15 @@ class WalkingController:
             settings.estimator,
         )
         gains = settings.compliance
+        compliance = None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in _SIDES}
         self.motion = FootMotion(
-            feet,
-            self.schedule,
-            settings.period,
-            settings.swing_height,
-            settings.landing,
-            None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in _SIDES},
+            feet, self.schedule, settings.period, settings.swing_height, settings.landing, compliance
         )
+        self.guard: StepGuard | None = None
+        if settings.feasibility is not None:
+            if compliance is None:
+                raise InputError("step feasibility needs preemptive foot compliance; give its gains too")
+            self.guard = StepGuard(settings.feasibility, self.motion, self.plan, compliance, vrp_in_sole)
         self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
         self._ticks = 0
         self._rotations_sole: Mapping[Side, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in _SIDES}
@@ -284,7 +290,8 @@ class WalkingController:
         soles: Mapping[Side, SoleLoad] = ankles if s.zmp_source == "force_torque" else percepts
         reference = self.plan.at(sensors.time)
         phase = self.schedule.at(sensors.time)
-        share = (sensors.time - phase.start) / (phase.end - phase.start) if phase.swing is not None else 0.0
+        # Of its usual length: a single support that is made longer holds a foot that has landed.
+        share = (sensors.time - phase.start) / s.timing.single_support if phase.swing is not None else 0.0
         state = self.estimator.update(
             sensors.joint_positions,
             sensors.gyro,
@@ -306,6 +313,17 @@ class WalkingController:
             self._lift(phase)
         if self.motion.landed and not landed and s.compliance is not None:
             self._keep_inside(phase, sensors.time)
+        if self.guard is not None:
+            moments = {side: ankle.wrench_in_sole[3:5] for side, ankle in ankles.items()}
+            region = self._zmp_region(phase)
+            side = phase.swing
+            if self.guard.probing and side is not None:  # a sole on its edge makes a moment on the best of ground
+                cop = soles[side].position_cop_in_sole
+                if cop is not None and state.loads[side] > 20.0:
+                    self._turning[side].update(state.loads[side], cop, self._center_in_sole[side])
+            if self.guard.update(phase, sensors.time, self._frame, sensors.readings, moments, state.loads, region):
+                self.replans += 1
+                phase, reference = self.schedule.at(sensors.time), self.plan.at(sensors.time)
         if feedback and s.footholds != "off" and self._feel(phase, sensors, state, percepts):
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)

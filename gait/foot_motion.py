@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from gait.command_frame import CommandFrame
 from gait.estimator import rotation_from_vector
 from gait.footsteps import Footstep, other_side
-from gait.phases import Phase, WalkSchedule
+from gait.phases import Phase, PhaseKind, WalkSchedule
 from gait.swing import SwingTrajectory, minimum_jerk
-from gait.swing_compliance import SwingCompliance, turned_to_ground, vector_from_rotation
+from gait.swing_compliance import GroundView, SwingCompliance, turned_to_ground, vector_from_rotation
 from plantar.layout import Side
 from plantar.percept import Percept
 
@@ -24,6 +24,9 @@ __all__ = ["FootMotion", "Landing", "SoleSense"]
 _SIDES: tuple[Side, Side] = ("left", "right")
 
 
+_RETAKE_HEIGHT = 0.04  # m above what the foot met that a step taken once more rises at most
+_CLOSE_BY = 0.06  # m before its place from which a swing turns its sole to the ground
+_NEARLY_THERE = 0.012  # m before its place from which a swing judges the ground that it will land on
 _GROUND_SHARE = 0.3
 """Share of a new foothold's height in the height at which the next one is expected."""
 
@@ -66,6 +69,12 @@ class Landing:
 class FootMotion:
     """Commanded footholds over time.
 
+    Attributes:
+        footholds: Position (3,) in m and heading in rad of each sole in the command frame.
+        landed: Whether the foot that swung last has touched the ground.
+        press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
+        surprise: How much higher in m than expected the ground is that a swing sees where it will land.
+
     Args:
         feet: Where the feet stand at the start.
         schedule: The footsteps with their phases.
@@ -97,7 +106,10 @@ class FootMotion:
         self._lifted_tilt = np.zeros(3)
         self._expected = float(np.mean([feet[s].z for s in _SIDES]))
         self._swing: SwingTrajectory | None = None
+        self._start = 0.0
         self._step = -1
+        self.press: float | None = None
+        self.surprise = 0.0
         self._lowered = self._lowering = 0.0
 
     @property
@@ -147,10 +159,10 @@ class FootMotion:
             return began
         side = self.schedule.steps[self._step].side
         if self._compliance is not None and senses is not None:
-            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side])
+            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame)
             return began
         if phase.swing is not None:
-            elapsed = time - phase.start
+            elapsed = time - self._start
             if elapsed > 0.5 * self._swing.duration and loads[side] > self._landing.contact_force:
                 self.landed = True
             if not self.landed:
@@ -178,20 +190,43 @@ class FootMotion:
             approach_speed=self._landing.approach_speed,
         )
         self._step = phase.step
+        self._start = phase.start
+        self.surprise = 0.0
         self.landed = False
         self._lowered = self._lowering = 0.0
         if self._compliance is not None:
             self._compliance[side].begin()
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
+    def retake(self, time: float, duration: float, frame: CommandFrame) -> None:
+        """Lift the foot that has landed again and take its step once more, to where the schedule has it now.
+
+        Args:
+            time: Time in s.
+            duration: Duration of the swing in s.
+            frame: Frame that the footholds are commanded in.
+        """
+        step = self.schedule.steps[self._step]
+        expected, height = self._expected, self._height
+        self._height = min(height, _RETAKE_HEIGHT)
+        self._begin(Phase(PhaseKind.SINGLE_SUPPORT, self._step, time, time + duration, step.side), step.side, frame)
+        self._expected, self._height = expected, height
+
     def _comply(
-        self, compliance: SwingCompliance, side: Side, phase: Phase, time: float, load: float, sense: SoleSense
+        self,
+        compliance: SwingCompliance,
+        side: Side,
+        phase: Phase,
+        time: float,
+        load: float,
+        sense: SoleSense,
+        frame: CommandFrame,
     ) -> None:
         """Advance a foot that sees the ground: soften its swing, turn it to the slope, hand over to the real load."""
         assert self._swing is not None
         swing, period = self._swing, self._period
         position, yaw = self.footholds[side]
-        elapsed = time - phase.start if phase.swing is not None else math.inf
+        elapsed = time - self._start
         if not self.landed:
             view = compliance.look(*sense)
             if elapsed > 0.5 * swing.duration and compliance.feel(load):
@@ -205,25 +240,34 @@ class FootMotion:
                 return
             planned, heading = swing.at(elapsed)
             falling = (planned[2] - swing.at(elapsed + period)[0][2]) / period
-            if falling <= 0.0 and elapsed >= swing.duration:
+            late = phase.swing is None
+            if late:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
-            drop = compliance.descent(view, falling, remaining, elapsed >= swing.duration, period)
-            if view is not None and view.distance < 0.8 * compliance.gains.sensing_range:
-                g = compliance.gains
-                turned = turned_to_ground(
-                    self._tilts[side], view.slope, min(1.0, period / g.turning), g.turn_rate * period
-                )
-                self._tilts[side] = turned
+            drop = compliance.descent(view, falling, remaining, late, period)
+            if view is not None and remaining < _NEARLY_THERE:
+                self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
+            if view is not None and remaining < _CLOSE_BY:
+                self._turn(compliance, side, view)
             self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
             return
-        hold = compliance.gains.hold_force
+        hold = compliance.gains.hold_force if self.press is None else self.press
         if phase.swing is not None:
             drop = compliance.yielding(load, hold, period)
         else:
             share = min(1.0, 2.0 * (time - phase.start) / (phase.end - phase.start))
             drop = max(0.0, compliance.yielding(load, hold + share * (self._landing.press_force - hold), period))
         self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
+
+    def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
+        """Turn the sole a little to the ground's slope, or back to level where there is too little to follow."""
+        gains = compliance.gains
+        share = min(1.0, self._period / gains.turning)
+        if view.slope is None:
+            self._tilts[side] = rotation_from_vector((1.0 - share) * vector_from_rotation(self._tilts[side]))
+        elif view.distance < 0.8 * gains.sensing_range:
+            largest = gains.turn_rate * self._period
+            self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 
     def _press(self, side: Side, load: float) -> None:
         """Press down the more gently the more the foot carries; a switch at one force would make it tap."""

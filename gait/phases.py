@@ -129,6 +129,31 @@ class WalkSchedule:
         moved = [replace(step, x=step.x + dx, y=step.y + dy) for step in self.steps[first:]]
         self.steps = (*self.steps[:first], *moved)
 
+    def move_step(self, index: int, step: Footstep) -> None:
+        """Put one footstep elsewhere.
+
+        Args:
+            index: Its index.
+            step: The new footstep.
+        """
+        self.steps = (*self.steps[:index], step, *self.steps[index + 1 :])
+
+    def stop_after(self, index: int) -> None:
+        """Leave out all steps after one; the walk ends with it.
+
+        Args:
+            index: Index of the last step.
+        """
+        i = next(j for j, p in enumerate(self.phases) if p.step == index and p.kind == PhaseKind.SINGLE_SUPPORT)
+        end = self.phases[i].end
+        self.steps = self.steps[: index + 1]
+        self.walking_end = end + self.timing.end
+        self.phases = (
+            *self.phases[: i + 1],
+            Phase(PhaseKind.DOUBLE_SUPPORT, index + 1, end, self.walking_end),
+            Phase(PhaseKind.STANDING, index + 1, self.walking_end, float("inf")),
+        )
+
     def delay(self, phase: Phase, by: float) -> None:
         """Make a phase longer; all later ones come later.
 

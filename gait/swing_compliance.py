@@ -74,7 +74,7 @@ class ComplianceGains:
     ankle_reach: float = 0.095
     contact_force: float = 18.0
     hold_force: float = 28.0
-    pliancy: float = 1.2e-4
+    pliancy: float = 5e-5
     kept: float = 0.85
     kept_moving: float = 0.8
     still: float = 0.0005
@@ -86,12 +86,15 @@ class GroundView:
 
     Attributes:
         distance: How far down in m the first contact is.
-        slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by.
+        middle: How far down in m the ground is under the middle of the sole; the same where it is no plane.
+        slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by; None where there is
+            too little of it to follow.
         virtual_force: Virtual force f_p in N.
     """
 
     distance: float
-    slope: tuple[float, float]
+    middle: float
+    slope: tuple[float, float] | None
     virtual_force: float
 
 
@@ -119,6 +122,11 @@ class SwingCompliance:
         self._pose: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
         self._speed = 0.0
         self._aim: float | None = None
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """Distance (n,) of each taxel from the ground in m, less the bias; inf or NaN where nothing is seen."""
+        return self._distance - self.bias
 
     def begin(self) -> None:
         """A swing begins."""
@@ -197,7 +205,9 @@ class SwingCompliance:
             period: Control period in s.
         """
         g = self.gains
-        wanted = g.pliancy * (target - load) if load > 0.3 * g.hold_force else g.haste * 0.5 * g.touch_speed
+        wanted = g.pliancy * (target - load)
+        if load < 0.3 * g.hold_force:
+            wanted = max(wanted, 0.5 * g.haste * g.touch_speed)
         self._speed = min(0.02, max(-0.02, wanted))
         return self._speed * period
 
@@ -223,15 +233,18 @@ class SwingCompliance:
             return None
         x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
         level, sx, sy, used = _highest_plane(x, y, d)
-        slope = (sx, sy)
-        if math.hypot(sx, sy) > self.gains.largest_slope or used < self.gains.follow_taxels:
-            slope = (0.0, 0.0)
-        nearest = level - float((self._corners @ np.array([sx, sy])).max())
         g = self.gains
         wrench = virtual_ground_reaction_wrench(self.layout, self._distance - self.bias, 50.0, g.sensing_range)
-        if g.orientation == "moment":
-            slope = self._slope_of_moment(wrench, len(seen))
-        return GroundView(nearest, slope, float(wrench[2]))
+        slope: tuple[float, float] | None = (sx, sy)
+        if len(used) < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
+            slope = None  # too little to stand on, or too steep: the sole stays level
+            nearest = middle = float(np.sort(used)[: max(1, len(used) // 3)].mean())
+        else:
+            nearest = level - float((self._corners @ np.array([sx, sy])).max())
+            middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
+            if g.orientation == "moment":
+                slope = self._slope_of_moment(wrench, len(seen))
+        return GroundView(nearest, middle, slope, float(wrench[2]))
 
     def _slope_of_moment(self, wrench: NDArray[np.float64], count: int) -> tuple[float, float]:
         """Slope that a level sole would see for a virtual moment about its middle."""
@@ -245,12 +258,12 @@ class SwingCompliance:
 
 def _highest_plane(
     x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
-) -> tuple[float, float, float, int]:
+) -> tuple[float, float, float, NDArray[np.float64]]:
     """Plane z = -level + sx x + sy y through the highest ground under a sole.
 
     A least-squares plane; while it leaves out ground that is higher than it by more than noise explains, the fit is
-    repeated with the points above it. Fewer than six points, or points in a row, give a level
-    plane. Also returns how many points lie on it.
+    repeated with the points above it. Fewer than six points, or points in a row, give a level plane. Also returns the
+    distances of the points that lie on it.
     """
     for _ in range(4):
         n = len(x)
@@ -259,7 +272,7 @@ def _highest_plane(
         xx, xy, yy = float(u @ u), float(u @ v), float(v @ v)
         determinant = xx * yy - xy * xy
         if n < 6 or determinant < 0.02 * xx * yy + 1e-12 or min(xx, yy) < n * 2e-4:
-            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0, n
+            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0, d
         xw, yw = float(u @ w), float(v @ w)
         sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
         above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
@@ -267,7 +280,7 @@ def _highest_plane(
             break
         higher = above > 0.0
         x, y, d = x[higher], y[higher], d[higher]
-    return float(md + sx * mx + sy * my), float(sx), float(sy), n
+    return float(md + sx * mx + sy * my), float(sx), float(sy), d
 
 
 def turned_to_ground(

@@ -150,6 +150,46 @@ class WalkPlan:
         self.vrps, gap = self._bridged(time, now, window, region, later, 0.0)
         return Replan(moved, gap, 0.0)
 
+    def stop_after(self, step: int) -> None:
+        """Leave out all steps after one; call `hold` next, which plans what is left.
+
+        Args:
+            step: Index of the last step.
+        """
+        self.schedule.stop_after(step)
+        del self._points[step + 1 :]
+
+    def hold(
+        self,
+        time: float,
+        by: float,
+        region: NDArray[np.float64],
+        point: ArrayLike | None = None,
+        shift_later: ArrayLike = (0.0, 0.0),
+    ) -> NDArray[np.float64]:
+        """Make the current single support longer: the DCM comes back over the stance foot and leaves it later.
+
+        Args:
+            time: Now in s.
+            by: How much longer in s.
+            region: Convex polygon (k, 2) in the world in m in which the VRP may be meanwhile, counter-clockwise.
+            point: VRP (2,) in m over the foothold of the step that is being taken, where that has moved.
+            shift_later: By how much (2,) in m the footholds after it move.
+
+        Returns:
+            DCM (2,) in m by which the reference jumps.
+        """
+        now, phase = self.vrps.at(time), self.schedule.at(time)
+        if point is not None:
+            self._points[phase.step] = np.asarray(point, dtype=float)
+        later = np.asarray(shift_later, dtype=float)
+        for k in range(phase.step + 1, len(self._points)):
+            self._points[k] = self._points[k] + later
+        self.schedule.delay(phase, by)
+        window = (time, min(phase.end + by, time + _STANCE_BRIDGE))
+        self.vrps, gap = self._bridged(time, now, window, region, later, 0.0, late=by)
+        return gap
+
     def _bridged(
         self,
         time: float,
@@ -158,6 +198,7 @@ class WalkPlan:
         region: NDArray[np.float64],
         shift: NDArray[np.float64],
         delay: float,
+        late: float = 0.0,
     ) -> tuple[VrpPlan, NDArray[np.float64]]:
         """The plan from now on, with a bridge in a window of time, and the DCM (2,) that stays unbridged."""
         n = len(self.schedule.steps)
@@ -189,7 +230,7 @@ class WalkPlan:
         fresh = [i for i, t in enumerate(times) if t > head_times[-1] + 1e-6]
         head_times += [times[i] for i in fresh]
         head += [points[i] for i in fresh]
-        plan = self.vrps.replanned(head_times, head, first, shift=shift, delay=delay)
+        plan = self.vrps.replanned(head_times, head, first, shift=shift, delay=delay + late)
         gap = now.dcm - plan.dcm_waypoints[0]
         if bridge:
             push = gap / self._response(head_times[: bridge[1] + 2])
@@ -197,7 +238,7 @@ class WalkPlan:
                 wanted = head[i] + push
                 nearest = closest_point(region, wanted)
                 head[i] = wanted if nearest is None else nearest
-            plan = self.vrps.replanned(head_times, head, first, shift=shift, delay=delay)
+            plan = self.vrps.replanned(head_times, head, first, shift=shift, delay=delay + late)
             gap = now.dcm - plan.dcm_waypoints[0]
         return plan, gap
 

@@ -16,11 +16,13 @@ import numpy as np
 
 from gait.balance_laws import balance_gains
 from gait.controller import Command, ControllerSettings, WalkingController
+from gait.feasibility import FeasibilityRules
 from gait.foot_motion import Landing
 from gait.footsteps import Footstep, straight_plan
 from gait.phases import Timing
 from gait.swing_compliance import ComplianceGains
 from gait.walk_plan import vrp_of_step
+from plantar.errors import SceneError
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
 from plantar.polygon import centroid
@@ -106,6 +108,7 @@ class Simulation:
             swing_height=walk.swing_height,
             landing=Landing(approach_height=walk.approach_height, approach_speed=walk.approach_speed),
             compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
+            feasibility=self._feasibility(scene),
             gains=balance_gains(robot.balance),
             feedback=scene.control.feedback,
             zmp_source=scene.control.zmp_source,
@@ -123,7 +126,8 @@ class Simulation:
             scene.sensing,
             seed,
             proximity=scene.control.pfc or scene.control.footholds == "skin",
-            force_torque=scene.sensing.force_torque or scene.control.zmp_source == "force_torque",
+            force_torque=scene.sensing.force_torque
+            or "force_torque" in (scene.control.zmp_source, scene.control.feasibility),
         )
         self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
@@ -139,6 +143,14 @@ class Simulation:
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
         self.foothold_truth = FootholdTruth(self.world, ground)
         self.judge = Judge(self.world, self.settings.com_height)
+
+    @staticmethod
+    def _feasibility(scene: Scene) -> FeasibilityRules | None:
+        if scene.control.feasibility == "off":
+            return None
+        if not scene.control.pfc:
+            raise SceneError(f"control.feasibility is '{scene.control.feasibility}'; allowed: off, or with pfc = true")
+        return FeasibilityRules(rule=scene.control.feasibility)
 
     def _planned_feet(self) -> PlannedFeet:
         """The plan's footprints with their times, which the ground is laid out by."""
@@ -307,6 +319,8 @@ class Simulation:
             balance["skin_against_force_torque"] = self.zmps.summary()
         if balance:
             summary["balance"] = balance
+        if self.controller.guard is not None:
+            summary |= self.controller.guard.summary()
         if self.pusher.step is not None:
             summary["push"] = {
                 "impulse_Ns": self.scene.push.impulse,

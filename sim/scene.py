@@ -133,6 +133,8 @@ class Control:
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
             taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
+        feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
+            "force_torque" (moment at the ankle). Needs pfc.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
@@ -140,6 +142,7 @@ class Control:
     zmp_source: str = field(default="skin", metadata={"choices": ("skin", "force_torque")})
     footholds: str = field(default="off", metadata={"choices": ("off", "force", "skin")})
     pfc: bool = False
+    feasibility: str = field(default="off", metadata={"choices": ("off", "skin", "force_torque")})
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
 

@@ -41,3 +41,30 @@ def test_turns_the_short_way() -> None:
     yaw = SWING.at(0.9)[1]
     assert math.remainder(yaw + 3.0, 2 * math.pi) == pytest.approx(0.0, abs=1e-12)
     assert abs(yaw - 3.0) < 0.3
+
+
+def slow(**options: float) -> tuple[np.ndarray, np.ndarray]:
+    swing = SwingTrajectory(np.array([0.0, 0.1, 0.0]), np.array([0.4, 0.1, 0.0]), 0.0, 0.2, 0.05, 0.9, **options)
+    time = np.linspace(0.0, 0.9, 1801)
+    return time, np.array([swing.at(t)[0] for t in time])
+
+
+@pytest.mark.parametrize("options", [{}, {"approach_height": 0.015}, {"approach_height": 0.03, "approach_speed": 0.1}])
+def test_speed_does_not_jump(options: dict[str, float]) -> None:
+    time, track = slow(**options)
+    speed = np.diff(track, axis=0) / (time[1] - time[0])
+    assert np.abs(np.diff(speed, axis=0)).max() < 0.03
+
+
+def test_a_slow_approach_is_even_and_goes_below_the_expected_ground() -> None:
+    time, track = slow(approach_height=0.015, approach_speed=0.06)
+    late = (track[:, 2] < 0.0149) & (time > 0.4)
+    assert np.diff(track[late, 2]) / (time[1] - time[0]) == pytest.approx(np.full(late.sum() - 1, -0.06), abs=1e-6)
+    assert track[-1, 2] < -0.005
+    arrived = np.flatnonzero(np.abs(track[:, 0] - 0.4) < 1e-6)[0]
+    assert time[arrived] < 0.6
+
+
+def test_too_slow_an_approach_is_made_fast_enough_to_reach_the_ground() -> None:
+    _, track = slow(approach_height=0.03, approach_speed=0.005)
+    assert track[-1, 2] == pytest.approx(0.0, abs=1e-9)

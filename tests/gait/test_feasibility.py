@@ -1,0 +1,101 @@
+"""Rules of step feasibility on made-up contacts, and the way around."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.feasibility import FeasibilityRules, FootholdProbe, way_around
+from plantar import InputError, hex_layout
+from plantar.polygon import area
+
+OUTLINE = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+LAYOUT = hex_layout(OUTLINE)
+RULES = FeasibilityRules()
+
+
+def probe(mask: np.ndarray, rules: FeasibilityRules = RULES, moment: float = 0.0, noise: float = 1.5) -> FootholdProbe:
+    rng = np.random.default_rng(0)
+    made = FootholdProbe(LAYOUT, rules)
+    load = np.where(mask, 130.0 / max(1, mask.sum()), 0.0)
+    for _ in range(25):
+        made.feel(np.clip(load + rng.normal(0.0, noise, len(mask)), 0.0, None), np.array([0.0, moment]))
+    return made
+
+
+def test_a_slab_is_stepped_on_and_a_small_block_is_not() -> None:
+    whole = probe(np.ones(len(LAYOUT), dtype=bool)).verdict()
+    assert whole.feasible
+    assert whole.area_ratio > 0.9
+    block = probe(np.hypot(*LAYOUT.positions[:, :2].T) < 0.035).verdict()
+    assert not block.feasible
+    assert block.area_ratio == pytest.approx(area(block.polygon_in_sole) / LAYOUT.sole_area)
+    assert 0.05 < block.area_ratio < 0.5
+
+
+def test_noise_alone_supports_nothing() -> None:
+    assert probe(np.zeros(len(LAYOUT), dtype=bool)).verdict().area_ratio == 0.0
+
+
+def test_dead_taxels_do_not_spoil_the_area() -> None:
+    made = FootholdProbe(LAYOUT, RULES)
+    force = np.full(len(LAYOUT), 4.0)
+    force[[3, 9]] = np.nan
+    for _ in range(10):
+        made.feel(force, None)
+    assert made.verdict().feasible
+
+
+def test_what_is_seen_right_below_counts_as_supported() -> None:
+    made = probe(np.zeros(len(LAYOUT), dtype=bool))
+    distance = np.full(len(LAYOUT), np.inf)
+    made.see(distance)
+    assert made.verdict().area_ratio == 0.0
+    made.see(np.where(LAYOUT.positions[:, 0] > 0.0, 0.001, 0.03))
+    assert 0.3 < made.verdict().area_ratio < 0.7
+
+
+@pytest.mark.parametrize(("moment", "feasible"), [(3.0, True), (-3.0, True), (8.5, False), (-8.5, False)])
+def test_the_force_torque_rule_goes_by_the_moment_alone(moment: float, feasible: bool) -> None:
+    rules = FeasibilityRules(rule="force_torque")
+    small = np.hypot(*LAYOUT.positions[:, :2].T) < 0.035
+    found = probe(small, rules, moment).verdict()
+    assert found.feasible is feasible
+    assert found.moment == pytest.approx(abs(moment))
+    assert not FootholdProbe(LAYOUT, rules).verdict().feasible  # nothing was felt
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("seed", range(10))
+def test_the_way_around_clears_the_obstacle_by_the_clearance(side: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    middle, half = rng.uniform(-0.06, 0.06, 2), rng.uniform(0.01, 0.04, 2)
+    obstacle = np.array([middle - half, middle + half])
+    move = way_around(obstacle, OUTLINE, side, RULES)  # type: ignore[arg-type]
+    if move is None:
+        return
+    assert np.count_nonzero(move) == 1
+    moved = OUTLINE + move
+    gaps = [
+        obstacle[0, 0] - moved[:, 0].max(),
+        moved[:, 0].min() - obstacle[1, 0],
+        obstacle[0, 1] - moved[:, 1].max(),
+        moved[:, 1].min() - obstacle[1, 1],
+    ]
+    assert max(gaps) == pytest.approx(RULES.clearance)
+
+
+def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothing_is_allowed() -> None:
+    obstacle = np.array([[-0.09, 0.0], [0.09, 0.065]])
+    rules = FeasibilityRules(sideways_cost=1.0, outward=0.2, inward=0.02, forward=0.02, backward=0.02)
+    left = way_around(obstacle, OUTLINE, "left", rules)
+    assert left is not None
+    assert left[1] > 0.1
+    assert way_around(obstacle, OUTLINE, "right", rules) is not None  # its outward is to the right
+    assert way_around(np.array([[-0.3, -0.3], [0.3, 0.3]]), OUTLINE, "left", rules) is None
+    assert way_around(np.empty((0, 2)), OUTLINE, "left", rules) is None
+
+
+def test_an_unknown_rule_is_refused() -> None:
+    with pytest.raises(InputError, match="skin, force_torque"):
+        FeasibilityRules(rule="eyes")

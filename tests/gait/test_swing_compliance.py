@@ -1,0 +1,166 @@
+"""What a swinging sole sees of made-up ground, and how it comes down on it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from gait.swing_compliance import (
+    ComplianceGains,
+    GroundView,
+    SwingCompliance,
+    turned_to_ground,
+    vector_from_rotation,
+)
+from plantar import Percept, Reading, hex_layout
+
+LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+PERIOD = 0.005
+X, Y = LAYOUT.positions[:, 0], LAYOUT.positions[:, 1]
+
+
+def percept(distance: NDArray[np.float64], time: float = 0.0) -> Percept:
+    return Percept(LAYOUT, Reading(time=time, force=np.zeros(len(LAYOUT)), proximity=distance))
+
+
+def looked(
+    distance: NDArray[np.float64], gains: ComplianceGains | None = None, noise: float = 0.0
+) -> GroundView | None:
+    rng = np.random.default_rng(1)
+    compliance = SwingCompliance(LAYOUT, gains or ComplianceGains())
+    compliance.begin()
+    view = None
+    for k in range(20):
+        reading = distance + rng.normal(0.0, noise, len(distance)) if noise else distance
+        view = compliance.look(percept(reading, 0.005 * k), np.array([0.0, 0.0, 0.03]), np.eye(3))
+    return view
+
+
+@pytest.mark.parametrize("orientation", ["plane", "moment"])
+def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation: str) -> None:
+    view = looked(0.03 - 0.08 * X + 0.05 * Y, ComplianceGains(orientation=orientation))
+    assert view is not None
+    assert view.slope == pytest.approx((0.08, -0.05), abs=2e-3)
+    assert view.middle == pytest.approx(0.03, abs=1e-3)
+    assert view.distance == pytest.approx(0.03 - 0.08 * 0.1 - 0.05 * 0.07, abs=1e-3)
+
+
+def test_noise_averages_out() -> None:
+    view = looked(np.full(len(LAYOUT), 0.02), noise=2e-3)
+    assert view is not None
+    assert view.distance == pytest.approx(0.02, abs=1e-3)
+    assert view.slope is not None
+    assert np.hypot(*view.slope) < 0.01
+
+
+def test_a_small_block_is_what_is_met_first_and_is_not_followed() -> None:
+    view = looked(np.where(np.hypot(X - 0.05, Y) < 0.035, 0.012, 0.04))
+    assert view is not None
+    assert view.slope is None
+    assert view.distance == pytest.approx(0.012, abs=1e-6)
+
+
+def test_a_slab_under_half_the_sole_is_what_is_met_first() -> None:
+    view = looked(np.where(X > 0.0, 0.012, 0.04))
+    assert view is not None
+    assert view.distance == pytest.approx(0.012, abs=1e-3)
+
+
+def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
+    distance = np.full(len(LAYOUT), 0.02)
+    distance[:5] = np.nan
+    view = looked(distance)
+    assert view is not None
+    assert view.distance == pytest.approx(0.02)
+    assert looked(np.full(len(LAYOUT), np.inf)) is None
+    assert looked(np.full(len(LAYOUT), np.nan)) is None
+
+
+def test_the_map_moves_with_the_sole_between_readings() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.begin()
+    compliance.look(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3))
+    blind = Percept(LAYOUT, Reading(time=0.01, force=np.zeros(len(LAYOUT))))
+    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), np.eye(3))
+    assert view is not None
+    assert view.middle == pytest.approx(0.021)
+    angle = 0.05
+    tilted = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), tilted)  # toes down
+    assert view is not None
+    assert view.slope is not None
+    assert view.slope[0] == pytest.approx(np.tan(angle), rel=0.02)
+
+
+def test_a_bias_is_learned_from_the_touch() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    for _ in range(8):
+        compliance.begin()
+        for k in range(20):
+            compliance.look(percept(np.full(len(LAYOUT), 0.005), 0.005 * k), np.zeros(3), np.eye(3))
+        compliance.touched()
+    assert compliance.bias == pytest.approx(0.005, abs=1e-4)
+
+
+@pytest.mark.parametrize("height", [0.06, 0.04, 0.02])
+def test_the_swing_slows_down_and_touches_at_a_crawl(height: float) -> None:
+    gains = ComplianceGains()
+    compliance = SwingCompliance(LAYOUT, gains)
+    compliance.begin()
+    speeds = []
+    for _ in range(400):
+        seen = GroundView(height, height, (0.0, 0.0), 0.0) if height < gains.sensing_range else None
+        drop = compliance.descent(seen, 0.1, 0.0, False, PERIOD)
+        speeds.append(drop / PERIOD)
+        height -= drop
+        if height <= 0.0:
+            break
+    assert height <= 0.0
+    assert max(speeds) <= gains.top_speed + 1e-9
+    assert speeds[-1] < 2.0 * gains.touch_speed
+    assert np.diff(speeds).max() <= gains.acceleration * PERIOD + 0.02
+
+
+def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
+    gains = ComplianceGains()
+    compliance = SwingCompliance(LAYOUT, gains)
+    compliance.begin()
+    height = 0.04
+    for _ in range(400):
+        height -= compliance.descent(GroundView(height, height, None, 0.0), 0.1, 0.1, False, PERIOD)
+    assert height == pytest.approx(gains.clearance, abs=1e-3)
+
+
+def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
+    gains = ComplianceGains()
+    compliance = SwingCompliance(LAYOUT, gains)
+    compliance.begin()
+    assert not any(compliance.feel(load) for load in (5.0, -3.0, 8.0, 6.0))
+    assert [compliance.feel(40.0) for _ in range(3)][-1]
+    assert compliance.feel(10.0)  # above half the threshold
+    load, height = 0.0, 0.001
+    for _ in range(800):
+        height -= compliance.yielding(load, gains.hold_force, PERIOD)
+        load = max(0.0, -2e5 * height)
+    assert load == pytest.approx(gains.hold_force, abs=2.0)
+
+
+def test_turning_goes_to_the_slope_at_a_limited_rate() -> None:
+    rotation = np.eye(3)
+    for _ in range(200):
+        normal = rotation.T @ np.array([-0.1, 0.05, 1.0])
+        slope = (-normal[0] / normal[2], -normal[1] / normal[2])
+        turned = turned_to_ground(rotation, slope, 0.2, 0.01)
+        step = np.linalg.norm(vector_from_rotation(rotation.T @ turned))
+        assert step <= 0.01 + 1e-9
+        rotation = turned
+    up = rotation[:, 2] / rotation[2, 2]
+    assert up[:2] == pytest.approx([-0.1, 0.05], abs=1e-3)
+
+
+@pytest.mark.parametrize("vector", [[0.0, 0.0, 0.0], [0.3, -0.2, 0.1], [1e-12, 0.0, 0.0], [0.0, 2.0, 0.0]])
+def test_rotation_vectors_come_back(vector: list[float]) -> None:
+    from gait.estimator import rotation_from_vector
+
+    assert vector_from_rotation(rotation_from_vector(np.array(vector))) == pytest.approx(vector, abs=1e-9)

@@ -1,0 +1,83 @@
+"""Soft landing and step feasibility, judged by true contacts: one seed each, all of them in the long tests."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from plantar.errors import SceneError
+from sim.runner import Simulation, run_scene
+from sim.scene import load_scene
+
+WEIGHT = 86.0 * 9.81
+
+
+def test_proximity_softens_the_landing_on_ground_that_is_not_where_it_is_expected() -> None:
+    on = run_scene(load_scene("uneven", ["steps=6", "settle=0.5"]), 1)
+    off = run_scene(load_scene("uneven", ["steps=6", "settle=0.5", "pfc=false"]), 1)
+    assert on["completed"]
+    assert on["steps_taken"] == 6
+    assert np.mean(on["impacts_N"]) < 0.1 * WEIGHT
+    assert np.mean(off["impacts_N"]) > 0.3 * WEIGHT
+    assert on["landings_s"][-1] == pytest.approx(off["landings_s"][-1], abs=0.4)
+
+
+def test_computing_everything_leaves_the_motion_with_proximity_the_same() -> None:
+    runs = []
+    for skip in ("auto", "none"):
+        simulation = Simulation(load_scene("uneven", ["steps=2", "settle=0.3", f"skip={skip}"]), 3)
+        runs.append((simulation.run(), simulation.world.data.qpos.copy()))
+    (plain, first), (everything, second) = runs
+    assert np.array_equal(first, second)
+    assert plain["impacts_N"] == everything["impacts_N"]
+    assert everything["skipped"]["proximity_rays"] == 0 < plain["skipped"]["proximity_rays"]
+
+
+@pytest.mark.parametrize("slope", ["pitch=10", "roll=-10"])
+def test_the_sole_lies_on_a_slope_when_it_touches_it(slope: str) -> None:
+    summary = run_scene(load_scene("tilt", ["pitch=0", slope, "settle=0.5"]), 0)
+    assert summary["completed"]
+    assert summary["sole_angles_deg"][4] < 2.0
+
+
+def test_a_slab_is_stepped_on_softly() -> None:
+    summary = run_scene(load_scene("obstacle", ["settle=0.5"]), 0)
+    assert summary["completed"]
+    assert max(summary["impacts_N"]) < 0.5 * WEIGHT
+
+
+@pytest.mark.parametrize(("scene", "feasible"), [("feasibility-1", True), ("feasibility-2", False)])
+def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, feasible: bool) -> None:
+    summary = run_scene(load_scene(scene, ["settle=0.5"]), 0)
+    assert summary["completed"]
+    assert summary["steps_taken"] == 8
+    assert [(c["step"], c["feasible"]) for c in summary["feasibility"]] == [(4, feasible)]
+    assert (summary["feasibility"][0]["shift_m"] is None) == feasible
+    assert not summary["emergency_stop"]
+
+
+def test_where_there_is_no_way_the_robot_stops() -> None:
+    simulation = Simulation(load_scene("feasibility-3", ["settle=0.5"]), 0)
+    guard = simulation.controller.guard
+    assert guard is not None
+    guard.rules = replace(guard.rules, attempts=0)
+    summary = simulation.run()
+    assert summary["emergency_stop"]
+    assert not summary["fell"]
+    assert not summary["completed"]
+    assert summary["final"]["tilt_deg"] < 2.0
+    assert len(simulation.controller.schedule.steps) == 5
+
+
+def test_feasibility_needs_proximity() -> None:
+    with pytest.raises(SceneError, match="pfc"):
+        Simulation(load_scene("feasibility-1", ["pfc=false"]))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("scene", ["obstacle", "tilt", *(f"feasibility-{k}" for k in range(1, 5))])
+def test_every_seed_walks_on(scene: str, seed: int) -> None:
+    assert run_scene(load_scene(scene), seed)["completed"]
