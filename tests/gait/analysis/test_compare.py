@@ -1,0 +1,88 @@
+"""Two recordings side by side."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import cli
+from gait.analysis.compare import compare_recordings
+from plantar import FormatError, InputError, write_layout
+from plantar.formats.nominal_insole import nominal_insole
+
+
+def write_walk(path: Path, sides: tuple[str, ...], gain: float = 1.0, unit: str = "N") -> Path:
+    """Eight contacts a foot, the forces a half sine over cells that are alike."""
+    random = np.random.default_rng(1)
+    time = np.arange(0.0, 9.0, 0.01)
+    arrays = {}
+    for side, offset in (("left", 0.2), ("right", 0.75)):
+        phase = ((time - offset) % 1.1) / 0.65
+        height = gain * (700.0 + 20.0 * np.floor((time - offset) / 1.1))
+        total = np.where((phase < 1) & (time > offset), height * np.sin(np.pi * np.clip(phase, 0, 1)), 0.0)
+        cells = total[:, None] * np.full(99, 1 / 99) + random.normal(0.0, 0.02, (len(time), 99))
+        if side in sides:
+            arrays[side] = np.maximum(cells, 0.0)
+    np.savez(path, time=time, unit=unit, **arrays)
+    return path
+
+
+@pytest.fixture
+def layout(tmp_path: Path) -> Path:
+    return write_layout(nominal_insole("y", "left"), tmp_path / "layout.json")
+
+
+def test_before_and_after(tmp_path: Path, layout: Path) -> None:
+    a = write_walk(tmp_path / "before.npz", ("left", "right"))
+    b = write_walk(tmp_path / "after.npz", ("left", "right"), 1.25)
+    result = compare_recordings(a, b, tmp_path / "out", layout=layout)
+    assert set(result["difference"]) == {"left", "right"}
+    row = result["difference"]["left"]["peak_force_N"]
+    assert row["percent"] == pytest.approx(25.0, abs=0.1)
+    assert row["difference"] == pytest.approx(row["b"]["mean"] - row["a"]["mean"])
+    pooled = np.sqrt(0.5 * (row["a"]["sd"] ** 2 + row["b"]["sd"] ** 2))
+    assert row["effect_size"] == pytest.approx(row["difference"] / pooled, rel=1e-6)
+    assert abs(result["difference"]["right"]["contact_time_s"]["percent"]) < 1.0
+    names = {str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*") if p.is_file()}
+    assert {"comparison.json", "report.html", "pressure.png", "steps.svg", "difference.png"} <= names
+    assert {"a/report.html", "b/metrics.json"} <= names
+    stored = json.loads((tmp_path / "out" / "comparison.json").read_text())
+    assert stored == {k: v for k, v in result.items() if k != "files"}
+    page = (tmp_path / "out" / "report.html").read_text()
+    assert "before.npz" in page
+    assert 'href="a/report.html"' in page
+
+
+def test_left_against_right(tmp_path: Path, layout: Path) -> None:
+    a = write_walk(tmp_path / "l.npz", ("left",))
+    b = write_walk(tmp_path / "r.npz", ("right",), 2.0)
+    arguments = ["analyze", "--compare", str(a), str(b), "--layout", str(layout), "-o", str(tmp_path / "out"), "--json"]
+    done = CliRunner().invoke(cli.app, arguments)
+    assert done.exit_code == 0, done.output
+    result = json.loads(done.stdout)
+    assert list(result["difference"]) == ["left and right"]
+    assert result["difference"]["left and right"]["impulse_Ns"]["percent"] == pytest.approx(100.0, abs=3.0)
+
+
+def test_what_cannot_be_compared(tmp_path: Path, layout: Path) -> None:
+    a = write_walk(tmp_path / "a.npz", ("left",))
+    b = write_walk(tmp_path / "b.npz", ("left",), unit="raw")
+    with pytest.raises(InputError, match="cannot be compared"):
+        compare_recordings(a, b, tmp_path / "out", layout=layout)
+    with pytest.raises(FormatError, match="cannot be read"):
+        compare_recordings(a, tmp_path / "none", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    for arguments, text in (
+        (["analyze"], "give either one recording or --compare A B"),
+        (["analyze", str(a), "--compare", str(a), str(b)], "give either one recording or --compare A B"),
+        (["analyze", str(a), "--side", "up"], "allowed: left, right"),
+        (["analyze", str(a), "--mm-per-pixel", "1"], "is for footprint images"),
+    ):
+        done = CliRunner().invoke(cli.app, [*arguments, "-o", str(tmp_path / "out")])
+        assert isinstance(done.exception, InputError)
+        assert text in str(done.exception)
+    assert not (tmp_path / "out").exists()

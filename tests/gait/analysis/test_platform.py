@@ -1,0 +1,128 @@
+"""Footprints on a walkway, told apart and measured where they were set."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gait.analysis.analyse import metrics_of
+from gait.analysis.parameters import analyse_feet
+from gait.analysis.platform import told_apart
+from gait.analysis.player import player_data
+from plantar.formats.grid_cells import grid_cells
+from plantar.layout import Side
+from plantar.pressure_recording import FootRecording, PressureRecording
+
+PITCH = 0.01
+STEP, WIDTH, TOE_OUT = 0.62, 0.12, 8.0
+DOUBLE, STANCE = 0.12, 0.72
+
+
+def shape(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Where a foot of 0.25 m touches; u from the heel, v to the medial side, both in m."""
+
+    def disc(at: float, side: float, a: float, b: float) -> np.ndarray:
+        return ((u - at) / a) ** 2 + ((v - side) / b) ** 2 <= 1.0
+
+    inside = disc(0.04, 0.0, 0.04, 0.03) | ((u > 0.04) & (u < 0.16) & (v > -0.035) & (v < 0.0))
+    return inside | disc(0.165, 0.0, 0.04, 0.045) | disc(0.232, 0.02, 0.018, 0.014)
+
+
+def walkway(
+    steps: int = 6, first: Side = "left", reverse: bool = False, across: bool = False, cut: bool = False
+) -> tuple[PressureRecording, list[tuple[Side, float]]]:
+    """Feet that walk over a platform of cells of 1 cm, and the truth: side and heel strike of each step."""
+    rows, columns = round(STEP * steps / PITCH) + 30, 50
+    layout = grid_cells(np.ones((rows, columns), dtype=bool), PITCH, PITCH, side="left", name="way", threshold=1e3)
+    x, y = layout.positions[:, 0], layout.positions[:, 1]
+    time = np.arange(0.0, 0.5 + steps * (STANCE - DOUBLE) + 1.0, 0.01)
+    force = np.zeros((len(time), len(layout)))
+    truth: list[tuple[Side, float]] = []
+    for k in range(steps):
+        side: Side = first if k % 2 == 0 else ("right" if first == "left" else "left")
+        out = 1.0 if side == "left" else -1.0
+        turn = np.radians(TOE_OUT) * out
+        strike = (0.5 if not cut else 0.0) + k * (STANCE - DOUBLE)
+        heel = np.array([0.05 + k * STEP, out * WIDTH / 2])
+        u = (x - heel[0]) * np.cos(turn) + (y - heel[1]) * np.sin(turn)
+        left = -(x - heel[0]) * np.sin(turn) + (y - heel[1]) * np.cos(turn)
+        cells = shape(u, left * (1.0 if side == "right" else -1.0))
+        phase = (time - strike) / STANCE
+        for i in np.flatnonzero((phase >= 0) & (phase <= 1)):
+            near = np.exp(-0.5 * ((u[cells] - 0.25 * (0.1 + 0.8 * phase[i])) / 0.07) ** 2)
+            force[i, cells] += 800.0 * np.sin(np.pi * phase[i]) ** 0.5 * near / near.sum()
+        truth.append((side, strike))
+    if reverse:  # the same walk, seen from the other end of the platform
+        force = force.reshape(len(time), rows, columns)[:, ::-1, ::-1].reshape(len(time), -1)
+    if across:
+        layout = grid_cells(np.ones((columns, rows), dtype=bool), PITCH, PITCH, side="left", name="way", threshold=1e3)
+        force = np.rot90(force.reshape(len(time), rows, columns), axes=(1, 2)).reshape(len(time), -1)
+    feet: dict[Side, FootRecording] = {"left": FootRecording("left", np.ascontiguousarray(force), layout)}
+    recording = PressureRecording(Path("way"), "synthetic", 100.0, time, feet, kind="platform")
+    return recording, truth
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"first": "right"}, {"reverse": True}, {"across": True}, {"steps": 2}, {"steps": 3, "reverse": True}],
+)
+def test_a_walkway(options: dict[str, object]) -> None:
+    recording, truth = walkway(**options)  # type: ignore[arg-type]
+    told, prints = told_apart(recording)
+    assert [(p.side, round(float(told.time[p.begin]), 1)) for p in prints] == [(s, round(t, 1)) for s, t in truth]
+    feet = analyse_feet(told, prints)
+    for side, gait in feet.items():
+        strikes = [t for s, t in truth if s == side]
+        assert len(gait.steps) == len(strikes)
+        for k, (step, strike) in enumerate(zip(gait.steps, strikes, strict=True)):
+            assert step.heel_strike_s == pytest.approx(strike, abs=0.011)
+            assert step["foot_length_m"] == pytest.approx(0.25, abs=2 * PITCH)
+            assert step["foot_progression_deg"] == pytest.approx(TOE_OUT, abs=5.0)
+            if k:
+                assert step["step_length_m"] == pytest.approx(STEP, abs=PITCH)
+                assert step["step_width_m"] == pytest.approx(WIDTH, abs=2 * PITCH)
+                assert step["stride_length_m"] == pytest.approx(2 * STEP, abs=PITCH)
+                assert step["stride_velocity_m_s"] == pytest.approx(STEP / (STANCE - DOUBLE), rel=0.02)
+            assert step.regions["heel"]["peak_force_N"] > 100.0
+            assert 0.08 < step["cop_excursion_ap_m"] < 0.2
+            assert step["cop_excursion_ml_m"] < 0.04
+    metrics = metrics_of(told, feet)
+    assert metrics["frames"] == len(recording.time)
+    assert metrics["gait"]["landings"] == len(truth)
+
+
+@pytest.mark.parametrize("first", ["left", "right"])
+@pytest.mark.parametrize("reverse", [False, True])
+def test_a_single_footprint_tells_its_side_by_its_shape(first: Side, reverse: bool) -> None:
+    recording, _ = walkway(1, first, reverse)
+    told, prints = told_apart(recording)
+    assert [p.side for p in prints] == [first]
+    assert any(f"taken as the {first} one from the footprint's shape" in w for w in told.warnings)
+    data = player_data(told, analyse_feet(told, prints))
+    assert data is not None
+    assert len(data["feet"][0]["cells"]) < 400  # not the whole platform
+
+
+def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
+    recording, _ = walkway(1, cut=True)
+    loaded = np.flatnonzero(recording.feet["left"].force.sum(axis=1) > 1.0)
+    part = slice(loaded[0], loaded[-1] + 1)
+    foot = FootRecording("left", recording.feet["left"].force[part], recording.feet["left"].layout)
+    short = PressureRecording(Path("x"), "x", 100.0, recording.time[part], {"left": foot}, kind="platform")
+    told, prints = told_apart(short)
+    (gait,) = analyse_feet(told, prints).values()
+    assert len(gait.steps) == 1
+    assert any("unloaded just before and after" in w for w in told.warnings)
+
+
+def test_an_empty_platform_and_a_sole() -> None:
+    recording, _ = walkway(1)
+    empty = FootRecording("left", 0 * recording.feet["left"].force, recording.feet["left"].layout)
+    nobody = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty}, kind="platform")
+    told, prints = told_apart(nobody)
+    assert prints == ()
+    assert analyse_feet(told, prints)["left"].steps == ()
+    sole = PressureRecording(Path("x"), "x", 100.0, recording.time, {"left": empty})
+    assert told_apart(sole) == (sole, ())

@@ -1,0 +1,139 @@
+"""Real recordings against what is known of them; skipped where PLANTAR_REAL_DATA is not set."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gait.analysis.analyse import analyse
+from plantar import PlantarError
+
+EXAMPLES = ("pedar_walk.asc", "emed_step.lst", "fscan_walk_left.asf", "xsensor_walk.csv", "moticon_walk_a.txt")
+
+
+def vendor_events(report: Path, sheet: int) -> np.ndarray:
+    """Initial contact and toe off (n, 2) in s of one foot, from the vendor's report."""
+    name = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
+    with zipfile.ZipFile(report) as archive:
+        root = ElementTree.fromstring(archive.read(f"xl/worksheets/sheet{sheet}.xml"))
+    rows = [[(c.findtext(f"{name}v") or "") for c in row] for row in root.iter(f"{name}row")]
+    return np.array([[float(r[1]), float(r[2])] for r in rows[1:]])
+
+
+def test_moticon_events_agree_with_the_vendors(real_data: Path) -> None:
+    folder = real_data / "recordings"
+    analysis = analyse(folder / "moticon_walk_a.txt")
+    strides = []
+    for side, sheet in (("left", 2), ("right", 3)):
+        truth = vendor_events(folder / "moticon_walk_a_report.xlsx", sheet)
+        strides += np.diff(truth[:, 0]).tolist()
+        foot = analysis.metrics["feet"][side]
+        events = np.array([[e["heel_strike_s"], e["toe_off_s"]] for e in foot["events"]])
+        assert events.shape == truth.shape  # all of them and no others
+        assert np.abs(events[:, 0] - truth[:, 0]).max() < 0.020
+        assert np.abs(events[:, 1] - truth[:, 1]).max() < 0.040
+        assert len(foot["incomplete"]) == 2  # the standing at both ends
+        assert foot["missing_percent"] > 0.0
+    cadence = analysis.metrics["gait"]["cadence_steps_per_min"]
+    assert cadence == pytest.approx(120.0 / np.mean(strides), rel=0.01)
+
+
+def test_steps_of_the_other_recordings(real_data: Path) -> None:
+    found = {}
+    for name in EXAMPLES:
+        metrics = analyse(real_data / "recordings" / name).metrics
+        found[name] = {side: foot["steps"] for side, foot in metrics["feet"].items()}
+    assert found == {
+        "pedar_walk.asc": {"left": 9, "right": 8},
+        "emed_step.lst": {"right": 1},
+        "fscan_walk_left.asf": {"left": 5},
+        "xsensor_walk.csv": {"left": 1, "right": 0},
+        "moticon_walk_a.txt": {"left": 7, "right": 7},
+    }
+
+
+def test_the_emed_step_is_a_foot(real_data: Path) -> None:
+    metrics = analyse(real_data / "recordings" / "emed_step.lst").metrics
+    assert metrics["frames"] == 106
+    assert metrics["grid"] == {"rows": 95, "columns": 64}
+    (foot,) = metrics["feet"].values()
+    measures = {k: v["mean"] for k, v in foot["measures"].items()}
+    assert measures["peak_force_N"] == pytest.approx(818.63, abs=0.02)
+    assert measures["peak_pressure_Pa"] == 370e3
+    assert 0.24 < measures["foot_length_m"] < 0.29
+    assert 0.20 < measures["arch_index"] < 0.27
+    assert 0.0 < measures["foot_progression_deg"] < 20.0
+    assert 10.0 < measures["cpei_percent"] < 30.0
+    assert set(foot["regions"]) >= {"heel", "midfoot", "forefoot_central", "hallux", "toes"}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_hundred_corruptions_of_each(real_data: Path, tmp_path: Path, name: str) -> None:
+    """Never anything but one clear line or a result; a wrong unit never without a new warning."""
+    whole = (real_data / "recordings" / name).read_bytes()
+    if name == "emed_step.lst":
+        whole = whole[:300_000]  # the first part is as good and faster
+    bad = tmp_path / f"bad{Path(name).suffix}"
+    bad.write_bytes(whole)
+    base = analyse(bad)
+    usual = {s: f["measures"]["peak_force_N"]["mean"] for s, f in base.metrics["feet"].items()}
+    random = np.random.default_rng(17)
+    lines = []
+    for trial in range(100):
+        data = bytearray(whole)
+        top = min(3000, len(data)) if trial % 3 == 0 else len(data)
+        for at in random.integers(0, top, size=random.integers(1, 25)):
+            data[at] = random.integers(0, 256)
+        if trial % 10 == 9:
+            data = data[: random.integers(1, len(data))]
+        bad.write_bytes(bytes(data))
+        try:
+            got = analyse(bad)
+        except PlantarError as error:
+            lines.append(str(error))
+            continue
+        json.dumps(got.metrics, allow_nan=False)
+        for side, foot in got.metrics["feet"].items():
+            peak, before = foot["measures"].get("peak_force_N", {}).get("mean"), usual.get(side)
+            if peak is not None and before is not None and not 0.7 < peak / before < 1.4:
+                assert set(got.metrics["warnings"]) - set(base.metrics["warnings"]), (trial, side, peak)
+    assert not any("\n" in line for line in lines)
+
+
+@pytest.mark.long
+def test_a_long_recording_is_quick_and_small(tmp_path: Path) -> None:
+    """12 minutes of two 99-cell insoles at 100 Hz, within a fifth of the 30 s and 1 GB of an hour, and a start."""
+    random = np.random.default_rng(0)
+    path = tmp_path / "long.asc"
+    phase = np.arange(110) / 110 / 0.62
+    share = np.where(phase < 1, np.sin(np.pi * np.clip(phase, 0, 1)), 0.0)[:, None] * random.uniform(0, 160, (1, 198))
+    share[:, 99:] = np.roll(share[:, 99:], 55, axis=0)
+    rows = ["\t".join(f"{v:7.3f}" for v in row) + "\t\n" for row in np.round(share / 2.5) * 2.5]
+    cells = ",".join(str(i) for i in range(1, 100)) + ","
+    n = 12 * 60 * 100
+    with path.open("w") as stream:
+        stream.write("file name:  x.sol\nsensor type:  y-1865l-1870r \n")
+        stream.write(f"total time [secs]:  {n / 100:.3f}\tscanning rate [Hz]:   100\npressure values in  kPa\n\n")
+        stream.write(f"mask definition: \nleft insole: {cells}\nright insole: {cells}\n\n")
+        stream.write("time[secs]    \t" + "\t".join(f"{i:7d}" for _ in "lr" for i in range(1, 100)) + "\t\n")
+        for k in range(n):
+            stream.write(f"{(k + 1) / 100:12.5f}\t{rows[k % 110]}")
+    code = (
+        "import resource, sys, time, cli\n"
+        f"sys.argv = ['plantar', 'analyze', {str(path)!r}, '-o', {str(tmp_path / 'out')!r}]\n"
+        "try:\n    cli.main()\nexcept SystemExit as end:\n    assert not end.code\n"
+        "print('USED', time.process_time(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    _, seconds, kilobytes = done.stdout.splitlines()[-1].split()
+    assert float(seconds) < 30.0 / 5.0 + 6.0  # imports and figures do not grow with the recording
+    assert float(kilobytes) < 1e6 / 5.0 + 2.5e5
