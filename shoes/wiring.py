@@ -13,6 +13,7 @@ from shoes.plan import ShoePlan
 
 __all__ = ["cable_outlines", "pocket_outlines", "wiring_depth", "wiring_steps"]
 
+_SLIVER = 0.02  # mm^2
 _LIP = 1.5  # mm of rail behind the board
 _POST = 2.5  # mm of rail beside the board
 _PLAY = 0.3  # mm between board and rail
@@ -36,8 +37,21 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     """
     import shapely
 
-    joined = shapely.set_precision(shapely.union_all([*plan.pockets, *cable_outlines(plan, parameters)]), 1e-4)
+    cable = cable_outlines(plan, parameters)
+    openings = shapely.union_all([*plan.pockets, *cable])
+    joined = shapely.set_precision(shapely.union_all([openings, *_slivers(openings, cable, parameters)]), 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
+
+
+def _slivers(openings: Any, cable: list[Any], parameters: ShoeParameters) -> list[Any]:
+    """What would be left of ribs beside the cable too thin to print: a wedge, cut off square."""
+    import shapely
+
+    half = 0.55 * parameters.wall_min
+    closed = openings.buffer(half, join_style="mitre").buffer(-half, quad_segs=1)
+    near = shapely.union_all(cable).buffer(parameters.wall_min)
+    thin = closed.difference(openings.buffer(1e-4)).intersection(near)
+    return [g.buffer(2e-3, join_style="mitre") for g in getattr(thin, "geoms", [thin]) if g.area > _SLIVER]
 
 
 def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
