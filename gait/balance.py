@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Protocol
@@ -105,9 +106,11 @@ class BalanceLaw(Protocol):
 
     Attributes:
         wants_feet: Whether it looks at the feet; if not, `update` gets none.
+        states: How often it ended in which of its named states, for the run's summary; empty for a law without states.
     """
 
     wants_feet: bool
+    states: Counter[str]
 
     def update(
         self,
@@ -147,6 +150,7 @@ class DcmBalance:
         self.gains = gains
         self.omega = omega
         self.period = period
+        self.states: Counter[str] = Counter()
         self._offset = np.zeros(2)  # CoM reference minus the plan's CoM
         self._error = np.zeros(2)  # filtered p - p_d
 

@@ -8,6 +8,7 @@ shares; the CoM reference gives way a little to what is left of the ZMP error.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
@@ -19,7 +20,7 @@ from gait.balance import BalanceState, FootAction, FootState
 from gait.foot_admittance import AdmittanceGains, FootAdmittance
 from gait.lip import GRAVITY
 from gait.vrp_plan import LipReference
-from gait.wrench_distribution import DistributionState, DistributionWeights, WrenchDistribution
+from gait.wrench_distribution import DistributionWeights, WrenchDistribution
 from plantar.errors import InputError
 from plantar.layout import Side
 from plantar.polygon import closest_point
@@ -74,6 +75,9 @@ class WrenchBalanceGains:
 class WrenchBalance:
     """DCM feedback, wrench distribution and foot admittance.
 
+    Attributes:
+        states: How often the distribution ended in which state.
+
     Args:
         gains: Gains of the law.
         omega: Pendulum frequency in rad/s.
@@ -98,7 +102,7 @@ class WrenchBalance:
         self.period = period
         self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force)
         self.feet = FootAdmittance(gains.feet, period)
-        self.state = DistributionState.AIRBORNE
+        self.states: Counter[str] = Counter()
         self._integral = np.zeros(2)
         self._offset = np.zeros(2)  # CoM reference minus the plan's CoM
         self._error = np.zeros(2)  # filtered p - p_d
@@ -172,7 +176,7 @@ class WrenchBalance:
         # Along the line from the ZMP to the CoM: no moment about the ZMP.
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
         share = self.distribution.solve(contacts, wrench, (x, y, ground), ratio)
-        self.state = share.state
+        self.states[share.state.value] += 1
         wanted = dict(zip(feet, share.wrenches, strict=True))
         corrections = self.feet.update(wanted, {side: foot.wrench for side, foot in feet.items()})
         return {

@@ -319,6 +319,8 @@ class Simulation:
             balance["skin_against_force_torque"] = self.zmps.summary()
         if balance:
             summary["balance"] = balance
+        if self.controller.balance.states:
+            summary["wrench_distribution"] = dict(self.controller.balance.states)
         if self.controller.guard is not None:
             summary |= self.controller.guard.summary()
         if self.pusher.step is not None:
