@@ -38,7 +38,7 @@ from plantar.layout_file import read_layout
 from plantar.plotting import save_figure
 from plantar.pressure_recording import PressureRecording
 
-__all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "write_analysis"]
+__all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "with_layout", "write_analysis"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,18 @@ def analyse_recording(
 
 
 def with_layout(options: ReadOptions | None, layout: str | os.PathLike[str] | None) -> ReadOptions:
-    """The options with the layout of a file."""
+    """The options with the layout of a file.
+
+    Args:
+        options: What the user knows about a file, or None.
+        layout: Layout file, or None.
+
+    Returns:
+        The options.
+
+    Raises:
+        LayoutError: If the layout file is not valid.
+    """
     options = options or ReadOptions()
     return options if layout is None else dataclasses.replace(options, layout=read_layout(layout))
 
@@ -122,6 +133,9 @@ def analyse(
         format: Name of the file's format; recognised from its content where None.
         options: What the user knows about the file.
         progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
+
+    Returns:
+        The recording, its feet and their measures.
 
     Raises:
         FormatError: If the file is not a recording that can be read.

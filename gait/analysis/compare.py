@@ -109,6 +109,9 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
         analyses: "a" and "b".
         one: The foot of A.
         other: The foot of B.
+
+    Returns:
+        For each measure "a" and "b" (mean, sd, cv_percent, n), "difference", "percent" and "effect_size".
     """
     first = analyses["a"].metrics["feet"][one]["measures"]
     second = analyses["b"].metrics["feet"][other]["measures"]

@@ -63,7 +63,15 @@ def _panels(
 
 
 def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Maximum pressure picture of each foot with the CoP paths of its complete steps; None without geometry."""
+    """Maximum pressure picture of each foot with the CoP paths of its complete steps.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None where no foot has geometry.
+    """
     shown = {side: gait for side, gait in feet.items() if gait.picture is not None}
     if not shown:
         return None
@@ -127,9 +135,14 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
 
 
 def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """The regions of each foot, its axis and the thirds of the print without toes; None where there are none.
+    """The regions of each foot, its axis and the thirds of the print without toes.
 
-    Of a platform the first footprint of each foot is shown.
+    Args:
+        recording: The recording; of a platform the first footprint of each foot is shown.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None where no foot has regions.
     """
     platform = recording.kind == "platform"
     shown: dict[Side, tuple[FootGait, NDArray[np.int64], Any]] = {}
@@ -171,7 +184,10 @@ def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
     """Symmetry index of the measures that have one; None where there are fewer than two.
 
     Args:
-        symmetry: Index in percent of each measure, by its key or that of raw counts.
+        symmetry: Index in percent of each measure, by its key.
+
+    Returns:
+        The figure, or None.
     """
     wanted = [
         "contact_time_s",
@@ -207,7 +223,15 @@ def figure_symmetry(symmetry: Mapping[str, float | None]) -> Any | None:
 
 
 def figure_wrench(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Wrench of each sole about its frame's origin over time; None for recordings that are not of a robot."""
+    """Wrench of each sole about its frame's origin over time.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The figure, or None for recordings that are not of a robot.
+    """
     if recording.kind != "robot" or recording.raw:
         return None
     shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
@@ -308,7 +332,15 @@ STANCE = np.linspace(0.0, 100.0, 101)
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Vertical force of each complete step (steps, 101) over its stance in percent."""
+    """Vertical force of each complete step over its stance.
+
+    Args:
+        recording: The recording.
+        gait: One foot of it.
+
+    Returns:
+        Forces (steps, 101) in N at each percent of the stance.
+    """
     known = np.isfinite(gait.foot.vertical_force)
     time, force = recording.time[known], gait.foot.vertical_force[known]
     moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.steps]

@@ -73,7 +73,15 @@ class Footprint:
         return float(self.rings[~self.is_toe][:, :, 0].max()) if (~self.is_toe).any() else self.length
 
     def area_between(self, low: float, high: float) -> float:
-        """Area in m^2 of the print without its toes between two lines across the axis, cells cut exactly."""
+        """Area of the print without its toes between two lines across the axis, cells cut exactly.
+
+        Args:
+            low: u of the one line in m.
+            high: u of the other one in m.
+
+        Returns:
+            The area in m^2.
+        """
         keep = ~self.is_toe
         rings, areas = self.rings[keep], self.areas[keep]
         first, last = rings[:, :, 0].min(axis=1), rings[:, :, 0].max(axis=1)
@@ -146,6 +154,9 @@ def footprint_of_pixels(
         pixel: Their size in m.
         side: The foot.
         forward: Direction (2,) from heel to toes, about.
+
+    Returns:
+        The footprint.
     """
     box = 0.5 * pixel * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
     rings = centres[:, None, :] + box

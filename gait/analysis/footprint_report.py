@@ -81,6 +81,9 @@ def footprint_in_image(part: Print, pixel: float, side: Side) -> Footprint:
         part: The mask.
         pixel: Size of a pixel in m (or 1 for lengths in pixels).
         side: The foot.
+
+    Returns:
+        The footprint, with its toe line.
     """
     rows, columns = np.nonzero(part.mask)
     every = max(1, round(float(np.sqrt(len(rows) / _MOST_PIXELS))))

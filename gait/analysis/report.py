@@ -171,6 +171,13 @@ def _asset(name: str) -> str:
 def number(value: float | None, digits: int = 3) -> str:
     """A value with about as many digits as its size deserves; an en dash where it is not known.
 
+    Args:
+        value: The value, or None.
+        digits: Digits that count.
+
+    Returns:
+        The text.
+
     Example:
         >>> number(1234.5), number(-0.01234), number(None), number(0.0), number(2.0)
         ('1234', '−0.0123', '–', '0', '2.00')

@@ -46,6 +46,13 @@ def formats() -> dict[str, Format]:
 def named_format(path: str | os.PathLike[str], name: str | None = None) -> Format:
     """The format of a name, or that of a file's content where the name is None.
 
+    Args:
+        path: The file.
+        name: Name of a format, or None.
+
+    Returns:
+        The format.
+
     Raises:
         FormatError: If there is no format of this name, or the file is of none.
     """

@@ -26,6 +26,9 @@ def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str]
         warnings: Where an assumption is put.
         what: What states nothing, for the warning.
 
+    Returns:
+        The unit.
+
     Raises:
         FormatError: If the stated unit is not known.
     """
@@ -59,6 +62,9 @@ def cells_of_foot(
         ids: Cell ids of the columns, where the file names them.
         own: Layout that the file itself holds.
 
+    Returns:
+        The foot.
+
     Raises:
         FormatError: If the layout has another number of cells, or pressures have no cell areas to make forces of.
     """
@@ -85,7 +91,16 @@ def cells_of_foot(
 def halves(
     values: NDArray[np.float64], options: ReadOptions, warnings: list[str]
 ) -> list[tuple[Side, NDArray[np.float64]]]:
-    """Columns that name no foot: both feet where there are twice the layout's cells, else one."""
+    """Columns that name no foot: both feet where there are twice the layout's cells, else one.
+
+    Args:
+        values: Values (n, k).
+        options: What the user says.
+        warnings: Where an assumption is put.
+
+    Returns:
+        The feet and their columns.
+    """
     k = values.shape[1]
     if options.layout is not None and k == 2 * len(options.layout):
         warnings.append(

@@ -67,6 +67,9 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
         path: The image.
         mm_per_pixel: Size of a pixel in mm; where None, the resolution that the file states.
 
+    Returns:
+        The image and its footprints.
+
     Raises:
         FormatError: If the file is no image, or no footprint stands out from its background.
         InputError: If mm_per_pixel is not possible.

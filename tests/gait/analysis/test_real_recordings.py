@@ -79,8 +79,7 @@ def test_the_emed_step_is_a_foot(real_data: Path) -> None:
 def test_a_hundred_corruptions_of_each(real_data: Path, tmp_path: Path, name: str) -> None:
     """Never anything but one clear line or a result; a wrong unit never without a new warning."""
     whole = (real_data / "recordings" / name).read_bytes()
-    if name == "emed_step.lst":
-        whole = whole[:300_000]  # the first part is as good and faster
+    whole = whole[:300_000] if name != "pedar_walk.asc" else whole  # the first part is as good and faster
     bad = tmp_path / f"bad{Path(name).suffix}"
     bad.write_bytes(whole)
     base = analyse(bad)
