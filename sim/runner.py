@@ -96,7 +96,7 @@ class Simulation:
         self.settings = ControllerSettings(
             com_height=robot.com_height - walk.crouch,
             mass=self.legs.mass,
-            trunk_lean=robot.trunk_lean,
+            trunk_lean=robot.trunk_lean if walk.lean else 0.0,
             period=CONTROL_PERIOD,
             timing=Timing(
                 walk.single_support or robot.single_support,

@@ -34,6 +34,8 @@ class Walk:
         single_support: t_ss; 0 takes the robot's own.
         double_support: t_ds; 0 takes the robot's own.
         swing_height: Clearance of the swing foot.
+        lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
+            `trunk_lean`).
         crouch: How much lower than its own CoM height the robot walks, to reach ground that is lower than expected.
         approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
             far below it, for ground that is lower than expected.
@@ -52,6 +54,7 @@ class Walk:
     single_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     double_support: float = field(default=0.0, metadata=limits(0.0, 10.0))
     swing_height: float = field(default=0.05, metadata=limits(0.005, 0.25))
+    lean: bool = False
     crouch: float = field(default=0.0, metadata=limits(0.0, 0.15))
     approach_height: float = field(default=0.0, metadata=limits(0.0, 0.1))
     approach_speed: float = field(default=0.06, metadata=limits(0.005, 0.5))
@@ -155,6 +158,7 @@ _SECTIONS: dict[str, type] = {
 }
 
 _ALIASES: Mapping[str, str] = {
+    "sideways": "walk.sideways",
     "t_ss": "walk.single_support",
     "t_ds": "walk.double_support",
     "noise": "sensing.force_noise",

@@ -46,7 +46,7 @@ def test_a_fall_is_exit_code_1(tmp_path: Path) -> None:
         (["sim", "missing.toml"], ("missing.toml", "does not exist")),
         (["sim", "flat", "--robot", "r2d2"], ("r2d2", "h1")),
         (["sim", "flat", "--set", "steps=many"], ("steps", "many")),
-        (["sim", "flat", "--set", "width=9"], ("width", "0.6")),
+        (["sim", "flat", "--set", "stance_width=9"], ("stance_width", "0.6")),
         (["sim", "flat", "--set", "length=0.9"], ("length", "0.9")),
         (["sim", "flat", "--seed", "-1"], ("seed", "0 or more")),
         (["sim", "flat", "--record", "run.bag"], (".mcap",)),

@@ -38,8 +38,7 @@ class Beam(Terrain):
     yaw: float = field(default=0.0, metadata=limits(-45.0, 45.0))
     depth: float = field(default=0.3, metadata=limits(0.02, 10.0))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         begin, end = feet.middle(), feet.middle(last=True)
         way = end - begin
         distance = float(np.hypot(*way))

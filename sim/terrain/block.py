@@ -46,8 +46,7 @@ class Block(Terrain):
     slide: float = field(default=0.0, metadata=limits(0.0, 2.0))
     height_range: float = field(default=0.0, metadata=limits(0.0, 0.1))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         foot = feet.steps[self.step]

@@ -36,8 +36,7 @@ class Course(Terrain):
         for i, table in enumerate(self.solid):
             _solid(table, f"terrain.solid {i}")
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         solids = tuple(_solid(table, f"terrain.solid {i}") for i, table in enumerate(self.solid))
         return Ground(solids, self.floor, self.friction)
 

@@ -47,7 +47,15 @@ class Footprint:
     touchdown: float = -math.inf
 
     def place(self, along: float, across: float) -> NDArray[np.float64]:
-        """World point (2,) in m at a place of the footprint, from its centre along (forward) and across (left)."""
+        """A place of the footprint in the world.
+
+        Args:
+            along: Distance in m from its centre, forward.
+            across: Distance in m from its centre, to the left.
+
+        Returns:
+            Point (2,) in the world in m.
+        """
         c, s = math.cos(self.yaw), math.sin(self.yaw)
         return np.asarray(self.center + np.array([c * along - s * across, s * along + c * across]))
 
@@ -65,7 +73,14 @@ class PlannedFeet:
     steps: tuple[Footprint, ...]
 
     def middle(self, last: bool = False) -> NDArray[np.float64]:
-        """Middle (2,) between the soles' centres at the start or, `last`, at the end of the walk, in m."""
+        """Middle between the soles' centres.
+
+        Args:
+            last: At the end of the walk instead of its start.
+
+        Returns:
+            Point (2,) in the world in m.
+        """
         feet = dict(self.standing)
         if last:
             for step in self.steps:
@@ -107,7 +122,14 @@ class Solid:
     motions: tuple[Motion, ...] = ()
 
     def at(self, time: float) -> NDArray[np.float64]:
-        """Its centre (3,) in m at a time in s."""
+        """Where it is.
+
+        Args:
+            time: Time in s.
+
+        Returns:
+            Its centre (3,) in the world in m.
+        """
         position = self.position
         for motion in self.motions:
             if time < motion.start:
@@ -149,7 +171,11 @@ class Ground:
     facts: Mapping[str, float] = field(default_factory=dict)
 
     def seen_from_above(self) -> list[list[list[float]]]:
-        """Outlines [[x, y], ...] in m of the faces that the solids turn upwards, for figures; round ones as 16-gons."""
+        """Outlines of the faces that the solids turn upwards, for figures.
+
+        Returns:
+            For each solid its corners [[x, y], ...] in the world in m; a round one as a 16-gon.
+        """
         rings = []
         turns = np.linspace(0.0, 2.0 * math.pi, 17)[:-1]
         for solid in self.solids:
@@ -173,7 +199,11 @@ class Ground:
         return max([self.floor, *(solid.top for solid in self.solids)])
 
     def add_to(self, spec: Any) -> None:
-        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a `mujoco.MjSpec`."""
+        """Add the floor as geom "ground" and the solids as "ground_0", "ground_1"... to a model.
+
+        Args:
+            spec: The `mujoco.MjSpec`.
+        """
         import mujoco
 
         kinds = {
@@ -233,6 +263,9 @@ class Terrain:
         Returns:
             The ground.
         """
+        return self._laid_out(feet, rng)
+
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         raise NotImplementedError
 
 
@@ -240,13 +273,20 @@ class Terrain:
 class Flat(Terrain):
     """An endless level plane."""
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         return Ground((), self.height, self.friction)
 
 
 def rotation_of(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:
-    """Rotation (3, 3) by roll, then pitch, then yaw, in rad.
+    """Rotation by roll, then pitch, then yaw.
+
+    Args:
+        yaw: Angle about z in rad.
+        pitch: Angle about y in rad; positive lowers the front.
+        roll: Angle about x in rad; positive raises the left.
+
+    Returns:
+        Rotation (3, 3) to the world.
 
     Example:
         >>> rotation_of(0.0, pitch=0.1)[2, 0] < 0.0

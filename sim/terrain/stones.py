@@ -39,8 +39,7 @@ class Partial(Terrain):
     rise: float = field(default=0.0, metadata=limits(-0.1, 0.1))
     depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         prints = _distinct(feet)
@@ -64,8 +63,7 @@ class Stones(Terrain):
     share_max: float = field(default=1.0, metadata=limits(0.02, 1.0))
     depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.share_min > self.share_max:
             raise SceneError(f"terrain.share_min is {self.share_min:g}; allowed: up to share_max, {self.share_max:g}")
         solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
@@ -96,8 +94,7 @@ class Uneven(Terrain):
     slope_range: float = field(default=0.0, metadata=limits(0.0, 20.0))
     depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth)] for side in _SIDES}
         place, height = dict(feet.standing), dict.fromkeys(_SIDES, 0.0)
         for foot in feet.steps:
@@ -140,8 +137,7 @@ class Pebbles(Terrain):
     slope_range: float = field(default=8.0, metadata=limits(0.0, 20.0))
     depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
 
-    def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        """Lay the ground out (see `Terrain.ground`)."""
+    def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
         solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
