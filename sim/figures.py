@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import InputError
 from plantar.layout import Side
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recording import Recording, read_mcap
 from sim.foothold_figure import draw_footholds
 from sim.zmp_figure import draw_zmp_plane, draw_zmps
 
-__all__ = ["plot_run"]
+__all__ = ["plot_landing_forces", "plot_run"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 
@@ -38,6 +40,36 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
     if "/zmp" in run.topics and len(run.topics["/zmp"].time):
         drawn |= {"zmp": draw_zmps(run), "zmp_plane": draw_zmp_plane(run)}
     return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
+
+
+def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: str | Path) -> Path:
+    """Draw the ground force on each foot over time, one panel a run, for comparison (T Fig. 51 and 55).
+
+    Args:
+        recordings: Runs by what shall stand beside their panels.
+        path: PNG to write.
+
+    Returns:
+        The file.
+
+    Raises:
+        InputError: If there is no run.
+    """
+    if not recordings:
+        raise InputError("no runs to compare; name at least one")
+    figure, axes = new_figure(8.0, 1.0 + 1.7 * len(recordings), len(recordings), 1, sharex=True, sharey=True)
+    panels = [axes] if len(recordings) == 1 else list(axes)
+    for axis, (name, recording) in zip(panels, recordings.items(), strict=True):
+        run = recording if isinstance(recording, Recording) else read_mcap(recording)
+        for side in _SIDES:
+            topic = f"/truth/{side}"
+            force = _field(run, topic, "normal_force")[:, 0]
+            axis.plot(run.topics[topic].time, force, color=COLOURS[side], lw=0.7, label=side)
+        axis.set_ylabel(f"{name}\nground force [N]")
+        axis.grid(alpha=0.3)
+    panels[0].legend(fontsize=8, ncol=2)
+    panels[-1].set_xlabel("time [s]")
+    return save_figure(figure, Path(path))
 
 
 def _field(run: Recording, topic: str, name: str) -> NDArray[np.float64]:
