@@ -4,8 +4,9 @@ What the taxels measure on their way down is kept as one map of distances, carri
 that noise averages out though nothing stands still. A plane through the highest ground under the sole gives how far
 the first contact is and which way the ground slopes.
 
-- Damping: the virtual force f_p = k_p sum(rho_i) of T 4.26 says how near the ground is; the swing slows down in
-  proportion to the distance that is left and touches at a crawl (T 4.31, where the paper stops at f_p > epsilon_stop).
+- Damping: on level ground the virtual force of T 4.26 is f_p = n k_p (range - distance); slowing down in proportion to
+  the distance that is left is slowing down by f_p. The swing ends at a crawl, where T 4.31 stops at f_p > epsilon_stop:
+  so it meets what noise and bias leave of the distance.
 - Orientation: the sole turns until the ground shows no slope, or until the virtual moment is zero.
 - Hand-over: once the taxels carry load, T 4.30 (corrected) drops the virtual part.
 """
@@ -21,6 +22,7 @@ from numpy.typing import NDArray
 from gait.estimator import rotation_from_vector
 from plantar.layout import SoleLayout
 from plantar.percept import Percept
+from plantar.percept_virtual import PROXIMITY_GAIN
 from plantar.virtual_wrench import SoleWrenchSwitch, virtual_ground_reaction_wrench
 
 __all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground", "vector_from_rotation"]
@@ -89,13 +91,11 @@ class GroundView:
         middle: How far down in m the ground is under the middle of the sole; the same where it is no plane.
         slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by; None where there is
             too little of it to follow.
-        virtual_force: Virtual force f_p in N.
     """
 
     distance: float
     middle: float
     slope: tuple[float, float] | None
-    virtual_force: float
 
 
 class SwingCompliance:
@@ -234,7 +234,6 @@ class SwingCompliance:
         x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
         level, sx, sy, used = _highest_plane(x, y, d)
         g = self.gains
-        wrench = virtual_ground_reaction_wrench(self.layout, self._distance - self.bias, 50.0, g.sensing_range)
         slope: tuple[float, float] | None = (sx, sy)
         if len(used) < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
             slope = None  # too little to stand on, or too steep: the sole stays level
@@ -243,16 +242,18 @@ class SwingCompliance:
             nearest = level - float((self._corners @ np.array([sx, sy])).max())
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
             if g.orientation == "moment":
-                slope = self._slope_of_moment(wrench, len(seen))
-        return GroundView(nearest, middle, slope, float(wrench[2]))
+                slope = self._slope_of_moment(len(seen))
+        return GroundView(nearest, middle, slope)
 
-    def _slope_of_moment(self, wrench: NDArray[np.float64], count: int) -> tuple[float, float]:
-        """Slope that a level sole would see for a virtual moment about its middle."""
+    def _slope_of_moment(self, count: int) -> tuple[float, float]:
+        """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
+        distance = self._distance - self.bias
+        wrench = virtual_ground_reaction_wrench(self.layout, distance, PROXIMITY_GAIN, self.gains.sensing_range)
         moment_x = wrench[3] - self._centre[1] * wrench[2]
         moment_y = wrench[4] + self._centre[0] * wrench[2]
         return (
-            float(-moment_y / (50.0 * count * self._spread[0])),
-            float(moment_x / (50.0 * count * self._spread[1])),
+            float(-moment_y / (PROXIMITY_GAIN * count * self._spread[0])),
+            float(moment_x / (PROXIMITY_GAIN * count * self._spread[1])),
         )
 
 

@@ -1,4 +1,5 @@
 import math
+from itertools import pairwise
 
 import pytest
 
@@ -39,3 +40,28 @@ def test_no_steps_is_standing() -> None:
 def test_bad_timing_is_named(name: str, value: float) -> None:
     with pytest.raises(InputError, match=name):
         Timing(**{name: value})
+
+
+def test_a_single_support_that_is_made_longer_delays_all_that_follows() -> None:
+    schedule = WalkSchedule(STEPS, Timing(), begin=1.0)
+    before = schedule.phases
+    swing = next(p for p in before if p.step == 2 and p.swing is not None)
+    schedule.delay(swing, 0.7)
+    after = schedule.phases
+    i = before.index(swing)
+    assert after[:i] == before[:i]
+    assert after[i].end == pytest.approx(swing.end + 0.7)
+    assert [p.start for p in after[i + 1 :]] == pytest.approx([p.start + 0.7 for p in before[i + 1 :]])
+    assert all(a.end == b.start for a, b in pairwise(after))
+
+
+def test_a_walk_that_stops_ends_with_the_step_that_is_being_taken() -> None:
+    schedule = WalkSchedule(STEPS, Timing(), begin=1.0)
+    schedule.move_step(2, STEPS[0])
+    schedule.stop_after(2)
+    assert schedule.steps == (STEPS[0], STEPS[1], STEPS[0])
+    assert all(a.end == b.start for a, b in pairwise(schedule.phases))
+    assert [p.kind for p in schedule.phases[-2:]] == [PhaseKind.DOUBLE_SUPPORT, PhaseKind.STANDING]
+    assert schedule.phases[-1].step == 3
+    assert schedule.walking_end == schedule.phases[-1].start
+    assert sum(p.swing is not None for p in schedule.phases) == 3

@@ -110,7 +110,7 @@ def test_the_swing_slows_down_and_touches_at_a_crawl(height: float) -> None:
     compliance.begin()
     speeds = []
     for _ in range(400):
-        seen = GroundView(height, height, (0.0, 0.0), 0.0) if height < gains.sensing_range else None
+        seen = GroundView(height, height, (0.0, 0.0)) if height < gains.sensing_range else None
         drop = compliance.descent(seen, 0.1, 0.0, False, PERIOD)
         speeds.append(drop / PERIOD)
         height -= drop
@@ -128,7 +128,7 @@ def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
     compliance.begin()
     height = 0.04
     for _ in range(400):
-        height -= compliance.descent(GroundView(height, height, None, 0.0), 0.1, 0.1, False, PERIOD)
+        height -= compliance.descent(GroundView(height, height, None), 0.1, 0.1, False, PERIOD)
     assert height == pytest.approx(gains.clearance, abs=1e-3)
 
 

@@ -140,3 +140,30 @@ def test_a_replan_costs_the_same_in_a_long_plan() -> None:
     plan.move(3, plan.stance(3) + np.array([0.05, 0.0]), plan.schedule.phases[9].start + 0.02, np.empty((0, 2)))
     kept = len(plan.vrps._end_offset) - 20
     assert (plan.vrps._end_offset[-kept:] == offsets[-kept:]).all()
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moved: bool) -> None:
+    """In mid swing the DCM comes back over the stance foot, waits, and leaves for the next foothold in time."""
+    feet, steps = straight_plan(8, length=0.2)
+    schedule = WalkSchedule(steps, Timing(), begin=1.0)
+    plan = WalkPlan(feet, schedule, CENTER, OMEGA)
+    swing = next(p for p in schedule.phases if p.step == 4 and p.swing is not None)
+    time = swing.start + 0.45
+    before = plan.at(time)
+    stance = plan.at(swing.start + 0.01).vrp
+    region = stance + 0.06 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    point = plan.stance(4) + np.array([-0.1, 0.0]) if moved else None
+    later = (-0.1, 0.0) if moved else (0.0, 0.0)
+    end = plan.end.copy()
+    gap = plan.hold(time, 0.8, region, point, later)
+    after = plan.at(time + 1e-9)
+    assert np.hypot(*gap) < 1e-6
+    assert np.allclose(after.dcm, before.dcm, atol=1e-6)
+    assert np.allclose(after.com, before.com, atol=1e-6)
+    assert np.hypot(*(plan.at(swing.end).dcm - stance)) < 0.02  # where it would have been 0.1 m away
+    held = np.array([plan.at(t).vrp for t in np.arange(time, swing.end + 0.8, 0.01)])
+    assert np.abs(held - stance).max() < 0.06 + 1e-9
+    assert np.allclose(plan.end, end + later, atol=1e-9)
+    if moved:
+        assert np.allclose(plan.at(swing.end + 0.8 + 0.3 + 0.1).vrp, point, atol=1e-9)
