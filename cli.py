@@ -430,6 +430,18 @@ def _print_run(summary: dict[str, Any]) -> None:
         f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan; "
         f"estimated CoM off by at most {1e3 * max(summary['estimate']['com_error_max_m']):.1f} mm"
     )
+    balance = summary.get("balance", {})
+    if balance.get("pushes"):
+        print(
+            f"  recovered from {balance['recovered']} of {len(balance['pushes'])} pushes, which moved the true ZMP by "
+            f"up to {1e3 * balance['zmp_off_max_m']:.0f} mm"
+        )
+    zmps = balance.get("skin_against_force_torque", {})
+    if zmps.get("rms_m") is not None:
+        print(
+            f"  ZMP of the skin against that of the ankles: {1e3 * zmps['rms_m']:.2f} mm RMS, "
+            f"{1e3 * zmps['max_m']:.1f} mm at most"
+        )
     tick = summary["control_us"]
     print(
         f"  {summary['real_time_factor']:.1f} x real time; control tick {tick['p50']:.0f} us (median), "

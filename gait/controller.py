@@ -562,12 +562,12 @@ class WalkingController:
         for side, action in actions.items():
             position = self.motion.footholds[side][0]
             level = rotation = self.motion.rotation(side)
-            center, turn = self._center_in_sole[side], self._turning[side].turn
-            if action.roll or action.pitch or action.shift or turn.any():
-                vector = np.array([turn[0] + action.roll, turn[1] + action.pitch, 0.0])
-                rotation = level @ rotation_from_vector(vector)
-                position = position + (level - rotation)[:, :2] @ center
-                position[2] += action.shift
+            center, (x, y) = self._center_in_sole[side], self._turning[side].turn.tolist()
+            if action.roll or action.pitch or action.shift or x or y:
+                rotation = level @ rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0]))
+                # About the centre: it stays at its height, to first order.
+                rise = action.shift + action.pitch * center[0] - action.roll * center[1]
+                position = position + np.array([0.0, 0.0, rise])
             fx, fy, fz, tx, ty, _ = action.wrench.tolist()
             cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else center
             place = self.motion.footholds[side][0][:2] + level[:2, :2] @ cop

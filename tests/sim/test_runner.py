@@ -125,15 +125,29 @@ def test_other_gaits_walk_too(settings: list[str], position: float) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(10))
-def test_twenty_steps(seed: int) -> None:
-    summary = run_scene(load_scene("flat"), seed)
+def test_twenty_steps(seed: int, robot: str) -> None:
+    summary = run_scene(load_scene("flat", robot=robot), seed)
     assert summary["completed"]
     assert summary["steps_taken"] == 20
     assert summary["tilt_max_deg"] < 3.0
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", range(20))
-def test_pushes_are_survived(seed: int) -> None:
-    assert run_scene(load_scene("push"), seed)["completed"]
+def test_pushes_are_survived(seed: int, robot: str) -> None:
+    assert run_scene(load_scene("push", robot=robot), seed)["completed"]
+
+
+def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace() -> None:
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=0.5"], "hrp2kai"), 0)
+    assert summary["completed"]
+    assert summary["zmp_margin_min_m"] > 0.03
+    states = summary["wrench_distribution"]
+    assert states["tracked"] > 0.95 * sum(states.values())
+    assert summary["landings_s"][1] - summary["landings_s"][0] == pytest.approx(1.9, abs=0.15)
+    quicker = run_scene(load_scene("flat", ["steps=2", "settle=0.5", "t_ss=1.0", "t_ds=0.4"], "hrp2kai"), 0)
+    assert quicker["completed"]
+    assert quicker["landings_s"][1] - quicker["landings_s"][0] == pytest.approx(1.4, abs=0.15)
