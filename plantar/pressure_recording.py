@@ -76,7 +76,7 @@ class FootRecording:
         if self.total is not None:
             return self.total
         rise = np.ones(self.force.shape[1]) if self.layout is None else self.layout.rotations[:, 2, 2]
-        total = np.asarray(self.measured @ rise)
+        total = _product(self.measured, rise)
         if self.missing is not None:
             dead = self.missing.all(axis=0)
             lacking = self.missing[:, ~dead].sum(axis=1)
@@ -107,7 +107,7 @@ class FootRecording:
             return None
         normal = self.layout.rotations[:, 2, 2]
         # With the force itself as a third column its sum is that of the cells, not the device's.
-        sums = self.measured @ np.column_stack([self.layout.positions[:, :2] * normal[:, None], normal])
+        sums = _product(self.measured, np.column_stack([self.layout.positions[:, :2] * normal[:, None], normal]))
         out = np.full((len(sums), 2), np.nan)
         loaded &= sums[:, 2] > 0.0
         out[loaded] = sums[loaded, :2] / sums[loaded, 2:]
@@ -142,6 +142,14 @@ class PressureRecording:
     kind: Kind = "insole"
     raw: bool = False
     grid: tuple[int, int] | None = None
+
+
+def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """values @ matrix; columns out of a wider table are taken block by block, since BLAS would copy them whole."""
+    if values.flags.c_contiguous:
+        return np.asarray(values @ matrix)
+    blocks = [values[i : i + 16384] @ matrix for i in range(0, len(values), 16384)]
+    return np.concatenate(blocks) if blocks else np.zeros((0, *matrix.shape[1:]))
 
 
 def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:

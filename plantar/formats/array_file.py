@@ -130,7 +130,9 @@ def _arrays(path: Path) -> dict[str, NDArray[Any]]:
 def _frames(array: NDArray[Any]) -> NDArray[np.float64]:
     """An array as (frames, cells); a matrix of cells is laid out row by row."""
     table = np.asarray(array, dtype=float).reshape(len(array), -1)
-    table[~np.isfinite(table)] = np.nan
+    infinite = np.isinf(table)
+    if infinite.any():
+        table[infinite] = np.nan
     return table
 
 

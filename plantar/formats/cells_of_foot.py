@@ -55,7 +55,7 @@ def cells_of_foot(
 
     Args:
         side: The foot.
-        values: Values (n, k), NaN where not measured.
+        values: Values (n, k), NaN where not measured; they become the forces in place.
         unit: What they are.
         options: With the layout that the user gave, which comes before the file's own.
         warnings: Where an assumption is put.
@@ -84,8 +84,11 @@ def cells_of_foot(
     if layout is None:
         warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
     factor = unit.factor
-    force = values * (factor * layout.areas) if unit.kind == "pressure" and layout is not None else values * factor
-    return FootRecording(side, force, layout)
+    if unit.kind == "pressure" and layout is not None:
+        values *= factor * layout.areas
+    elif factor != 1.0:
+        values *= factor
+    return FootRecording(side, values, layout)
 
 
 def halves(

@@ -7,7 +7,11 @@ Lines that start with "#" may state "unit: kPa", "rate: 100" or "side: left".
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import chain, islice
 from pathlib import Path
+from typing import TextIO
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +33,7 @@ _TIME = re.compile(
 )
 _SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _USUAL_RATE = 100.0
+_BLOCK = 2048
 
 
 def _recognises(head: bytes) -> bool:
@@ -60,16 +65,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """
     warnings: list[str] = []
     with open_text(path) as stream:
-        lines = [line.rstrip("\n") for line in stream]
-    facts = _facts([x for x in lines if x.startswith("#")])
-    whole = bool(lines) and len(lines) > 1
-    lines = [x for x in lines if x.strip() and not x.startswith("#")]
-    if not whole or len(lines) < 2:
-        raise FormatError(f"{path}: the table has no rows")
-    delimiter = _delimiter(lines[1:])
-    first = [c.strip().strip('"') for c in lines[0].split(delimiter)]
-    named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
-    table = _table(path, lines[1:] if named else lines, delimiter, len(first), warnings)
+        comments: list[str] = []
+        head = list(islice(_content(stream, comments), 60))
+        if len(head) < 2:
+            raise FormatError(f"{path}: the table has no rows")
+        delimiter = _delimiter(head[1:])
+        first = [c.strip().strip('"') for c in head[0].split(delimiter)]
+        named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
+        lines = chain(head[1:] if named else head, _content(stream, comments))
+        table = _table(path, lines, delimiter, len(first), warnings)
+    facts = _facts(comments)
     names = first if named else []
     if not named:
         warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
@@ -104,33 +109,76 @@ def _facts(comments: list[str]) -> dict[str, str]:
     return out
 
 
-def _table(path: Path, lines: list[str], delimiter: str | None, width: int, warnings: list[str]) -> NDArray[np.float64]:
-    out = np.full((len(lines), width), np.nan)
-    bad = short = 0
-    for i, line in enumerate(lines):
-        cells = line.split(delimiter)
-        while len(cells) > width and not cells[-1].strip():
-            cells.pop()
-        if len(cells) != width:
-            short += 1
-            continue
-        try:
-            out[i] = np.array(cells, dtype=float)
-        except ValueError:
-            out[i], wrong = row_of_numbers(cells)
-            bad += wrong
-    out[~np.isfinite(out)] = np.nan
-    last = lines[-1].split(delimiter)
-    if len(last) != width and len(lines) > 1:
+def _content(stream: TextIO, comments: list[str]) -> Iterator[str]:
+    """The lines that hold something; those that begin with "#" are put aside."""
+    for line in stream:
+        if line.startswith("#"):
+            comments.append(line)
+        elif line.strip():
+            yield line.rstrip("\n")
+
+
+def _table(
+    path: Path, lines: Iterator[str], delimiter: str | None, width: int, warnings: list[str]
+) -> NDArray[np.float64]:
+    """The numbers (rows, width), NaN where a cell is empty or none; read block by block to have them there once."""
+    out = np.empty((0, width))
+    n = bad = short = 0
+    last = ""
+    while block := list(islice(lines, _BLOCK)):
+        if n + len(block) > len(out):
+            usual = sum(map(len, block)) // len(block)  # rows may be shorter; what is not written takes no memory
+            room = n + len(block) + (path.stat().st_size // max(usual * 3 // 5, 2 * width) if n == 0 else n // 4)
+            larger = np.empty((room, width))
+            larger[:n] = out[:n]
+            out = larger
+        rows, wrong, odd = _rows(block, delimiter, width)
+        out[n : n + len(block)] = rows
+        n, bad, short, last = n + len(block), bad + wrong, short + odd, block[-1]
+    out = out[:n]
+    if len(last.split(delimiter)) < width and n > 1:
         out, short = out[:-1], short - 1
         warnings.append("the last row is cut short: left out")
-    if short > 0.2 * len(lines) or bad > 0.2 * out.size:
+    if short > 0.2 * n or bad > 0.2 * out.size:
         raise FormatError(f"{path}: not a table of numbers: {short} rows of another width, {bad} cells of text")
     if short:
         warnings.append(f"{short} damaged row(s) count as not measured")
     if bad:
         warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
     return out
+
+
+def _rows(block: list[str], delimiter: str | None, width: int) -> tuple[NDArray[np.float64], int, int]:
+    """Numbers of some lines, how many cells are none, and how many lines have another width."""
+    commas = [line.count(delimiter) if delimiter else width - 1 for line in block]
+    if delimiter and commas == [width - 1] * len(block) and (delimiter == "," or not any("," in x for x in block)):
+        try:  # all at once where nothing looks odd
+            with catch_warnings():
+                simplefilter("error")
+                flat = np.fromstring(delimiter.join(block), sep=delimiter)
+        except (ValueError, DeprecationWarning):
+            flat = np.empty(0)
+        if flat.size == len(block) * width and np.isfinite(flat).all():
+            return flat.reshape(-1, width), 0, 0
+    out = np.full((len(block), width), np.nan)
+    bad = short = 0
+    for i, line in enumerate(block):
+        cells = line.split(delimiter)
+        while len(cells) > width and not cells[-1].strip():
+            cells.pop()
+        if len(cells) != width:
+            short += 1
+            continue
+        out[i], wrong = row_of_numbers(cells)
+        bad += wrong
+    return out, bad, short
+
+
+def _taken(table: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
+    """Some columns of a table, without a copy where they lie together."""
+    if columns == list(range(columns[0], columns[0] + len(columns))):
+        return table[:, columns[0] : columns[0] + len(columns)]
+    return table[:, columns]
 
 
 def _times(
@@ -201,7 +249,7 @@ def _feet(
         indices = [i for i, _ in columns[None]]
         ids = [c for _, c in columns[None] if c is not None]
         split: list[tuple[Side, NDArray[np.float64]]] = (
-            [(own, table[:, indices])] if own else halves(table[:, indices], options, warnings)
+            [(own, _taken(table, indices))] if own else halves(_taken(table, indices), options, warnings)
         )
         for side, values in split:
             ordered = ids if len(ids) == values.shape[1] else None
@@ -212,7 +260,7 @@ def _feet(
     for side in sides:
         if side in columns:
             ids = [c for _, c in columns[side] if c is not None]
-            values = table[:, [i for i, _ in columns[side]]]
+            values = _taken(table, [i for i, _ in columns[side]])
             feet[side] = cells_of_foot(
                 side, values, unit, options, warnings, ids if len(ids) == values.shape[1] else None
             )

@@ -139,7 +139,9 @@ def _take_frames(
     delimiter = next((d for d in ";\t," if bodies[0] and d in bodies[0][0]), None)
     widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in bodies[0]] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
-    if rows < 1 or columns < 1 or rows * columns * len(bodies) > 50 * _LARGEST or rows * columns > _LARGEST:
+    if rows * columns * len(bodies) > 200 * _LARGEST:
+        raise FormatError(f"{path}: {len(bodies)} frames of {rows} x {columns} cells are too many to hold in memory")
+    if rows < 1 or columns < 1 or rows * columns > _LARGEST:
         raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read")
     if int(np.median(widths)) != columns:
         raise FormatError(f"{path}: the header states {columns} columns, the rows of the matrix have {max(widths)}")
