@@ -94,6 +94,7 @@ class VrpPlan:
         omega: float,
     ) -> None:
         self.times: list[float] = times.tolist()
+        self._times = times
         self.vrps = vrps
         self.omega = omega
         self.dcm_waypoints = waypoints
@@ -161,7 +162,7 @@ class VrpPlan:
         """
         head, points, move = np.asarray(times, float), np.asarray(vrps, float).reshape(-1, 2), np.asarray(shift, float)
         m = len(head)
-        knots = np.concatenate([head, np.asarray(self.times[first:]) + delay])
+        knots = np.concatenate([head, self._times[first:] + delay])
         every = np.concatenate([points, self.vrps[first:] + move])
         finite = np.isfinite(knots).all() and np.isfinite(every).all()
         if (

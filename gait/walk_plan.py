@@ -82,7 +82,7 @@ class WalkPlan:
         self.schedule = schedule
         self._omega = omega
         self._standing = {s: vrp_of_step(feet[s], vrp_in_sole[s]) for s in feet}
-        self._points = [vrp_of_step(step, vrp_in_sole[step.side]) for step in schedule.steps]
+        self._points = np.array([vrp_of_step(step, vrp_in_sole[step.side]) for step in schedule.steps]).reshape(-1, 2)
         first = schedule.phases[0].end
         start = self._between(0)
         times, points = self._knots(-math.inf, len(schedule.steps))
@@ -101,7 +101,7 @@ class WalkPlan:
 
     def stance(self, step: int) -> NDArray[np.float64]:
         """VRP (2,) in m over the foothold of a step."""
-        return self._points[step]
+        return self._points[step].copy()
 
     def move(
         self,
@@ -127,9 +127,7 @@ class WalkPlan:
         place, later = np.asarray(point, dtype=float), np.asarray(shift_later, dtype=float)
         moved = place - self._points[step]
         self._points[step] = place
-        if later.any():
-            for k in range(step + 1, len(self._points)):
-                self._points[k] = self._points[k] + later
+        self._points[step + 1 :] += later
         now = self.vrps.at(time)
         phase = self.schedule.at(time)
         takes_over = phase.step == step + 1 and phase.kind == PhaseKind.DOUBLE_SUPPORT
@@ -157,7 +155,7 @@ class WalkPlan:
             step: Index of the last step.
         """
         self.schedule.stop_after(step)
-        del self._points[step + 1 :]
+        self._points = self._points[: step + 1].copy()
 
     def hold(
         self,
@@ -183,8 +181,7 @@ class WalkPlan:
         if point is not None:
             self._points[phase.step] = np.asarray(point, dtype=float)
         later = np.asarray(shift_later, dtype=float)
-        for k in range(phase.step + 1, len(self._points)):
-            self._points[k] = self._points[k] + later
+        self._points[phase.step + 1 :] += later
         self.schedule.delay(phase, by)
         window = (time, min(phase.end + by, time + _STANCE_BRIDGE))
         self.vrps, gap = self._bridged(time, now, window, region, later, 0.0, late=by)
@@ -276,7 +273,7 @@ class WalkPlan:
         for side in standing:
             for k in range(steps - 1, -1, -1):
                 if self.schedule.steps[k].side == side:
-                    standing[side] = self._points[k]
+                    standing[side] = self._points[k].copy()
                     break
         return np.asarray(0.5 * (standing["left"] + standing["right"]))
 
@@ -285,7 +282,7 @@ class WalkPlan:
         swing = self.schedule.steps[step].side
         for k in range(step - 1, -1, -1):
             if self.schedule.steps[k].side != swing:
-                return self._points[k]
+                return self._points[k].copy()
         return self._standing["right" if swing == "left" else "left"]
 
     def _next(self, phase: Phase) -> Phase:
