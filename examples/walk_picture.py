@@ -1,6 +1,7 @@
 """Draw the README's picture: the robot in mid step, what its soles feel, and the walk in the plane.
 
 MUJOCO_GL=egl python examples/walk_picture.py docs/images/walk.png
+MUJOCO_GL=egl python examples/walk_picture.py docs/images/beam.png beam
 """
 
 import os
@@ -19,18 +20,22 @@ from sim.render import Camera
 from sim.runner import Simulation
 from sim.scene import load_scene
 
-MOMENT = 6.88  # s: in double support, both feet loaded
+SCENES = {  # settings, seed, moment in s at which both feet are loaded, viewing direction
+    "flat": (["steps=8"], 0, 6.88, 140.0),
+    "beam": ([], 3, 30.36, 150.0),
+}
 
 
-def main(path: str) -> None:
+def main(path: str, scene: str = "flat") -> None:
     """Walk, stop the clock at one moment, and draw."""
-    simulation = Simulation(load_scene("flat", ["steps=8"]), seed=0)
-    camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, distance=2.9, azimuth=140.0)
+    settings, seed, moment, azimuth = SCENES[scene]
+    simulation = Simulation(load_scene(scene, settings), seed=seed)
+    camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, distance=2.9, azimuth=azimuth)
     pictures = []
     look = simulation.judge.look
 
     def look_and_picture(*arguments):  # the judge is called at every control tick
-        if not pictures and simulation.world.data.time >= MOMENT:
+        if not pictures and simulation.world.data.time >= moment:
             pictures.append(camera.picture(simulation.world.data).copy())
         return look(*arguments)
 
@@ -45,8 +50,8 @@ def main(path: str) -> None:
     axes[0].axis("off")
     for side in ("left", "right"):
         layout, skin = run.layouts[side], run.topics[f"/skin/{side}"]
-        force = skin.fields["force"][np.searchsorted(skin.time, MOMENT)]
-        percept = Percept(layout, Reading(MOMENT, force))
+        force = skin.fields["force"][np.searchsorted(skin.time, moment)]
+        percept = Percept(layout, Reading(moment, force))
         shift = np.array([0.0, 0.1 if side == "left" else -0.1])
         for i in range(len(layout)):
             ring = layout.cell_polygon(i) + shift
@@ -67,6 +72,10 @@ def main(path: str) -> None:
     axes[1].set_ylabel("x in sole [m]")
 
     plane = axes[2]
+    com = run.topics["/truth/body"].fields["com"][:, :2]
+    turn = [0, 1] if np.ptp(com[:, 0]) > np.ptp(com[:, 1]) else [1, 0]  # a walk along y is drawn lying down
+    for ring in run.metadata["ground"]:
+        plane.fill(*np.array(ring)[:, turn].T, fc="#f1ece2", ec="#c9bfa8", lw=0.8)
     for side in ("left", "right"):
         truth = run.topics[f"/truth/{side}"]
         loaded = (truth.fields["normal_force"][:, 0] > 300.0).astype(int)
@@ -74,17 +83,29 @@ def main(path: str) -> None:
             rotation = truth.fields["rotation"][i].reshape(3, 3)
             ring = run.layouts[side].outline @ rotation[:2, :2].T + truth.fields["position"][i, :2]
             ring = np.vstack([ring, ring[:1]])
-            plane.plot(*ring.T, color=COLOURS[side], lw=0.9, label=f"{side} foothold" if n == 0 else None)
-    plane.plot(*run.topics["/truth/body"].fields["zmp"].T, color=COLOURS["truth"], lw=0.7, label="ZMP (true)")
-    plane.plot(*run.topics["/estimate"].fields["dcm"].T, color=COLOURS["active"], lw=1.2, label="DCM (estimated)")
-    plane.plot(*run.topics["/truth/body"].fields["com"][:, :2].T, color=COLOURS["polygon"], lw=1.6, label="CoM (true)")
+            plane.plot(*ring[:, turn].T, color=COLOURS[side], lw=0.9, label=f"{side} foothold" if n == 0 else None)
+    plane.plot(*run.topics["/truth/body"].fields["zmp"][:, turn].T, color=COLOURS["truth"], lw=0.7, label="ZMP (true)")
+    plane.plot(
+        *run.topics["/estimate"].fields["dcm"][:, turn].T, color=COLOURS["active"], lw=1.2, label="DCM (estimated)"
+    )
+    plane.plot(*com[:, turn].T, color=COLOURS["polygon"], lw=1.6, label="CoM (true)")
+    if "/foothold" in run.topics:
+        felt = run.topics["/foothold"]
+        for n, row in enumerate(felt.fields["polygon"]):
+            ring = row.reshape(-1, 2)[np.isfinite(row.reshape(-1, 2)).all(axis=1)]
+            plane.fill(*ring[:, turn].T, color=COLOURS["edge"], alpha=0.04, lw=0.0)
+            if n == 0:
+                plane.fill([], [], color=COLOURS["edge"], alpha=0.4, label="support felt")
+    low, high = com[:, turn].min(axis=0) - 0.25, com[:, turn].max(axis=0) + 0.25
+    plane.set_xlim(low[0], high[0])
+    plane.set_ylim(*((low[1], high[1]) if turn == [0, 1] else (high[1], low[1])))
     plane.set_aspect("equal")
-    plane.set_xlabel("x [m]")
-    plane.set_ylabel("y [m]")
+    plane.set_xlabel(f"{'xy'[turn[0]]} [m]")
+    plane.set_ylabel(f"{'xy'[turn[1]]} [m]")
     plane.set_title("the walk in the plane", fontsize=9)
     plane.legend(fontsize=7, ncol=5, loc="upper center", bbox_to_anchor=(0.5, -0.32), frameon=False)
     save_figure(figure, path)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1] if len(sys.argv) > 1 else "walk.png")
+    main(*(sys.argv[1:3] or ["walk.png"]))
