@@ -101,7 +101,7 @@ class WalkPlan:
 
     def stance(self, step: int) -> NDArray[np.float64]:
         """VRP (2,) in m over the foothold of a step."""
-        return self._points[step].copy()
+        return np.asarray(self._points[step].copy())
 
     def move(
         self,
@@ -282,7 +282,7 @@ class WalkPlan:
         swing = self.schedule.steps[step].side
         for k in range(step - 1, -1, -1):
             if self.schedule.steps[k].side != swing:
-                return self._points[k].copy()
+                return np.asarray(self._points[k].copy())
         return self._standing["right" if swing == "left" else "left"]
 
     def _next(self, phase: Phase) -> Phase:
