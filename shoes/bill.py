@@ -76,7 +76,7 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
     p = build.parameters
     cells = float(shoe.layout.areas.sum()) * 1e6
     pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
-    board = p.board_length * _BOARD_UP * p.board_thickness * _BOARD_DENSITY if p.board_length > 0.0 else 0.0
+    board = p.board_length * _BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
     return Weights(
         printed=round(volume / 1000.0 * p.printed.density, 2),
         pad=round(pad / 1000.0 * p.pad_density, 2),
@@ -118,7 +118,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     parts.append(
         Part("taxel", len(shoe.layout), "skin", f"{build.fit.cell_area:g} mm2 x {height:g} mm", weights.skin, note)
     )
-    if p.board_length > 0.0:
+    if plan.heel.board:
         size = f"{p.board_length:g} x {_BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
     parts.append(
@@ -137,7 +137,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
 
 def _cable(shoe: Shoe) -> float:
     """Length in mm from the farthest connector to the heel."""
-    x, y = shoe.plan.heel
+    x, y = shoe.plan.heel.x, shoe.plan.heel.y
     at = to_mm(shoe.layout.positions[list(shoe.plan.connectors), :2])
     return float(np.hypot(at[:, 0] - x, at[:, 1] - y).max()) + 20.0
 

@@ -140,7 +140,7 @@ def build_shoe(
     p, raised = strengthened(foot, left.contact, p)
     if raised:
         left = plan_shoe(foot, fit, p, name=name)
-    notes = foot.notes + fit.notes + raised
+    notes = foot.notes + fit.notes + raised + left.notes
     if layout_only:
         plans = [left if which == "left" else mirrored_plan(left) for which in sides]
         tell(1.0, "layouts fitted")

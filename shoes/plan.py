@@ -15,6 +15,7 @@ from plantar.layout import Side, SoleLayout, mirrored
 from plantar.tiling import hex_layout
 from shoes.block import moved_edges
 from shoes.foot import Foot
+from shoes.heel import Heel, find_heel
 from shoes.outline import ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
 from shoes.taxels import CORNER, TaxelFit
@@ -37,7 +38,9 @@ class ShoePlan:
         pockets: Taxel pockets: the cells moved in by half a rib.
         route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
         connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
+        heel: Where the cable leaves the shoe.
         layout: The sole layout, in m.
+        notes: What was decided.
     """
 
     side: Side
@@ -49,7 +52,9 @@ class ShoePlan:
     pockets: tuple[Any, ...]
     route: tuple[tuple[int, int], ...]
     connectors: tuple[int, ...]
+    heel: Heel
     layout: SoleLayout
+    notes: tuple[str, ...] = ()
 
     @property
     def overhang(self) -> float:
@@ -57,15 +62,6 @@ class ShoePlan:
         import shapely
 
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
-
-    @property
-    def heel(self) -> tuple[float, float]:
-        """Rearmost x of the rim's outside, and the middle of its rear edge in y, in mm."""
-        import shapely
-
-        low_x, low_y, _, high_y = self.rim.bounds
-        rear = self.rim.intersection(shapely.box(low_x - 1.0, low_y - 1.0, low_x + 4.0, high_y + 1.0))
-        return float(low_x), float(0.5 * (rear.bounds[1] + rear.bounds[3]))
 
 
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
@@ -103,9 +99,10 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
             "use larger cells or a thinner rib"
         )
     layout = _layout(contact, fit, name or foot.name)
-    plan = ShoePlan("left", outline, contact, cavity, rim, cells, pockets, (), (), layout)
-    connectors, route = _route(layout, fit.patches, plan.heel)
-    return replace(plan, route=route, connectors=connectors)
+    heel, note = find_heel(rim, outline, parameters)
+    connectors, route = _route(layout, fit.patches, (heel.x, heel.y))
+    notes = () if note is None else (note,)
+    return ShoePlan("left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes)
 
 
 def grown(shape: Any, distance: float) -> Any:
@@ -206,5 +203,7 @@ def mirrored_plan(plan: ShoePlan) -> ShoePlan:
         tuple(flip(p) for p in plan.pockets),
         plan.route,
         plan.connectors,
+        plan.heel.mirrored(),
         layout,
+        plan.notes,
     )

@@ -47,6 +47,19 @@ def build_solid(steps: Sequence[Step]) -> Any:
         FootError: If the blocks do not give one solid.
     """
     cq = load_cadquery()
+    try:
+        shape = _assembled(cq, steps)
+    except Exception as error:  # the kernel raises of every kind
+        reason = " ".join(str(error).split())[:80] or type(error).__name__
+        raise FootError(f"the CAD kernel cannot build this shoe ({reason}); change a dimension a little") from None
+    solids = shape.Solids()
+    if len(solids) != 1:
+        raise FootError(f"the shoe falls into {len(solids)} solids; use a thicker border, rim or floor")
+    return solids[0]
+
+
+def _assembled(cq: Any, steps: Sequence[Step]) -> Any:
+    """The shape after all steps."""
     shape: Any = None
     for step in steps:
         bodies = [_body(cq, block) for block in step.blocks]
@@ -62,11 +75,7 @@ def build_solid(steps: Sequence[Step]) -> Any:
             shape = shape.fuse(*bodies) if bodies else shape
         else:
             shape = shape.fuse(*bodies) if step.kind == "add" else shape.cut(*bodies)
-    shape = shape.clean()
-    solids = shape.Solids()
-    if len(solids) != 1:
-        raise FootError(f"the shoe falls into {len(solids)} solids; use a thicker border, rim or floor")
-    return solids[0]
+    return shape.clean()
 
 
 def _body(cq: Any, block: Block | Groove) -> Any:

@@ -7,22 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from shoes.block import Block, Step, box_block
+from shoes.block import Block, Step
+from shoes.heel import LIP, PLAY, POST, holder_depth
 from shoes.parameters import ShoeParameters
 from shoes.plan import ShoePlan
 
-__all__ = ["cable_outlines", "pocket_outlines", "wiring_depth", "wiring_steps"]
+__all__ = ["cable_outlines", "hole_outline", "pocket_outlines", "wiring_steps"]
 
 _SLIVER = 0.02  # mm^2
-_LIP = 1.5  # mm of rail behind the board
-_POST = 2.5  # mm of rail beside the board
-_PLAY = 0.3  # mm between board and rail
-
-
-def wiring_depth(parameters: ShoeParameters) -> float:
-    """How far the board's holder reaches behind the rim in mm; 0 without one."""
-    p = parameters
-    return p.board_gap + p.board_thickness + _PLAY + _LIP if p.board_length > 0.0 else 0.0
+_WIDER = 0.3  # mm
+_WITHIN = 1.0  # mm
 
 
 def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
@@ -77,17 +71,36 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
         reach, port = 0.5 * parameters.rib + 1.0, min(width, 0.6 * edge.length)
         parts.append(shapely.Polygon([middle + a * reach * along + b * 0.5 * port * across for a, b in _SQUARE]))
     pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets]
-    x, y = plan.heel
-    exit_x = x - parameters.board_gap if parameters.board_length > 0.0 else x - 40.0
-    channels: list[tuple[Any, ...]] = [
-        (pockets[plan.connectors[0]], np.array([x + 6.0, y]), np.array([exit_x, y])),
-    ]
+    heel = plan.heel
+    # Straight into the hole behind the wall, or out of the plate where there is none.
+    end = heel.point(-0.5 * parameters.board_gap if heel.board else -40.0, 0.0)
+    channels: list[tuple[Any, ...]] = [(pockets[plan.connectors[0]], heel.point(6.0, 0.0), end)]
     for n, later in enumerate(plan.connectors[1:], start=1):
         before = [i for c in plan.connectors[:n] for i in _patch_of(plan, c)]
         nearest = min(before, key=lambda i: (float(math.hypot(*(pockets[i] - pockets[later]))), i))
         channels.append((pockets[later], pockets[nearest]))
     half = 0.5 * parameters.channel_width
     return parts + [shapely.LineString(c).buffer(half, cap_style="flat", join_style="mitre") for c in channels]
+
+
+def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:
+    """The hole between wall and board through which the cable comes up; a little wider than the channel.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        A shapely polygon, empty without a board.
+    """
+    import shapely
+
+    if not plan.heel.board:
+        return shapely.Polygon()
+
+    p = parameters
+    half = min(0.5 * p.channel_width + _WIDER, 0.5 * p.board_length - POST - 0.5)
+    return plan.heel.placed(shapely.box(-p.board_gap, -half, -0.2, half))
 
 
 _SQUARE = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
@@ -112,25 +125,32 @@ def wiring_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[list[Block
     Returns:
         Blocks of the body, and the steps that cut it: the board's slot and the cable's hole.
     """
-    p = parameters
-    if p.board_length <= 0.0:
-        return [], []
-    x, y = plan.heel
-    half = 0.5 * p.board_length
-    back = x - wiring_depth(p)
-    slot_low = back + _LIP
-    slot_high = slot_low + p.board_thickness + _PLAY
-    inner = x + 0.25 * (plan.rim.bounds[2] - x)  # well inside: what reaches into the foot's place is cut away
-    outer = half + _POST + 0.5 * _PLAY
+    import shapely
 
-    shelf = box_block((back, y - outer, p.bottom), (inner, y + outer, p.thickness))
+    p, heel = parameters, plan.heel
+    if not heel.board:
+        return [], []
+    half = 0.5 * p.board_length
+    back, outer = -holder_depth(p), half + POST + 0.5 * PLAY
+    slot_low = back + LIP
+    low_x, _, high_x, _ = plan.rim.bounds
+    inner = 0.2 * (high_x - low_x)  # well inside: what reaches into the foot's place is cut away
+
+    def block(x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]) -> Block:
+        # Behind the wall as it is; inside only what meets the plate.
+        shape = heel.placed(shapely.box(x[0], y[0], x[1], y[1]))
+        if x[1] > 0.0:
+            inside = plan.contact.buffer(-_WITHIN)  # no edge along another, which the kernel might miss by a hair
+            shape = shape.intersection(heel.placed(shapely.box(x[0], y[0], 2.0 * _WITHIN, y[1])).union(inside))
+        # Not on the grid: edges of blocks that lie along each other would leave a hair between them.
+        return Block(max(getattr(shape, "geoms", [shape]), key=lambda g: g.area), *z)
+
+    shelf = block((back, inner), (-outer, outer), (p.bottom, p.thickness))
     posts = [
-        box_block((back, y + a, p.thickness - 1.0), (inner, y + b, p.rim_top))
-        for a, b in ((half - _POST, outer), (-outer, -half + _POST))
+        block((back, inner), ends, (p.thickness - 1.0, p.rim_top))
+        for ends in ((half - POST, outer), (-outer, POST - half))
     ]
-    slot = box_block(
-        (slot_low, y - half - 0.5 * _PLAY, p.thickness), (slot_high, y + half + 0.5 * _PLAY, p.rim_top + 1.0)
-    )
-    hole_half = min(0.5 * p.channel_width, half - _POST - 0.5)
-    hole = box_block((slot_high, y - hole_half, p.bottom - 1.0), (x - 0.2, y + hole_half, p.thickness + 1.0))
+    play = 0.5 * PLAY
+    slot = block((slot_low, -p.board_gap), (-half - play, half + play), (p.thickness, p.rim_top + 1.0))
+    hole = Block(hole_outline(plan, p), p.bottom - 1.0, p.thickness + 1.0)
     return [shelf, *posts], [Step("cut", "slot of the connection board and hole of the cable", (slot, hole))]

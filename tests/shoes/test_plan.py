@@ -69,7 +69,7 @@ def test_cut_cells_share_their_corners_in_the_layout() -> None:
 def test_the_cable_reaches_every_taxel_once(plan: ShoePlan) -> None:
     assert len(plan.connectors) == 1
     assert plan.connectors[0] == int(
-        np.argmin(np.hypot(*(plan.layout.positions[:, :2] * 1000 - np.array(plan.heel)).T))
+        np.argmin(np.hypot(*(plan.layout.positions[:, :2] * 1000 - plan.heel.point(0.0, 0.0)).T))
     )
     assert len(plan.route) == len(plan.layout) - 1
     reached = {plan.connectors[0]}
@@ -109,7 +109,7 @@ def test_the_other_side_is_the_mirror_image(plan: ShoePlan) -> None:
         assert mirror.exterior.is_ccw
         assert mirror.equals(shapely.affinity.scale(shape, 1.0, -1.0, origin=(0, 0)))
     assert right.route == plan.route
-    assert right.heel == pytest.approx((plan.heel[0], -plan.heel[1]))
+    assert (right.heel.x, right.heel.y, right.heel.turn) == (plan.heel.x, -plan.heel.y, -plan.heel.turn)
     assert mirrored_plan(right).contact.equals(plan.contact)
 
 

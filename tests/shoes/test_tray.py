@@ -14,7 +14,7 @@ from shoes import Foot, ShoeParameters, ShoeReport, build_shoe
 from shoes.block import Block, Groove, Step, box_block, tapered
 from shoes.section import section
 from shoes.tray import build_solid, read_step, surface_of, write_step
-from shoes.wiring import cable_outlines, pocket_outlines
+from shoes.wiring import cable_outlines, hole_outline, pocket_outlines
 
 
 def test_the_solid_is_one_and_its_sections_are_the_plan(exported: tuple[ShoeReport, Path]) -> None:
@@ -45,8 +45,9 @@ def test_the_pockets_leave_their_ribs_but_for_the_cable(exported: tuple[ShoeRepo
     openings = shapely.union_all(pocket_outlines(plan, p))
     cable = shapely.union_all(cable_outlines(plan, p))
     ribs = shapely.union_all(plan.cells) - shapely.union_all(list(plan.pockets)).buffer(1e-6)
-    assert (openings & ribs - cable.buffer(1e-3)).area < 1e-2
-    assert openings.covers(shapely.Point(plan.heel[0] - 0.5 * p.board_gap, plan.heel[1]))  # where the cable leaves
+    assert (openings & ribs - cable.buffer(p.wall_min + 0.01)).area < 1e-2  # nor what would be too thin beside it
+    assert openings.buffer(1e-3).covers(shapely.Point(plan.heel.point(-0.4 * p.board_gap, 0.0)))  # the cable leaves
+    assert hole_outline(plan, p).covers(shapely.Point(plan.heel.point(-0.5 * p.board_gap, 0.0)))
 
 
 def test_the_surface_is_closed_and_points_outwards(exported: tuple[ShoeReport, Path]) -> None:
