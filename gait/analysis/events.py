@@ -134,14 +134,14 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
     if peak <= _NOISE_CONTACT * float(np.median(bend)) / (0.6745 * np.sqrt(6.0)):
         return None
     rest = float(np.percentile(smooth, 5.0))
-    if rest > 0.3 * peak:  # the foot never leaves the ground: nothing tells what it would rest at
+    if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
         rest = 0.0
     rest = max(rest, 0.0)
     share = EVENT_LEVELS[kind]
     quiet = force < rest + share.contact * (peak - rest)
     steps = np.diff(force)[quiet[:-1] & quiet[1:]]
     noise = float(np.median(np.abs(steps))) / (0.6745 * np.sqrt(2.0)) if len(steps) >= 20 else 0.0
-    if len(steps) >= 20:  # the middle of the swing samples is the better zero
+    if len(steps) >= 20 and kind != "platform":  # the middle of the swing samples is the better zero
         rest = max(0.0, min(float(np.median(force[quiet])), rest + 2.0 * noise + 0.02 * peak))
     span = peak - rest
     if span <= 2.0 * _NOISE_CONTACT * noise or span <= 0.0:
