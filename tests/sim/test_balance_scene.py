@@ -43,7 +43,7 @@ def test_force_torque_is_a_source_of_feedback_too() -> None:
     assert by_ankles["completed"]
     pushes = [[(p["time_s"], p["impulse_Ns"]) for p in s["balance"]["pushes"]] for s in (by_skin, by_ankles)]
     assert pushes[0] == pushes[1]
-    assert by_skin["final"] != by_ankles["final"]
+    assert by_skin["estimate"] != by_ankles["estimate"]
 
 
 @pytest.mark.long
