@@ -1,8 +1,9 @@
 """Scenes on partial footholds, and what was found of them against the ground's true geometry."""
 
+import numpy as np
 import pytest
 
-from sim.runner import run_scene
+from sim.runner import Simulation, run_scene
 from sim.scene import load_scene
 
 
@@ -42,3 +43,21 @@ def test_the_beam_is_crossed(robot: str, seed: int) -> None:
 @pytest.mark.parametrize("settings", [["yaw=5"], ["yaw=-5"], ["offset_range=0.0", "terrain.width=0.06"]])
 def test_turned_and_narrow_beams_are_crossed(settings: list[str]) -> None:
     assert run_scene(load_scene("beam-yaw", settings), 0)["completed"]
+
+
+def test_a_leaning_trunk_takes_load_off_the_hips() -> None:
+    loads = []
+    for lean in ("false", "true"):
+        simulation = Simulation(load_scene("flat", ["steps=2", "settle=0.2", f"lean={lean}"]), 0)
+        world, torques = simulation.world, []
+        rolls = [i for i, name in enumerate(world.robot.legs["left"].joints) if name.endswith("hip_roll")]
+        look = simulation.judge.look
+
+        def watch(*arguments, seen=torques, at=rolls, now=world, look=look):  # type: ignore[no-untyped-def]
+            seen.append(np.abs(now.data.actuator_force[now.servos])[at + [i + 6 for i in at]].max())
+            return look(*arguments)
+
+        simulation.judge.look = watch  # type: ignore[method-assign]
+        assert simulation.run()["completed"]
+        loads.append(float(np.percentile(torques, 90)))
+    assert loads[1] < loads[0] - 4.0
