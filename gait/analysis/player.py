@@ -109,7 +109,7 @@ def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64
         "cells": [_seen(layout.cell_polygon(int(c))) for c in cells],
         "outline": _seen(outline),
         "pressure": base64.b64encode(zlib.compress(levels.astype(np.uint8).tobytes(), 9)).decode(),
-        "highest": round(highest, 2),
+        "highest": float(f"{highest:.4g}"),
         "force": [None if not np.isfinite(f) else round(float(f), 1) for f in vertical],
         "cop": [None if not np.isfinite(x) else [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] for x, y in cop],
     }

@@ -315,14 +315,12 @@ def _scrolled(label: str, table: str) -> str:
 
 def _player(data: Mapping[str, Any]) -> str:
     text = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
-    highest = max(foot["highest"] for foot in data["feet"])
     scales = "; ".join(f"{foot['side']} 0 to {number(foot['highest'])} {data['unit']}" for foot in data["feet"])
     part = "" if data["whole"] else f" The first {data['times'][-1] - data['times'][0]:.0f} s of walking are shown."
     options = "".join(
         f'<option value="{value}"{" selected" if value == 1 else ""}>{name}</option>'
         for value, name in ((0.1, "1/10"), (0.25, "1/4"), (0.5, "1/2"), (1, "1"), (2, "2"))
     )
-    assert highest > 0.0
     return (
         '<div id="player" role="group" aria-label="Player of frames">\n'
         '<canvas id="player-canvas" role="img" tabindex="0" aria-label="Soles from above: pressure of each cell, '

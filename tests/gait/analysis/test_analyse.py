@@ -18,8 +18,9 @@ from typer.testing import CliRunner
 import cli
 from gait.analysis.analyse import analyse_recording, metrics_of
 from gait.analysis.parameters import analyse_foot
-from plantar import FormatError, InputError, LayoutError
+from plantar import FormatError, InputError, LayoutError, write_layout
 from plantar.formats import read_recording
+from plantar.formats.nominal_insole import nominal_insole
 from plantar.plotting import thinned
 from plantar.recorder import Recorder
 
@@ -199,3 +200,22 @@ def test_real_pedar_walk_has_9_and_8_complete_steps(tmp_path: Path, real_data: P
     assert {side: foot["steps"] for side, foot in result["feet"].items()} == {"left": 9, "right": 8}
     assert 600.0 < result["feet"]["right"]["measures"]["peak_force_N"]["mean"] < 1200.0
     assert 85.0 < result["gait"]["cadence_steps_per_min"] < 100.0
+
+
+@pytest.mark.parametrize("gain", [1e-9, 1.0, 1e9])
+@pytest.mark.parametrize("lost", [None, "cells", "all"])
+def test_odd_recordings_still_give_a_report(tmp_path: Path, gain: float, lost: str | None) -> None:
+    """Forces of no foot, cells that never measure, and nothing at all: a page and warnings, never an exception."""
+    time = np.arange(0.0, 4.0, 0.01)
+    phase = ((time - 0.2) % 1.1) / 0.65
+    force = np.where(phase < 1.0, 700.0 * gain * np.sin(np.pi * np.clip(phase, 0.0, 1.0)), 0.0)[:, None] * np.full(
+        99, 1 / 99
+    )
+    if lost is not None:
+        force[:, : 3 if lost == "cells" else 99] = np.nan
+    layout = write_layout(nominal_insole("y", "left"), tmp_path / "layout.json")
+    np.savez(tmp_path / "odd.npz", time=time, left=force, unit="N")
+    result = analyse_recording(tmp_path / "odd.npz", tmp_path / "out", layout=layout)
+    assert result["feet"]["left"]["steps"] == (0 if lost == "all" else 3)
+    assert any("unusual" in w for w in result["warnings"]) == (gain != 1.0 and lost != "all")
+    assert (tmp_path / "out" / "report.html").stat().st_size > 10_000
