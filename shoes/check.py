@@ -21,7 +21,7 @@ from shoes.printability import Printing, choose_direction, print_hours
 from shoes.section import thinnest_wall
 from shoes.strength import LoadCase, Member, check_strength
 from shoes.units import to_mm
-from shoes.wiring import cable_outlines, hole_outline
+from shoes.wiring import cable_outlines, hole_outline, pocket_outlines
 
 __all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
 
@@ -243,6 +243,9 @@ def corner_errors(shoe: Shoe, parameters: ShoeParameters, step: Any) -> tuple[fl
     p = parameters
     found = np.array([v.toTuple() for v in step.Vertices()])
     cable = shapely.union_all([*cable_outlines(shoe.plan, p), hole_outline(shoe.plan, p)]).buffer(0.05)
+    cable = cable.union(
+        shapely.union_all(pocket_outlines(shoe.plan, p)).buffer(-1e-3)
+    )  # and what is too thin beside it
     shapely.prepare(cable)
     corners = np.concatenate([to_mm(shoe.layout.cell_polygon(i)) for i in range(len(shoe.layout))])
     pockets = np.concatenate([ring(q) for q in shoe.plan.pockets])
