@@ -52,7 +52,15 @@ class Heel:
         return shapely.affinity.translate(turned, self.x, self.y)
 
     def point(self, x: float, y: float) -> NDArray[np.float64]:
-        """A point of this frame in the sole frame."""
+        """A point of this frame in the sole frame.
+
+        Args:
+            x: Into the shoe, in mm.
+            y: To the left of that.
+
+        Returns:
+            The point (2,) in mm.
+        """
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([self.x + c * x - s * y, self.y + s * x + c * y])
 
