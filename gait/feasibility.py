@@ -39,10 +39,12 @@ class FeasibilityRules:
         probe_force: Force in N that the foot presses with.
         probe_time: For how long in s it is felt, once it is there.
         probe_limit: For how long in s it may take to come.
+        reserve: How long in s the single support goes on after that at least.
         active_force: Mean force in N of a taxel that carries, above what its noise adds up to.
         near: Distance in m of a taxel from the ground, seen at touchdown, that counts as supported.
         clearance: Distance in m that the sole keeps from an obstacle.
         swing_time: Duration in s of the swing around it.
+        return_time: Duration in s of the swing back beside the other foot.
         outward: How far outwards a foothold may be moved in m.
         inward: How far inwards.
         forward: How far forward.
@@ -59,10 +61,12 @@ class FeasibilityRules:
     probe_force: float = 130.0
     probe_time: float = 0.12
     probe_limit: float = 0.25
+    reserve: float = 0.5
     active_force: float = 1.3
     near: float = 0.003
     clearance: float = 0.025
     swing_time: float = 1.4
+    return_time: float = 2.2
     outward: float = 0.20
     inward: float = 0.015
     forward: float = 0.08

@@ -4,7 +4,7 @@
     doubting --(touchdown)--> probing: the foot presses, the rule decides
     probing --(feasible)--> walking on over it
     probing --(refused)--> the foot lifts again and goes around: walking
-    probing --(no way around, or too many tries)--> the foot goes back to where it came from, and the walk ends
+    probing --(no way around, or too many tries)--> the foot goes back beside the other one, and the walk ends
 
 All of it before weight is transferred.
 """
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gait.command_frame import CommandFrame
 from gait.feasibility import FeasibilityRules, Foothold, FootholdProbe, way_around
 from gait.foot_motion import FootMotion
-from gait.footsteps import Footstep
+from gait.footsteps import Footstep, other_side
 from gait.phases import Phase
 from gait.swing_compliance import SwingCompliance
 from gait.walk_plan import WalkPlan, vrp_of_step
@@ -89,7 +89,7 @@ class StepGuard:
         self._state = _State.WALKING
         self._step = -1
         self._tries = 0
-        self._origin: Footstep | None = None
+        self._refuge: Footstep | None = None
         self._probe: FootholdProbe | None = None
         self._began = self._since = 0.0
         self._surprised = 0
@@ -146,7 +146,11 @@ class StepGuard:
             self._step, self._tries, self._state = phase.step, 0, _State.WALKING
             position, yaw = self._motion.footholds[side]
             x, y = frame.to_world(position)[:2].tolist()
-            self._origin = Footstep(side, x, y, yaw + frame.turn)
+            origin = Footstep(side, x, y, yaw + frame.turn)
+            stance = frame.to_world(self._motion.footholds[other_side(side)][0])[:2]
+            ahead = origin.rotation_sole_to_world[:2, 0]
+            dx, dy = (ahead * float((stance - [x, y]) @ ahead)).tolist()
+            self._refuge = replace(origin, x=x + dx, y=y + dy)
         self._surprised = self._surprised + 1 if self._motion.surprise > self.rules.surprise else 0
         if self._state is _State.WALKING and self._surprised >= _LASTING:
             self._state = _State.DOUBTING
@@ -158,6 +162,11 @@ class StepGuard:
             self._motion.press = self.rules.probe_force
             self._probe = FootholdProbe(self._compliance[side].layout, self.rules)
             self._probe.see(self._compliance[side].distance)
+            # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
+            missing = time + self.rules.probe_limit + 1.5 * self.rules.probe_time + self.rules.reserve - phase.end
+            if missing > 0.0:
+                self._plan.hold(time, missing, region)
+                return True
         if self._state is not _State.PROBING or self._probe is None:
             return False
         reading = readings[side]
@@ -189,8 +198,8 @@ class StepGuard:
         self.checked.append(CheckedStep(phase.step, found, shift))
         step, later = self._schedule.steps[phase.step], np.zeros(2)
         if shift is None:
-            assert self._origin is not None
-            target = self._origin
+            assert self._refuge is not None
+            target = self._refuge
             self.stopped = True
             self._plan.stop_after(phase.step)
         else:
@@ -200,8 +209,9 @@ class StepGuard:
             later = step.rotation_sole_to_world[:2, 0] * float(shift[0])
             self._schedule.shift_steps(phase.step + 1, later)
         self._schedule.move_step(phase.step, target)
-        missing = max(0.0, time + self.rules.swing_time - phase.end)
+        duration = self.rules.return_time if self.stopped else self.rules.swing_time
+        missing = max(0.0, time + duration - phase.end)
         self._plan.hold(time, missing, region, vrp_of_step(target, self._vrp_in_sole[side]), later)
-        self._motion.retake(time, self.rules.swing_time, frame)
+        self._motion.retake(time, duration, frame)
         self._state = _State.STOPPED if self.stopped else _State.WALKING
         return True
