@@ -104,7 +104,7 @@ def main(workers: int = 2) -> None:
     done = {(r["case"], int(r["seed"])) for r in rows_of(path)}
     jobs = [(n, s, o, k) for n, s, o, seeds in CASES for k in range(seeds) if (n, k) not in done]
     with path.open("a", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS)
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         if not done:
             writer.writeheader()
         with ProcessPoolExecutor(workers) as pool:
