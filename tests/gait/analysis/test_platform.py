@@ -66,7 +66,14 @@ def walkway(
 
 @pytest.mark.parametrize(
     "options",
-    [{}, {"first": "right"}, {"reverse": True}, {"across": True}, {"steps": 2}, {"steps": 3, "reverse": True}],
+    [
+        {"steps": 4},
+        {"steps": 2},
+        {"steps": 3, "reverse": True},
+        pytest.param({"first": "right"}, marks=pytest.mark.long),
+        pytest.param({"reverse": True}, marks=pytest.mark.long),
+        pytest.param({"across": True}, marks=pytest.mark.long),
+    ],
 )
 def test_a_walkway(options: dict[str, object]) -> None:
     recording, truth = walkway(**options)  # type: ignore[arg-type]
