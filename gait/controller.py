@@ -255,6 +255,7 @@ class WalkingController:
         self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
         self._step_of: dict[Side, int | None] = {"left": None, "right": None}
         self._felt: list[FootholdFelt] = []
+        self._foreseen = -1
         self._replanned, self._replanned_step = -math.inf, -1
         way = self.plan.end - self.plan.at(begin - 1.0).com
         length = float(np.hypot(*way))
@@ -430,6 +431,7 @@ class WalkingController:
             step = self._step_of[side]
             if phase.swing == side and not self.motion.landed:
                 self._contacts[side].see(sensors.readings[side])
+                changed |= self._foresee(side, phase, sensors.time, state)
             # Only while the foot takes the weight over: later its load wanders, and the ground under it stays.
             early = phase.kind == PhaseKind.SINGLE_SUPPORT and sensors.time < phase.start + self.settings.contact.watch
             taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
@@ -465,6 +467,25 @@ class WalkingController:
             self.replans += 1
             changed = True
         return changed
+
+    def _foresee(self, side: Side, phase: Phase, time: float, state: BaseState) -> bool:
+        """Plan once with the foothold that is seen before the foot is on it: the stance foot has most room then."""
+        ahead = self.motion.ahead
+        if self._foreseen == phase.step or math.hypot(*ahead.tolist()) > self.settings.contact.foresee_reach:
+            return False
+        if phase.end - time < self.settings.contact.foresee_least:
+            return False
+        turn = state.rotations_sole[side][:2, :2]
+        center = self._contacts[side].foresee(turn.T @ ahead)
+        if center is None:
+            return False
+        self._foreseen = phase.step
+        point = state.positions_sole[side][:2] + ahead + turn @ center
+        if math.dist(point, self.plan.stance(phase.step)) < self.settings.contact.least_move:
+            return False
+        self.plan.move(phase.step, point, time, self._zmp_region(phase))
+        self.replans += 1
+        return True
 
     def _follow_strip(self, step: int, phase: Phase) -> NDArray[np.float64]:
         """Move the footsteps to come onto the strip that the ground goes on as; returns by how much (2,) in m the VRPs

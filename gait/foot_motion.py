@@ -123,6 +123,14 @@ class FootMotion:
         side = self.last_side
         return () if self._compliance is None or self.landed or side is None else (side,)
 
+    @property
+    def ahead(self) -> NDArray[np.float64]:
+        """How far (2,) in m the swing foot still has to go horizontally, command frame; zero before the first step."""
+        if self._swing is None:
+            return np.zeros(2)
+        position = self.footholds[self.schedule.steps[self._step].side][0]
+        return np.asarray(self._swing.end[:2] - position[:2])
+
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
         level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world

@@ -50,6 +50,9 @@ class ContactSettings:
         fit_every: Readings between two looks at a foothold that has settled.
         standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
         least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
+        foresee_readings: Readings of the ground from which a foothold is planned with before the foot is on it.
+        foresee_reach: Distance in m that the foot may still have to go for that.
+        foresee_least: Time in s before the planned touchdown from which it is too late for that.
         largest_shift: Distance in m by which one foothold moves the footsteps to come.
         watch: Time in s into the single support until which a foothold is refined.
         replan_pause: Time in s between two moves of the plan by one foothold.
@@ -75,6 +78,9 @@ class ContactSettings:
     fit_every: int = 8
     standing_load: float = 450.0
     least_move: float = 0.004
+    foresee_readings: int = 6
+    foresee_reach: float = 0.015
+    foresee_least: float = 0.07
     largest_shift: float = 0.02
     watch: float = 0.15
     replan_pause: float = 0.06
@@ -121,6 +127,7 @@ class StanceContact:
         self._idle = np.zeros(n, dtype=bool)
         self._depth: NDArray[np.float64] | None = None
         self._seen_time = -1.0
+        self._looks = 0
         self._believed: NDArray[np.float64] | None = None
         self._time = -1.0
         self._fit.reset()
@@ -180,9 +187,31 @@ class StanceContact:
         # Relative to the nearest ground: the foot is on its way down.
         ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
         depth = np.clip(distance - ground, -0.05, self.settings.deep)
+        self._looks += 1
         share = self.settings.sight if self._depth is not None else 1.0
         before = np.zeros(len(depth)) if self._depth is None else self._depth
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
+
+    def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Centroid of the foothold that a foot comes down on, from what its taxels see.
+
+        Args:
+            ahead: How far (2,) in m the sole still moves in its own plane before it lands.
+
+        Returns:
+            Centroid (2,) in the sole frame as it will land in m; None where too little is seen, or where the ground is
+            whole.
+        """
+        if self._looks < self.settings.foresee_readings:
+            return None
+        lines = self._from_sight()
+        if lines is None or not len(lines):
+            return None
+        lines = np.column_stack([lines[:, :2], lines[:, 2] - lines[:, :2] @ ahead])
+        polygon = self._fit.polygon(lines)
+        if len(polygon) < 3 or area(polygon) > self.settings.full_ratio * self._whole_area:
+            return None
+        return centroid(polygon)
 
     def _from_sight(self) -> NDArray[np.float64] | None:
         """Edges (m, 3) of the ground as the taxels saw it before they touched; None where they did not."""

@@ -28,6 +28,7 @@ _DELAY = 0.05  # s by which a double support that is too short grows at a time
 _MOST_DELAY = 0.3  # s in all
 _SHORT = 0.012  # m of the DCM that the feedback is left to deal with
 _STANCE_BRIDGE = 0.4  # s in which a change that comes in single support is bridged
+_FORESIGHT = 0.06  # s before touchdown from which a foothold that is seen coming is bridged on the stance foot
 _REBUILT = 4  # stances that a replan builds anew; later ones keep what they have
 _LEAST_BRIDGE = 0.05  # s: with less time left nothing is bridged
 
@@ -117,8 +118,9 @@ class WalkPlan:
             step: The step that put the foot down.
             point: Its VRP (2,) in the world in m: the centroid of what carries.
             time: Now in s.
-            region: Convex polygon (k, 2) in the world in m in which the VRP may be in the double support that follows,
-                counter-clockwise; empty does not limit it.
+            region: Convex polygon (k, 2) in the world in m in which the VRP may be while it bridges: in what is left of
+                the single support where that is enough, else in the double support that follows; counter-clockwise,
+                empty does not limit it.
             shift_later: By how much (2,) in m the footholds after this one move.
 
         Returns:
@@ -131,6 +133,9 @@ class WalkPlan:
         now = self.vrps.at(time)
         phase = self.schedule.at(time)
         takes_over = phase.step == step + 1 and phase.kind == PhaseKind.DOUBLE_SUPPORT
+        if phase.step == step and phase.kind == PhaseKind.SINGLE_SUPPORT and phase.end - time >= _FORESIGHT:
+            self.vrps, gap = self._bridged(time, now, (time, phase.end), region, later, 0.0)
+            return Replan(moved, gap, 0.0)
         if takes_over or phase.step == step:
             following = phase if takes_over else self._next(phase)
             window, delay = (max(time, following.start), following.end), 0.0

@@ -94,7 +94,7 @@ class Simulation:
             height=scene.terrain.height,
         )
         self.settings = ControllerSettings(
-            com_height=robot.com_height - walk.crouch,
+            com_height=robot.com_height - min(walk.crouch, robot.largest_crouch),
             mass=self.legs.mass,
             trunk_lean=robot.trunk_lean if walk.lean else 0.0,
             period=CONTROL_PERIOD,
