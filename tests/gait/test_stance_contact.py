@@ -135,3 +135,17 @@ def test_the_polygon_of_cell_corners_is_the_larger_one() -> None:
 def test_bad_settings_are_refused() -> None:
     with pytest.raises(InputError, match="minimum_load"):
         ContactSettings(minimum_load=-1.0)
+
+
+def test_a_foothold_is_foreseen_where_the_sole_will_land() -> None:
+    foot = Foot(REAR)
+    assert foot.contact.foresee(np.zeros(2)) is None
+    foot.descend()
+    here, further = foot.contact.foresee(np.zeros(2)), foot.contact.foresee(np.array([0.014, 0.0]))
+    assert here is not None
+    assert further is not None
+    assert here == pytest.approx([-0.0565, 0.0], abs=0.008)
+    assert further[0] - here[0] == pytest.approx(-0.007, abs=1e-9)  # the edge stays, the sole goes on over it
+    whole = Foot(WHOLE)
+    whole.descend()
+    assert whole.contact.foresee(np.zeros(2)) is None

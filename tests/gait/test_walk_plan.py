@@ -167,3 +167,21 @@ def test_a_stance_that_is_held_longer_keeps_the_com_over_it(moved: bool) -> None
     assert np.allclose(plan.end, end + later, atol=1e-9)
     if moved:
         assert np.allclose(plan.at(swing.end + 0.8 + 0.3 + 0.1).vrp, point, atol=1e-9)
+
+
+def test_a_foothold_that_is_seen_coming_is_bridged_on_the_stance_foot() -> None:
+    feet, steps = straight_plan(6, length=0.2)
+    plan = WalkPlan(feet, WalkSchedule(steps, Timing(), begin=1.0), CENTER, OMEGA)
+    swing = next(p for p in plan.schedule.phases if p.kind == PhaseKind.SINGLE_SUPPORT and p.step == 2)
+    time = swing.end - 0.18
+    before, stance = plan.at(time), plan.stance(1)
+    sole = stance + np.array([[-0.11, -0.06], [0.11, -0.06], [0.11, 0.06], [-0.11, 0.06]])
+    replan = plan.move(2, plan.stance(2) + np.array([-0.08, 0.0]), time, sole)
+    after = plan.at(time)
+    assert replan.delay == 0.0
+    assert np.abs(replan.gap).max() < 1e-12
+    assert np.abs(after.dcm - before.dcm).max() < 1e-12
+    assert np.abs(after.com_velocity - before.com_velocity).max() < 1e-12
+    shifts = [plan.at(t).vrp[0] - stance[0] for t in np.linspace(time, swing.end, 50)]
+    assert 0.02 < max(np.abs(shifts)) < 0.11  # the bridge stays within the sole
+    assert plan.at(swing.end).vrp == pytest.approx(stance, abs=1e-9)
