@@ -88,8 +88,9 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
     if p.retention == "none":
         return Retention("none", (), 0.0, 0.0, "nothing holds the shoe but the fit, as asked for")
     if p.retention == "screws":
-        xs = (middle - 0.25 * length, middle + 0.25 * length)
-        places = tuple(_Place(round(x, 3), side) for x in xs for side in (1, -1))
+        places = tuple(
+            _straightest(plan, middle, length, share, side, p) for share in (-0.25, 0.25) for side in (1, -1)
+        )
         return Retention("screws", places, p.screw_diameter, 0.0, "four clamping screws through the wall, as asked for")
     reason = "as asked for"
     if p.retention in ("auto", "clips"):
@@ -103,6 +104,13 @@ def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> 
     places = tuple(_Place(round(middle + s * length, 3), side) for s in shares for side in (1, -1))
     text = "a strap" if len(shares) == 1 else "two straps"
     return Retention("straps", places, width, 0.0, f"lugs for {text} of {width:g} mm: {reason}")
+
+
+def _straightest(plan: ShoePlan, middle: float, length: float, share: float, side: int, p: ShoeParameters) -> _Place:
+    """The place near a share of the foot's length at which the wall runs most nearly along the foot."""
+    tries = [middle + (share + 0.02 * k) * length for k in (0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5)]
+    bends = [_wall_line(plan.rim, x, side, p.screw_diameter + 3.0, plan.foot.centroid.y)[1] for x in tries]
+    return _Place(round(tries[int(np.argmin(np.round(bends, 2)))], 3), side)
 
 
 def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | None, str]:
