@@ -179,6 +179,9 @@ class SwingCompliance:
             remaining: Horizontal distance in m that the foot still has to go.
             late: Whether the plan puts weight on the foot already.
             period: Control period in s.
+
+        Returns:
+            The distance.
         """
         g = self.gains
         if view is None:
@@ -203,6 +206,9 @@ class SwingCompliance:
             load: Vertical force in N on the sole.
             target: Force in N that it should have.
             period: Control period in s.
+
+        Returns:
+            The distance.
         """
         g = self.gains
         wanted = g.pliancy * (target - load)
@@ -287,7 +293,17 @@ def _highest_plane(
 def turned_to_ground(
     rotation: NDArray[np.float64], slope: tuple[float, float], share: float, largest: float
 ) -> NDArray[np.float64]:
-    """Rotation (3, 3) of a sole after turning a share of the way to the ground's slope, by at most `largest` rad."""
+    """Turn a sole a share of the way to the ground's slope.
+
+    Args:
+        rotation: Rotation (3, 3) of the sole.
+        slope: Rise of the ground along the sole's x and y (tangents).
+        share: Share of the way, 0..1.
+        largest: Largest turn in rad.
+
+    Returns:
+        Rotation (3, 3) of the turned sole.
+    """
     turn = np.array([share * slope[1], -share * slope[0], 0.0])
     size = math.hypot(float(turn[0]), float(turn[1]))
     if size > largest:
@@ -296,7 +312,14 @@ def turned_to_ground(
 
 
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation vector (3,) in rad of a rotation (3, 3) by less than half a turn."""
+    """Rotation vector of a rotation by less than half a turn.
+
+    Args:
+        rotation: Rotation (3, 3).
+
+    Returns:
+        Its axis times its angle (3,) in rad.
+    """
     axis = 0.5 * np.array(
         [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
     )

@@ -1,6 +1,6 @@
 """Force plates in C3D files: the force, its moment and the centre of pressure of each plate, without cells.
 
-ezc3d reads the file in a process of its own: its native code was seen to crash and to ask for any amount of memory on
+ezc3d reads the file in a process of its own: its native code might crash or ask for any amount of memory on
 damaged files, which must not take this process with it.
 """
 
