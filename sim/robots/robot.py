@@ -5,6 +5,7 @@ Reading a robot needs no simulator: the shoe builder and the command line use it
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import tomllib
@@ -236,6 +237,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
             layouts[side] = read_layout(path.parent / _text(shoe, "layout", f"{where}: [shoe]").format(side=side))
         except LayoutError as error:
             raise RobotError(f"{where}: {error}") from None
+    exported = _exported_shoe(path.parent / _text(shoe, "layout", f"{where}: [shoe]").format(side="left"))
     torso = _table(source, "torso", where)
     servo = _table(source, "servo", where)
     gait = _table(source, "gait", where)
@@ -253,8 +255,8 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         biped=biped,
         model_file=model_file,
         foot=None if foot is None else _foot(foot, where),
-        shoe_thickness=_number(shoe, "thickness", f"{where}: [shoe]", 0.0, 0.1),
-        shoe_mass=_number(shoe, "mass", f"{where}: [shoe]", 0.0, 20.0),
+        shoe_thickness=_number(exported | shoe, "thickness", f"{where}: [shoe]", 0.0, 0.1),
+        shoe_mass=_number(exported | shoe, "mass", f"{where}: [shoe]", 0.0, 20.0),
         sole_origin=(origin[0], origin[1], origin[2]),
         effort_limits=efforts,
         layouts=layouts,
@@ -273,3 +275,10 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         balance=dict(_table(source, "balance", where)),
         path=path,
     )
+
+
+def _exported_shoe(layout: Path) -> dict[str, Any]:
+    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg and thickness in m; a robot's file may say
+    otherwise."""
+    found = json.loads(layout.read_text(encoding="utf-8")).get("shoe", {})
+    return {k: found[k] for k in ("mass", "thickness") if k in found} if isinstance(found, dict) else {}

@@ -1,3 +1,4 @@
+import json
 import shutil
 from pathlib import Path
 
@@ -58,3 +59,20 @@ def test_bad_robot_files_name_the_field(own: Path, old: str, new: str, word: str
 def test_unknown_robots_are_named(name: str) -> None:
     with pytest.raises(RobotError, match=r"h1|none\.toml"):
         load_robot(name)
+
+
+def test_mass_and_thickness_come_with_the_shoes_layout(tmp_path: Path) -> None:
+    for name in ("robot.toml", "layout_left.json", "layout_right.json"):
+        text = (Path(load_robot("h1").path).parent / name).read_text()
+        if name == "robot.toml":
+            lines = text.splitlines()
+            start = lines.index("[shoe]")
+            text = "\n".join(
+                line for i, line in enumerate(lines) if i < start or not line.startswith(("thickness", "mass"))
+            )
+        else:
+            table = json.loads(text) | {"shoe": {"mass": 0.4, "thickness": 0.015}}
+            text = json.dumps(table)
+        (tmp_path / name).write_text(text)
+    robot = load_robot(tmp_path / "robot.toml")
+    assert (robot.shoe_mass, robot.shoe_thickness) == (0.4, 0.015)
