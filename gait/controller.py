@@ -275,9 +275,8 @@ class WalkingController:
         """Feet whose proximity it wants to have at the next tick."""
         sides = self.motion.proximity_sides
         last = self.motion.last_side
-        if self.settings.footholds == "skin" and not self.motion.landed and last is not None and last not in sides:
-            return (*sides, last)
-        return sides
+        looks = self.settings.footholds == "skin" and not self.motion.landed and self.motion.comes_down
+        return (*sides, last) if looks and last is not None and last not in sides else sides
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out."""

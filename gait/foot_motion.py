@@ -98,6 +98,7 @@ class FootMotion:
             s: (feet[s].position.copy(), feet[s].yaw) for s in _SIDES
         }
         self.landed = True
+        self.comes_down = False
         self._period = period
         self._height = swing_height
         self._landing = landing
@@ -165,6 +166,7 @@ class FootMotion:
             self._begin(phase, phase.swing, frame)
         if self._swing is None:
             return began
+        self.comes_down = time - self._start > 0.5 * self._swing.duration
         side = self.schedule.steps[self._step].side
         if self._compliance is not None and senses is not None:
             self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame)
