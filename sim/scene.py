@@ -234,7 +234,10 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
             continue
         section, dot, name = key.rpartition(".")
         owners = [s for s, names in keys.items() if name in names and (not dot or s == section)]
-        if len(owners) != 1:
+        if len(owners) > 1:
+            found = ", ".join(f"{s}.{name}" for s in owners)
+            raise SceneError(f"setting '{key}={text}' could be more than one key; allowed: {found}")
+        if not owners:
             allowed = ", ".join(f"{s}.{n}" for s, names in keys.items() for n in names)
             raise SceneError(f"setting '{key}={text}': no such key; allowed: robot, {allowed}")
         table = result.setdefault(owners[0], {})

@@ -60,3 +60,9 @@ def test_a_scene_file_of_ones_own(tmp_path: Path) -> None:
 def test_unknown_scenes_list_the_known_ones_or_name_the_file(name: str) -> None:
     with pytest.raises(SceneError, match=r"flat|missing\.toml"):
         load_scene(name)
+
+
+def test_a_key_of_two_sections_has_to_say_which() -> None:
+    with pytest.raises(SceneError, match="allowed: terrain.step, push.step"):
+        load_scene("partial-rear", ["step=1"])
+    assert load_scene("partial-rear", ["push.step=1"]).push.step == 1
