@@ -63,6 +63,6 @@ def test_unknown_scenes_list_the_known_ones_or_name_the_file(name: str) -> None:
 
 
 def test_a_key_of_two_sections_has_to_say_which() -> None:
-    with pytest.raises(SceneError, match="allowed: terrain.step, push.step"):
+    with pytest.raises(SceneError, match=r"allowed: terrain\.step, push\.step"):
         load_scene("partial-rear", ["step=1"])
     assert load_scene("partial-rear", ["push.step=1"]).push.step == 1
