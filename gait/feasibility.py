@@ -166,7 +166,7 @@ def way_around(
         >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
         >>> rules = FeasibilityRules(clearance=0.02)
         >>> way_around(np.array([[-0.09, -0.03], [0.09, 0.03]]), sole, "left", rules).round(3).tolist()
-        [0.0, 0.12]
+        [-0.21, 0.0]
     """
     if not len(obstacle):
         return None

@@ -63,7 +63,7 @@ class PartialContact:
         >>> layout = hex_layout([[-0.12, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.12, 0.07]], clip=False)
         >>> fit = PartialContact(layout)
         >>> covered = fit.cover(np.array([[1.0, 0.0, 0.031]]))[:, 0]
-        >>> edges = fit.update(1e5 * covered, covered > 0.0)
+        >>> edges = fit.update(1e5 * covered, covered > 0.0, steps=8)
         >>> round(float(edges.lines[0, 2]), 4)
         0.031
     """

@@ -289,7 +289,7 @@ def rotation_of(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np
         Rotation (3, 3) to the world.
 
     Example:
-        >>> rotation_of(0.0, pitch=0.1)[2, 0] < 0.0
+        >>> bool(rotation_of(0.0, pitch=0.1)[2, 0] < 0.0)
         True
     """
     cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
