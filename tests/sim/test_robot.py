@@ -53,7 +53,7 @@ def test_the_hrp2kai_shoe_carries_51_taxels_and_overhangs_the_foot() -> None:
     for side in ("left", "right"):
         layout = robot.layouts[side]
         assert len(layout) == robot.foot.taxels == 51
-        # The papers' 51 whole cells; a few at the rim are trimmed to 98 % so that the shoe overhangs by less than 10 mm.
+        # The papers' 51 whole cells, a few at the rim trimmed to 98 %: so the shoe overhangs by less than 10 mm.
         assert layout.areas.sum() == pytest.approx(35241e-6, rel=4e-3)
         size = np.ptp(layout.vertices[:, :2], axis=0)
         assert ((size - [robot.foot.length, robot.foot.width]) / 2 < 0.010).all()
