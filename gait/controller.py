@@ -495,9 +495,8 @@ class WalkingController:
             return np.zeros(2)
         strip, foot = self._strip, self.schedule.steps[upcoming]
         center = vrp_of_step(foot, self._vrp_in_sole[foot.side])
-        missing = strip.lateral(float((center - strip.origin) @ strip.along)) - float(
-            (center - strip.origin) @ strip.across
-        )
+        place, lateral = strip.coordinates(center)
+        missing = strip.lateral(place) - lateral
         reach = self.settings.contact.largest_shift
         shift = min(reach, max(-reach, missing)) * strip.across
         self.schedule.shift_steps(upcoming, shift)

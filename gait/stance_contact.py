@@ -9,9 +9,7 @@ and is refined while more load comes on.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +18,7 @@ from plantar.errors import InputError
 from plantar.layout import SoleLayout
 from plantar.partial_contact import PartialContact
 from plantar.polygon import area, centroid, signed_margin
+from plantar.proximity import cells_polygon
 from plantar.reading import Reading
 
 __all__ = ["ContactSettings", "StanceContact"]
@@ -90,12 +89,6 @@ class ContactSettings:
             value = getattr(self, item.name)
             if not (isinstance(value, int | float) and 0.0 <= value < 1e6):
                 raise InputError(f"contact setting '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
-
-    @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> ContactSettings:
-        """Settings from a table's keys that name one; other keys are left alone."""
-        names = {item.name for item in fields(cls)}
-        return cls(**{k: v for k, v in table.items() if k in names})
 
 
 class StanceContact:
@@ -239,7 +232,7 @@ class StanceContact:
             self._idle &= ~self._carried
             lines = self._fit.between(self._carried, self._idle)
         else:
-            lines = self._believed if first or self._fit.edges is None else self._fit.edges.lines
+            lines = self._believed
         polygon = self._fit.polygon(lines)
         # A foot that still settles presses on a corner or a line; once it stands, the loads say where the edges are.
         if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
@@ -249,7 +242,7 @@ class StanceContact:
             if found.residual < s.model_error * largest:
                 polygon = found.polygon
         elif len(lines) and not s.subcell and self._carried.any():
-            polygon = self._fit.hull_of(self._carried)
+            polygon = cells_polygon(self.layout, self._carried)
         if len(polygon) < 3:
             return first
         ratio = area(polygon) / self._whole_area

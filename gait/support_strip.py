@@ -49,7 +49,14 @@ class SupportStrip:
         return len(self._footholds) >= 2
 
     def coordinates(self, point: NDArray[np.float64]) -> tuple[float, float]:
-        """Place along the walk and distance to its left, in m, of a point (2,) in the world."""
+        """A point in the walk's own line.
+
+        Args:
+            point: Point (2,) in the world in m.
+
+        Returns:
+            Its place along the walk and its distance to the left, in m.
+        """
         offset = point - self.origin
         return float(offset @ self.along), float(offset @ self.across)
 

@@ -24,6 +24,7 @@ from plantar.errors import ReadingError
 from plantar.kernels.cut_cells import cut_cells
 from plantar.layout import SoleLayout
 from plantar.polygon import closest_point, convex_hull, inner_offset
+from plantar.proximity import cells_polygon
 
 __all__ = ["GroundEdges", "PartialContact"]
 
@@ -89,17 +90,6 @@ class PartialContact:
     def reset(self) -> None:
         """Forget the edges: the foot lifts off."""
         self.edges = None
-
-    def hull_of(self, active: ArrayLike) -> NDArray[np.float64]:
-        """Convex polygon (k, 2) of the corners of some cells in the sole frame in m (T 4.24).
-
-        Args:
-            active: Mask (n,) of the cells.
-
-        Returns:
-            The polygon, counter-clockwise; empty where there is none.
-        """
-        return convex_hull(self._points[np.repeat(np.asarray(active, dtype=bool), np.diff(self._start))])
 
     def cover(self, lines: ArrayLike) -> NDArray[np.float64]:
         """Area and first moments of what lines leave of each cell.
@@ -216,7 +206,7 @@ class PartialContact:
             Half-planes (m, 3), the side with the most idle cells first; m up to 4.
         """
         inner, outer = self._centers[np.asarray(supported, dtype=bool)], self._centers[np.asarray(idle, dtype=bool)]
-        hull = self.hull_of(supported)
+        hull = cells_polygon(self.layout, supported)
         if len(hull) < 3 or not len(outer):
             return np.empty((0, 3))
         after = np.roll(hull, -1, axis=0) - hull
@@ -287,7 +277,7 @@ class PartialContact:
         weight = rate.sum(axis=0) + 1e-12
         pivot = (rate * along).sum(axis=0) / weight
         jacobian = np.hstack([basis, rate, rate * (pivot - along)]) / noise
-        target = np.concatenate([np.zeros(3), np.zeros(2 * m)])
+        target = np.zeros(3 + 2 * m)
         hessian = jacobian.T @ jacobian
         gradient = jacobian.T @ (residual / noise)
         prior = np.concatenate(
@@ -307,7 +297,6 @@ class PartialContact:
         c, s = np.cos(angle), np.sin(angle)
         new = np.column_stack([c * lines[:, 0] - s * lines[:, 1], s * lines[:, 0] + c * lines[:, 1]])
         height = (new * (place + move[:, None] * lines[:, :2])).sum(axis=1)
-        # An edge lies within the cells that are loaded: not beyond their corners, nor a whole cell inside.
         deviation = np.sqrt(np.diag(inverse)[3 : 3 + m])
         return np.column_stack([new, height]), deviation, float(np.sqrt(np.mean(residual**2)))
 
