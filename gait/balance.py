@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.gains import Gains
 from gait.vrp_plan import LipReference
 from gait.wrench_cone import FootContact
-from plantar.errors import InputError
 from plantar.layout import Side
 from plantar.polygon import closest_point
 
@@ -21,7 +20,7 @@ __all__ = ["BalanceGains", "BalanceLaw", "BalanceState", "DcmBalance", "FootActi
 
 
 @dataclass(frozen=True)
-class BalanceGains:
+class BalanceGains(Gains):
     """Gains of the DCM feedback with CoM admittance.
 
     Attributes:
@@ -37,18 +36,6 @@ class BalanceGains:
     com_gain: float = 1.0
     zmp_filter: float = 0.02
     zmp_offset: float = 0.015
-
-    def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if not (isinstance(value, (int, float)) and math.isfinite(value) and value >= 0.0):
-                raise InputError(f"balance gain '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
-
-    @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> BalanceGains:
-        """Gains from the keys of a `[balance]` table that name one; other keys are left alone."""
-        names = {item.name for item in fields(cls)}
-        return cls(**{k: v for k, v in table.items() if k in names})
 
 
 @dataclass(frozen=True)

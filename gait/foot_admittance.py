@@ -7,15 +7,13 @@ and the other one down. All corrections return to zero slowly, and quickly for a
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
+from gait.gains import Gains
 from plantar.layout import Side
 
 __all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
@@ -24,7 +22,7 @@ _SIDES: tuple[Side, Side] = ("left", "right")
 
 
 @dataclass(frozen=True)
-class AdmittanceGains:
+class AdmittanceGains(Gains):
     """Gains of the feet's admittance.
 
     Attributes:
@@ -44,18 +42,6 @@ class AdmittanceGains:
     foot_filter: float = 0.02
     largest_turn: float = 0.08
     largest_lift: float = 0.02
-
-    def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if not (isinstance(value, (int, float)) and math.isfinite(value) and value >= 0.0):
-                raise InputError(f"balance gain '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
-
-    @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> AdmittanceGains:
-        """Gains from the keys of a `[balance]` table that name one; other keys are left alone."""
-        names = {item.name for item in fields(cls)}
-        return cls(**{k: v for k, v in table.items() if k in names})
 
 
 @dataclass

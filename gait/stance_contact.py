@@ -9,12 +9,13 @@ and is refined while more load comes on.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import InputError
+from gait.gains import Gains
 from plantar.layout import SoleLayout
 from plantar.partial_contact import PartialContact
 from plantar.polygon import area, centroid, signed_margin
@@ -25,7 +26,7 @@ __all__ = ["ContactSettings", "StanceContact"]
 
 
 @dataclass(frozen=True)
-class ContactSettings:
+class ContactSettings(Gains):
     """How a foothold is found from the taxels.
 
     Attributes:
@@ -57,6 +58,9 @@ class ContactSettings:
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
+    CALLED: ClassVar[str] = "contact setting"
+    BELOW: ClassVar[float] = 1e6
+
     minimum_load: float = 90.0
     settle_readings: int = 3
     taxel_noise: float = 1.5
@@ -83,12 +87,6 @@ class ContactSettings:
     largest_shift: float = 0.02
     watch: float = 0.15
     replan_pause: float = 0.06
-
-    def __post_init__(self) -> None:
-        for item in fields(self):
-            value = getattr(self, item.name)
-            if not (isinstance(value, int | float) and 0.0 <= value < 1e6):
-                raise InputError(f"contact setting '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
 
 
 class StanceContact:

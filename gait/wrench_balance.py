@@ -10,18 +10,18 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceState, FootAction, FootState
 from gait.foot_admittance import AdmittanceGains, FootAdmittance
+from gait.gains import Gains
 from gait.lip import GRAVITY
 from gait.vrp_plan import LipReference
 from gait.wrench_distribution import DistributionWeights, WrenchDistribution
-from plantar.errors import InputError
 from plantar.layout import Side
 from plantar.polygon import closest_point
 
@@ -31,7 +31,7 @@ _NO_WRENCH = np.zeros(6)
 
 
 @dataclass(frozen=True)
-class WrenchBalanceGains:
+class WrenchBalanceGains(Gains):
     """Gains of the law.
 
     Attributes:
@@ -58,18 +58,10 @@ class WrenchBalanceGains:
     minimum_force: float = 15.0
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 
-    def __post_init__(self) -> None:
-        for item in fields(self)[:-1]:
-            value = getattr(self, item.name)
-            if not (isinstance(value, (int, float)) and math.isfinite(value) and value >= 0.0):
-                raise InputError(f"balance gain '{item.name}' is {value!r}; allowed: a finite number, 0 or more")
-
     @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> WrenchBalanceGains:
-        """Gains from the keys of a `[balance]` table that name one; other keys are left alone."""
-        names = {item.name for item in fields(cls)[:-1]}
-        own = {k: v for k, v in table.items() if k in names}
-        return cls(**own, feet=AdmittanceGains.from_table(table))
+    def from_table(cls, table: Mapping[str, Any]) -> Self:
+        """Gains of the law and of the feet's admittance from the keys that name one; other keys are left alone."""
+        return replace(super().from_table(table), feet=AdmittanceGains.from_table(table))
 
 
 class WrenchBalance:
