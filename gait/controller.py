@@ -26,31 +26,29 @@ from gait.estimator import (
 )
 from gait.feasibility import FeasibilityRules
 from gait.foot_motion import FootMotion, Landing, SoleSense
+from gait.footholds import FootholdFelt, Footholds, middle_of_sole
 from gait.footsteps import Footstep, other_side
-from gait.landing_compliance import LandingCompliance
 from gait.lip import pendulum_frequency
-from gait.phases import Phase, PhaseKind, Timing, WalkSchedule
+from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
-from gait.stance_contact import ContactSettings, StanceContact
+from gait.stance_contact import ContactSettings
 from gait.step_guard import StepGuard
 from gait.support_strip import SupportStrip
 from gait.swing_compliance import ComplianceGains, SwingCompliance
 from gait.vrp_plan import LipReference
-from gait.walk_plan import WalkPlan, vrp_of_step
+from gait.walk_plan import WalkPlan
 from gait.wrench_cone import FootContact, Rectangle
 from plantar.contact_rectangle import safe_rectangle
 from plantar.errors import InputError
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
-from plantar.polygon import centroid, inner_offset
 from plantar.reading import Reading
-from plantar.support import feet_support_polygon, polygon_in_world
 from plantar.zmp import divergent_component
 
 if TYPE_CHECKING:
     from gait.wrench_balance import WrenchBalanceGains
 
-__all__ = ["Command", "ControllerSettings", "FootTarget", "FootholdFelt", "Sensors", "WalkingController"]
+__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
@@ -142,25 +140,6 @@ class FootTarget:
 
 
 @dataclass(frozen=True)
-class FootholdFelt:
-    """What a foot was found to stand on.
-
-    Attributes:
-        step: The step that put it down.
-        side: Which foot.
-        polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
-        area_ratio: Its share of the sole's cells.
-        vrp: VRP (2,) over it in the world in m.
-    """
-
-    step: int
-    side: Side
-    polygon: NDArray[np.float64]
-    area_ratio: float
-    vrp: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
 class Command:
     """What the controller asks of the body, for inverse kinematics and servos.
 
@@ -216,14 +195,7 @@ class WalkingController:
         self.layouts = layouts
         self.omega = pendulum_frequency(settings.com_height)
         self.schedule = WalkSchedule(steps, settings.timing, begin)
-        self._outline = {s: layouts[s].outline for s in _SIDES}
-        vrp_in_sole: dict[Side, NDArray[np.float64]] = {}
-        for side in _SIDES:
-            point = centroid(layouts[side].outline)
-            assert point is not None
-            vrp_in_sole[side] = point
-        self._vrp_in_sole = vrp_in_sole
-        self._center_in_sole = dict(vrp_in_sole)
+        vrp_in_sole = {side: middle_of_sole(layouts[side]) for side in _SIDES}
         self.plan = WalkPlan(feet, self.schedule, vrp_in_sole, self.omega)
         self.balance = balance_law(settings.gains, self.omega, settings.mass, settings.period)
         self._rectangle_of: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
@@ -248,27 +220,34 @@ class WalkingController:
         self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
         self._ticks = 0
         self._rotations_sole: Mapping[Side, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in _SIDES}
-        self.replans = 0
+        self._detours = 0
         self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
-        self._contacts = {s: StanceContact(layouts[s], settings.contact) for s in _SIDES}
-        self._turning = {s: LandingCompliance(settings.period) for s in _SIDES}
-        self._support: dict[Side, NDArray[np.float64] | None] = {"left": None, "right": None}
-        self._step_of: dict[Side, int | None] = {"left": None, "right": None}
-        self._felt: list[FootholdFelt] = []
-        self._foreseen = -1
-        self._replanned, self._replanned_step = -math.inf, -1
         way = self.plan.end - self.plan.at(begin - 1.0).com
         length = float(np.hypot(*way))
         forward = np.array([math.cos(feet["left"].yaw), math.sin(feet["left"].yaw)])
-        self._strip = SupportStrip(self.plan.at(begin - 1.0).com, way / length if length > 0.05 else forward)
-        self._region_of: list[object] = []
-        self._region = np.empty((0, 2))
+        strip = SupportStrip(self.plan.at(begin - 1.0).com, way / length if length > 0.05 else forward)
+        self.footholds = Footholds(
+            settings.contact,
+            layouts,
+            self.plan,
+            self.motion,
+            self._frame,
+            strip,
+            period=settings.period,
+            minimum_load=settings.estimator.minimum_load,
+            zmp_offset=settings.gains.zmp_offset,
+        )
         self._ground = CoMHeight(float(np.mean([feet[s].z for s in _SIDES])), settings.period)
 
     @property
     def end(self) -> float:
         """Time in s at which the walk is over and the robot has settled."""
         return self.schedule.end
+
+    @property
+    def replans(self) -> int:
+        """How often the plan was changed: for a foothold that was found, or for one that was refused."""
+        return self.footholds.replans + self._detours
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -302,7 +281,7 @@ class WalkingController:
         )
         self._ticks += 1
         self._rotations_sole = state.rotations_sole
-        self._felt.clear()
+        self.footholds.felt.clear()
         feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
         if feedback:
             self._align(state)
@@ -310,26 +289,30 @@ class WalkingController:
         landed = self.motion.landed
         if self.motion.update(phase, sensors.time, state.loads, self._frame, senses):
             self._compensation.start()
-            self._lift(phase)
+            self.footholds.lift(phase)
         if self.motion.landed and not landed and s.compliance is not None:
             self._keep_inside(phase, sensors.time)
         if self.guard is not None:
             moments = {side: ankle.wrench_in_sole[3:5] for side, ankle in ankles.items()}
-            region = self._zmp_region(phase)
+            region = self.footholds.zmp_region(phase)
             side = phase.swing
             if self.guard.probing and side is not None:  # a sole on its edge makes a moment on the best of ground
                 cop = soles[side].position_cop_in_sole
                 if cop is not None and state.loads[side] > 20.0:
-                    self._turning[side].update(state.loads[side], cop, self._center_in_sole[side])
+                    self.footholds.let_turn(side, state.loads[side], cop)
             if self.guard.update(phase, sensors.time, self._frame, sensors.readings, moments, state.loads, region):
-                self.replans += 1
+                self._detours += 1
                 phase, reference = self.schedule.at(sensors.time), self.plan.at(sensors.time)
-        if feedback and s.footholds != "off" and self._feel(phase, sensors, state, percepts):
+        if (
+            feedback
+            and s.footholds != "off"
+            and self.footholds.update(phase, sensors.time, sensors.readings, state, percepts)
+        ):
             reference = self.plan.at(sensors.time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         if feedback:
             standing = self._foot_states(phase, soles) if self.balance.wants_feet else {}
-            balance = self.balance.update(reference, xi, state.zmp, self._zmp_region(phase), standing)
+            balance = self.balance.update(reference, xi, state.zmp, self.footholds.zmp_region(phase), standing)
             com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
             actions = balance.feet
         else:
@@ -357,7 +340,7 @@ class WalkingController:
             dcm=xi,
             percepts=percepts,
             ankle_loads=ankles,
-            footholds=tuple(self._felt),
+            footholds=tuple(self.footholds.felt),
         )
 
     def _compensate(
@@ -413,136 +396,16 @@ class WalkingController:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._frame.follow(position, state.positions_sole[side], turn)
 
-    def _lift(self, phase: Phase) -> None:
-        """A swing begins: what its foot stood on no longer counts, where it will stand is not known."""
-        side = phase.swing
-        assert side is not None
-        self._contacts[side].lift()
-        self._turning[side].reset()
-        self._support[side] = None
-        self._center_in_sole[side] = self._vrp_in_sole[side]
-        self._step_of[side] = phase.step
-
-    def _feel(self, phase: Phase, sensors: Sensors, state: BaseState, percepts: Mapping[Side, Percept]) -> bool:
-        """Look at what the feet stand on; where a foothold is not what was planned, move the plan (T 4.4.2)."""
-        changed = False
-        for side in _SIDES:
-            step = self._step_of[side]
-            if phase.swing == side and not self.motion.landed:
-                self._contacts[side].see(sensors.readings[side])
-                changed |= self._foresee(side, phase, sensors.time, state)
-            # Only while the foot takes the weight over: later its load wanders, and the ground under it stays.
-            early = phase.kind == PhaseKind.SINGLE_SUPPORT and sensors.time < phase.start + self.settings.contact.watch
-            taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
-            if step is None or not (taking_over or (phase.swing == side and self.motion.landed)):
-                continue
-            contact = self._contacts[side]
-            cop = percepts[side].position_cop_in_sole
-            if cop is not None and state.loads[side] > self.settings.estimator.minimum_load:
-                self._turning[side].update(state.loads[side], cop, self._center_in_sole[side])
-            if not contact.update(sensors.readings[side], state.loads[side]):
-                continue
-            known = self._support[side] is not None
-            polygon = polygon_in_world(contact.polygon_in_sole, state.rotations_sole[side], state.positions_sole[side])
-            place = state.positions_sole[side] + state.rotations_sole[side][:, :2] @ contact.center_in_sole
-            point = place[:2]
-            self._felt.append(FootholdFelt(step, side, polygon, contact.area_ratio, point))
-            if contact.whole:
-                self._strip.clear()
-            if contact.whole and not known:
-                continue  # as planned
-            self._support[side] = polygon
-            self._center_in_sole[side] = contact.center_in_sole
-            if not contact.whole:
-                self._strip.add(step, side, point)
-            rules = self.settings.contact
-            if sensors.time < self._replanned + rules.replan_pause and self._replanned_step == step:
-                continue
-            later = self._follow_strip(step, phase)
-            if max(math.dist(point, self.plan.stance(step)), math.hypot(*later.tolist())) < rules.least_move:
-                continue
-            self._replanned, self._replanned_step = sensors.time, step
-            self.plan.move(step, point, sensors.time, self._zmp_region(phase), later)
-            self.replans += 1
-            changed = True
-        return changed
-
-    def _foresee(self, side: Side, phase: Phase, time: float, state: BaseState) -> bool:
-        """Plan once with the foothold that is seen before the foot is on it: the stance foot has most room then."""
-        ahead = self.motion.ahead
-        if self._foreseen == phase.step or math.hypot(*ahead.tolist()) > self.settings.contact.foresee_reach:
-            return False
-        if phase.end - time < self.settings.contact.foresee_least:
-            return False
-        turn = state.rotations_sole[side][:2, :2]
-        center = self._contacts[side].foresee(turn.T @ ahead)
-        if center is None:
-            return False
-        self._foreseen = phase.step
-        point = state.positions_sole[side][:2] + ahead + turn @ center
-        if math.dist(point, self.plan.stance(phase.step)) < self.settings.contact.least_move:
-            return False
-        self.plan.move(phase.step, point, time, self._zmp_region(phase))
-        self.replans += 1
-        return True
-
-    def _follow_strip(self, step: int, phase: Phase) -> NDArray[np.float64]:
-        """Move the footsteps to come onto the strip that the ground goes on as; returns by how much (2,) in m the VRPs
-        over them move."""
-        upcoming = step + 1
-        begun = phase.step == upcoming and phase.kind == PhaseKind.SINGLE_SUPPORT
-        if not self._strip.known or begun or upcoming >= len(self.schedule.steps):
-            return np.zeros(2)
-        strip, foot = self._strip, self.schedule.steps[upcoming]
-        center = vrp_of_step(foot, self._vrp_in_sole[foot.side])
-        place, lateral = strip.coordinates(center)
-        missing = strip.lateral(place) - lateral
-        reach = self.settings.contact.largest_shift
-        shift = min(reach, max(-reach, missing)) * strip.across
-        self.schedule.shift_steps(upcoming, shift)
-        return np.asarray(center + missing * strip.across - self.plan.stance(upcoming))
-
     def _keep_inside(self, phase: Phase, time: float) -> None:
         """On a slope that rises outwards more than the ankle can follow, stand further inside."""
         side, gains = self.motion.last_side, self.settings.compliance
         if side is None or gains is None:
             return
-        step = phase.step if phase.swing is not None else phase.step - 1
         excess = self.motion.outward_rise(side) - gains.ankle_reach
-        if excess <= 0.0:
-            return
-        inward = self.settings.com_height * excess * (-1.0 if side == "left" else 1.0)
-        self._center_in_sole[side] = self._vrp_in_sole[side] + np.array([0.0, inward])
-        turn = Footstep(side, 0.0, 0.0, self.motion.footholds[side][1] + self._frame.turn).rotation_sole_to_world
-        point = self.plan.stance(step) + turn[:2, 1] * inward
-        self.plan.move(step, point, time, self._zmp_region(phase))
-        self.replans += 1
-
-    def _zmp_region(self, phase: Phase) -> NDArray[np.float64]:
-        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards by the
-        offset. A foot whose support is not known counts with its whole sole at its commanded place. It is made anew
-        only when a foot comes, goes or moves, or another support is found."""
-        standing = [s for s in _SIDES if self.motion.landed or phase.swing != s]
-        places: list[object] = []
-        for side in standing:
-            position, yaw = self.motion.footholds[side]
-            support = self._support[side]
-            places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
-        if places != self._region_of:
-            parts = []
-            for side in standing:
-                support = self._support[side]
-                if support is None:
-                    position, yaw = self.motion.footholds[side]
-                    support = polygon_in_world(
-                        self._outline[side],
-                        Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world,
-                        np.array([position[0], position[1], 0.0]) + self._frame.offset,
-                    )
-                parts.append(support)
-            self._region = inner_offset(feet_support_polygon(parts), self.settings.gains.zmp_offset)
-            self._region_of = places
-        return self._region
+        if excess > 0.0:
+            step = phase.step if phase.swing is not None else phase.step - 1
+            inward = self.settings.com_height * excess * (-1.0 if side == "left" else 1.0)
+            self.footholds.move_inward(side, step, inward, phase, time)
 
     def _foot_states(self, phase: Phase, soles: Mapping[Side, SoleLoad]) -> dict[Side, FootState]:
         """The feet that stand, for a balance law that shares the ground's wrench between them."""
@@ -555,7 +418,7 @@ class WalkingController:
 
     def _contact(self, side: Side) -> FootContact:
         """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
-        polygon = self._outline[side] if self._support[side] is None else self._contacts[side].polygon_in_sole
+        polygon = self.footholds.polygon(side)
         rectangle = self._rectangle_of.get(side)
         if rectangle is None or rectangle[0] is not polygon:
             (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET).tolist()
@@ -565,7 +428,7 @@ class WalkingController:
         place = (rectangle[1], yaw, round(x, 4), round(y, 4), round(z, 4), round(self._frame.turn, 4))
         known = self._contact_of.get(side)
         if known is None or known[0] is not position or known[1] != place:
-            center = self._center_in_sole[side]
+            center = self.footholds.center(side)
             contact = FootContact(
                 self._frame.to_world(position),
                 Footstep(side, 0.0, 0.0, yaw + self._frame.turn).rotation_sole_to_world,
@@ -581,7 +444,7 @@ class WalkingController:
         for side, action in actions.items():
             position = self.motion.footholds[side][0]
             level = rotation = self.motion.rotation(side)
-            center, (x, y) = self._center_in_sole[side], self._turning[side].turn.tolist()
+            center, (x, y) = self.footholds.center(side), self.footholds.turn(side).tolist()
             if action.roll or action.pitch or action.shift or x or y:
                 rotation = level @ rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0]))
                 # About the centre: it stays at its height, to first order.
@@ -609,9 +472,9 @@ class WalkingController:
         rotations: dict[Side, NDArray[np.float64]] = {}
         for side in _SIDES:
             position = self.motion.footholds[side][0]
-            turn = self._turning[side].turn
+            turn = self.footholds.turn(side)
             rotations[side] = self.motion.rotation(side) @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
-            centers[side] = position[:2] + rotations[side][:2, :2] @ self._center_in_sole[side]
+            centers[side] = position[:2] + rotations[side][:2, :2] @ self.footholds.center(side)
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
         else:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.controller import FootholdFelt
+from gait.footholds import FootholdFelt
 from plantar.layout import Side
 from plantar.polygon import area, centroid
 from sim.terrain import Ground
