@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.layout import Side
 from plantar.polygon import area
-from sim.contact_truth import GroundTruth, foot_contacts, ground_truth, support_polygon_of_contacts
+from sim.contact_truth import GroundTruth, feet_contacts, foot_contacts, ground_truth, support_polygon_of_contacts
 from sim.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
@@ -112,8 +112,8 @@ class Judge:
             Ground reaction, true ZMP and true support polygon.
         """
         world, data = self.world, self.world.data
-        contacts = {s: foot_contacts(world.model, data, self._geoms[s]) for s in _SIDES}
-        truth = ground_truth(list(contacts.values()))
+        feet = feet_contacts(world.model, data, [self._geoms[s] for s in _SIDES])
+        truth = ground_truth(feet)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
             if self.landings:
@@ -124,10 +124,10 @@ class Judge:
         self.estimate_error_max = np.maximum(self.estimate_error_max, np.abs(com - center))
         if zmp is not None and truth.zmp is not None:
             self.zmp_error.append(float(np.hypot(*(zmp - truth.zmp))))
-        for side in _SIDES:
+        for side, contacts in zip(_SIDES, feet, strict=True):
             last = self._landing[side]
             if last is not None and data.time - last.time <= _SETTLED:
-                last.area = max(last.area, area(support_polygon_of_contacts([contacts[side]])))
+                last.area = max(last.area, area(support_polygon_of_contacts([contacts])))
         ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
         if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
             self.fell = True

@@ -13,6 +13,7 @@ from gait.ankle_sensor import AnkleSensor
 from gait.controller import Sensors
 from plantar.layout import Side
 from plantar.reading import Reading
+from sim.contact_truth import feet_contacts
 from sim.proximity import ProximitySensor, SoleProximity
 from sim.robots.robot import Robot
 from sim.scene import Sensing
@@ -94,8 +95,10 @@ class SensorSuite:
         """
         if tick % self._skin_every:
             return False
-        for side in _SIDES:
-            self.readings[side] = self.skins[side].read(self._world.data, near=side in near, everything=everything)
+        data = self._world.data
+        feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in _SIDES])
+        for side, contacts in zip(_SIDES, feet, strict=True):
+            self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
         return True
 
     def sample_body(self) -> Sensors:
