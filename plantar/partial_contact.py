@@ -20,8 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.cell_cutting import CellCutter
 from plantar.errors import ReadingError
-from plantar.kernels.cut_cells import cut_cells
 from plantar.layout import SoleLayout
 from plantar.polygon import closest_point, convex_hull, inner_offset
 from plantar.proximity import cells_polygon
@@ -72,14 +72,9 @@ class PartialContact:
     def __init__(self, layout: SoleLayout) -> None:
         self.layout = layout
         n = len(layout)
-        self._points = np.ascontiguousarray(layout.vertices[layout.corner_vertex, :2])
-        self._start = layout.corner_start.astype(np.intp)
-        room = int(np.diff(self._start).max(initial=3)) + _MOST_EDGES
-        self._scratch = np.empty((2, room, 2))
-        self._tags = np.empty((2, room), dtype=np.intp)
-        self._measure = np.empty((n, 3))
+        self._cells = CellCutter(layout)
         self._centers = np.ascontiguousarray(layout.positions[:, :2])
-        self._hull = convex_hull(self._points)
+        self._hull = convex_hull(self._cells.points)
         self._cell = math.sqrt(layout.cell_area)
         most = max((len(near) for near in layout.neighbours), default=0)
         self._near = np.full((n, max(1, most)), -1, dtype=np.intp)
@@ -95,12 +90,12 @@ class PartialContact:
         """Area and first moments of what lines leave of each cell.
 
         Args:
-            lines: Half-planes (m, 3) n . x <= h in the sole frame, m of up to 4.
+            lines: Half-planes (m, 3) n . x <= h in the sole frame.
 
         Returns:
             Area in m^2 and moments in m^3 about the sole frame's origin, (n, 3).
         """
-        return self._cut(np.ascontiguousarray(lines, dtype=np.float64))[0]
+        return self._cells.cut(lines)[0]
 
     def expected(self, load: float, center_of_pressure: ArrayLike, lines: ArrayLike) -> NDArray[np.float64]:
         """What the taxels would read if a load were carried by all that lines leave of the sole.
@@ -242,11 +237,6 @@ class PartialContact:
             left = _clipped(left, nx, ny, h)
         return left
 
-    def _cut(self, lines: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        chords = np.empty((len(self.layout), len(lines), 3))
-        cut_cells(self._points, self._start, lines, self._scratch, self._tags, self._measure, chords)
-        return self._measure.copy(), chords
-
     def _step(
         self,
         lines: NDArray[np.float64],
@@ -257,7 +247,7 @@ class PartialContact:
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
         """One Gauss-Newton step of pressure and edges together, held by the prior that the cells' corners give."""
         m = len(lines)
-        measure, chords = self._cut(lines)
+        measure, chords = self._cells.cut(lines)
         measure[~sound] = 0.0
         load = float(force.sum())
         middle = force @ self._centers / load if load > 0.0 else np.zeros(2)

@@ -24,8 +24,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.cell_cutting import CellCutter
 from plantar.errors import InputError, LayoutError
 from plantar.layout import SoleLayout
+from plantar.polygon import area as polygon_area
 from plantar.polygon import closest_point, inner_offset
 from sim.contact_truth import small_hull
 
@@ -83,6 +85,7 @@ class SolePressure:
         self.rubber = rubber
         self._cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
         self._area = shapely.area(self._cells)
+        self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         self._patches: dict[tuple[tuple[int, int], ...], _Patch] = {}
 
@@ -125,24 +128,19 @@ class SolePressure:
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
         import shapely
 
-        polygon = shapely.Polygon(_at_least_wide(_hull(points), self.rubber))
-        shapely.prepare(polygon)
-        whole = shapely.contains(polygon, self._cells)
-        cut = np.flatnonzero(shapely.intersects(polygon, self._cells) & ~whole)
-        area = np.where(whole, self._area, 0.0)
-        points = self.layout.positions[:, :2].copy()
-        parts = shapely.intersection(self._cells[cut], polygon)
-        area[cut] = shapely.area(parts)
-        if area.sum() > 0.5 * polygon.area:
+        polygon = _at_least_wide(_hull(points), self.rubber)
+        measure = self._covered(polygon)
+        area = measure[:, 0]
+        if area.sum() > 0.5 * polygon_area(polygon):
             cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
-            points[cut[area[cut] > 0.0]] = shapely.get_coordinates(shapely.centroid(parts[area[cut] > 0.0]))
-            area, points = area[cells], points[cells]
+            area = area[cells]
+            points = measure[cells, 1:] / area[:, None]
         else:  # on the bare rim beside the cells: the cells nearest to the patch's edge carry it
-            rim = shapely.get_coordinates(shapely.segmentize(polygon, 0.5 * self.rubber))
+            rim = shapely.get_coordinates(shapely.segmentize(shapely.Polygon(polygon), 0.5 * self.rubber))
             nearest = shapely.STRtree(self._cells).nearest(shapely.points(rim))
             count = np.bincount(nearest)
             cells = np.flatnonzero(count)
-            area = count[cells]
+            area = count[cells].astype(np.float64)
             points = np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / area[:, None]
         area = np.asarray(area / area.sum(), dtype=np.float64)
         centre = area @ points
@@ -162,6 +160,13 @@ class SolePressure:
             inner_offset(_hull(u[:, 1:]), 2e-3),
             [],
         )
+
+    def _covered(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Area in m^2 and first moments in m^3 about the sole frame's origin, (n, 3), of the cells' covered parts."""
+        edge = np.roll(polygon, -1, axis=0) - polygon
+        normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / np.hypot(edge[:, 0], edge[:, 1])[:, None]
+        lines = np.column_stack([normal, (normal * polygon).sum(axis=1)])
+        return self._cutter.cut(lines)[0]
 
 
 def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:

@@ -15,14 +15,20 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
         points: Corners (c, 2) of all cells in m, cell by cell, counter-clockwise.
         start: Offsets (n + 1,) of each cell's corners.
         lines: Half-planes (m, 3): n of length 1, and h in m.
-        scratch: Room (2, corners + m, 2) for the largest cell.
-        tags: Room (2, corners + m) for the lines that edges lie on.
+        scratch: Room (2, r, 2) for a cell's corners; one that is convex needs r of its corners + m + 1.
+        tags: Room (2, r) for the lines that edges lie on.
         measure: Receives (n, 3): area in m^2 of what is left, and its first moments about the origin in m^3.
         chords: Receives (n, m, 3): length in m of the edge that each line makes, and its middle in m.
+
+    Returns:
+        Whether the room was enough; if not, what was received is not complete.
     """
     count = lines.shape[0]
+    room = scratch.shape[1]
     for i in range(start.shape[0] - 1):
         size = start[i + 1] - start[i]
+        if size > room:
+            return False
         for k in range(size):
             scratch[0, k, 0] = points[start[i] + k, 0]
             scratch[0, k, 1] = points[start[i] + k, 1]
@@ -34,6 +40,8 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
             new = 1 - now
             left = 0
             for k in range(size):
+                if left + 2 > room:
+                    return False
                 following = k + 1 if k + 1 < size else 0
                 ax, ay = scratch[now, k, 0], scratch[now, k, 1]
                 bx, by = scratch[now, following, 0], scratch[now, following, 1]
@@ -75,3 +83,4 @@ def cut_cells(points, start, lines, scratch, tags, measure, chords):
                     chords[i, j, 0] = ((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) ** 0.5
                     chords[i, j, 1], chords[i, j, 2] = 0.5 * (ax + bx), 0.5 * (ay + by)
         measure[i, 0], measure[i, 1], measure[i, 2] = area, mx, my
+    return True

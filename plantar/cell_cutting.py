@@ -1,0 +1,52 @@
+"""What straight lines leave of a sole's cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.kernels.cut_cells import cut_cells
+from plantar.layout import SoleLayout
+
+__all__ = ["CellCutter"]
+
+
+class CellCutter:
+    """Clips the cells of one sole by half-planes; keeps the room that the kernel works in.
+
+    Args:
+        layout: The sole, n cells, convex or not.
+
+    Example:
+        >>> from plantar import hex_layout
+        >>> layout = hex_layout([[-0.12, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.12, 0.07]], clip=False)
+        >>> measure, _ = CellCutter(layout).cut([[1.0, 0.0, 0.0]])
+        >>> round(float(measure[:, 0].sum() / (layout.cell_area * len(layout))), 6)
+        0.5
+    """
+
+    def __init__(self, layout: SoleLayout) -> None:
+        self.points = np.ascontiguousarray(layout.vertices[layout.corner_vertex, :2])
+        self._start = layout.corner_start.astype(np.intp)
+        self._make_room(int(np.diff(self._start).max(initial=3)) + 4)
+
+    def cut(self, lines: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Clip every cell.
+
+        Args:
+            lines: Half-planes (m, 3) n . x <= h in the sole frame: outward normal of length 1, and h in m.
+
+        Returns:
+            Area in m^2 of what is left of each cell and its first moments in m^3 about the sole frame's origin, (n, 3),
+            and the chords (n, m, 3) along which lines cut: length in m, and middle (x, y) in m.
+        """
+        lines = np.ascontiguousarray(lines, dtype=np.float64).reshape(-1, 3)
+        n = len(self._start) - 1
+        measure, chords = np.empty((n, 3)), np.empty((n, len(lines), 3))
+        while not cut_cells(self.points, self._start, lines, self._scratch, self._tags, measure, chords):
+            self._make_room(2 * self._scratch.shape[1])
+        return measure, chords
+
+    def _make_room(self, corners: int) -> None:
+        self._scratch = np.empty((2, corners, 2))
+        self._tags = np.empty((2, corners), dtype=np.intp)
