@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+
+from plantar.kernels.contact_rows import contact_rows
 
 __all__ = [
     "REACH",
@@ -48,8 +51,8 @@ class ContactSet(NamedTuple):
         carries: Mask (k,): MuJoCo's solver may put a force there; False for a contact within `gap` only.
     """
 
-    own_geoms: NDArray[np.int64]
-    other_geoms: NDArray[np.int64]
+    own_geoms: NDArray[np.int32]
+    other_geoms: NDArray[np.int32]
     positions: NDArray[np.float64]
     forces: NDArray[np.float64]
     torques: NDArray[np.float64]
@@ -79,8 +82,8 @@ class GroundTruth(NamedTuple):
 
 
 _NO_CONTACTS = ContactSet(
-    np.empty(0, dtype=np.int64),
-    np.empty(0, dtype=np.int64),
+    np.empty(0, dtype=np.int32),
+    np.empty(0, dtype=np.int32),
     np.empty((0, 3)),
     np.empty((0, 3)),
     np.empty((0, 3)),
@@ -114,60 +117,47 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
     Args:
         model: The MjModel.
         data: The MjData after `mj_step` or `mj_forward`.
-        feet: Ids of each foot's geoms; sets or frozensets are fastest.
+        feet: Ids of each foot's geoms; frozensets are fastest.
 
     Returns:
         The contacts of each foot. A contact between two of the feet belongs to both.
     """
-    found: list[tuple[list[int], list[int], list[int], list[float]]] = [([], [], [], []) for _ in feet]
-    used: set[int] = set()
-    contact = data.contact
-    for i, (first, second) in enumerate(contact.geom.tolist() if data.ncon else ()):
-        for own, (index, mine, others, signs) in zip(feet, found, strict=True):
-            if (second in own) == (first in own):
-                continue
-            used.add(i)
-            index.append(i)
-            if second in own:
-                mine.append(second)
-                others.append(first)
-                signs.append(1.0)
-            else:
-                mine.append(first)
-                others.append(second)
-                signs.append(-1.0)
-    if not used:
-        return (_NO_CONTACTS,) * len(found)
     n = data.ncon
-    local = np.zeros((n, 6))
-    for i in used:
-        mujoco.mj_contactForce(model, data, i, local[i])
-    table = np.empty((n, 10))  # position, force, torque, gap: one selection a foot
-    table[:, :3] = contact.pos
-    # Rows of a frame are its axes, so local @ frame takes components to the world; both halves of the wrench at once.
-    np.matmul(local.reshape(n, 2, 3), contact.frame.reshape(n, 3, 3), out=table[:, 3:9].reshape(n, 2, 3))
-    table[:, 9] = contact.dist
-    carries = contact.efc_address >= 0
+    if not n:
+        return (_NO_CONTACTS,) * len(feet)
+    contact = data.contact
+    address, dim, forces = contact.efc_address, contact.dim, data.efc_force
+    if model.opt.cone != _ELLIPTIC:  # there the solver's numbers are along a pyramid's edges
+        local = np.zeros((n, 6))
+        for i in range(n):
+            mujoco.mj_contactForce(model, data, i, local[i])
+        address = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
+        dim, forces = np.full(n, 6, dtype=np.int32), local.ravel()
+    arrays = (contact.geom, contact.pos, contact.frame, contact.dist, address, dim, forces)
     sets = []
-    for index, mine, others, signs in found:
-        if not index:
+    for geom_ids in feet:
+        ids, rows = np.empty((n, 2), dtype=np.int32), np.empty((n, 11))
+        own = geom_ids if isinstance(geom_ids, frozenset) else frozenset(int(i) for i in geom_ids)
+        k = contact_rows(*arrays, _mask_of(own, model.ngeom), ids, rows)
+        if not k:
             sets.append(_NO_CONTACTS)
             continue
-        rows = table[index]
-        if min(signs) < 0.0:
-            rows[:, 3:9] *= np.array(signs)[:, None]
+        ids, rows = ids[:k], rows[:k]
         sets.append(
-            ContactSet(
-                np.array(mine),
-                np.array(others),
-                rows[:, :3],
-                rows[:, 3:6],
-                rows[:, 6:9],
-                rows[:, 9],
-                carries[index],
-            )
+            ContactSet(ids[:, 0], ids[:, 1], rows[:, :3], rows[:, 3:6], rows[:, 6:9], rows[:, 9], rows[:, 10] > 0.0)
         )
     return tuple(sets)
+
+
+@lru_cache(maxsize=64)
+def _mask_of(geom_ids: frozenset[int], count: int) -> NDArray[np.uint8]:
+    """Which of a model's geoms are a foot's."""
+    mask = np.zeros(count, dtype=np.uint8)
+    mask[list(geom_ids)] = 1
+    return mask
+
+
+_ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
 
 
 def contact_wrench_in_world(contacts: ContactSet, point: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -69,13 +69,12 @@ class Judge:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
         self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
-        self._adr = tuple(self.world.touch[s] for s in _SIDES)
+        self._adr = np.array([self.world.touch[s] for s in _SIDES])
 
     def watch(self) -> None:
         """After each physics step: landings and their impacts."""
         data = self.world.data
-        for side, address in zip(_SIDES, self._adr, strict=True):
-            force = float(data.sensordata[address])
+        for side, force in zip(_SIDES, data.sensordata[self._adr].tolist(), strict=True):
             if force < _TOUCH:
                 self._air[side] += 1
                 continue

@@ -204,9 +204,10 @@ class Simulation:
         began = shown = clock.perf_counter()
         k = 0
         while k < math.ceil(controller.end / PHYSICS_PERIOD):  # a replan may make it later
-            fresh = sensors.sample_skin(k, controller.proximity_sides, everything)
-            if fresh and log is not None:
-                log.skin(sensors.readings)
+            if k % sensors.skin_every == 0:
+                sensors.sample_skin(controller.proximity_sides, everything)
+                if log is not None:
+                    log.skin(sensors.readings)
             if k % _EVERY == 0:
                 reading = sensors.sample_body()
                 start = clock.perf_counter()

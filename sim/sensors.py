@@ -82,24 +82,20 @@ class SensorSuite:
             )
             for i, side in enumerate(_SIDES)
         }
-        self._skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
+        self.skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
         self.readings: dict[Side, Reading] = {}
 
-    def sample_skin(self, tick: int, near: Collection[Side] = _SIDES, everything: bool = False) -> bool:
-        """Sample the soles where a sample is due; returns whether one was.
+    def sample_skin(self, near: Collection[Side] = _SIDES, everything: bool = False) -> None:
+        """Sample the soles, which is due every `skin_every` physics steps.
 
         Args:
-            tick: Number of physics steps since the controller started.
             near: Soles whose proximity somebody asks for.
             everything: Measure proximity that nobody asks for too; readings stay the same.
         """
-        if tick % self._skin_every:
-            return False
         data = self._world.data
         feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in _SIDES])
         for side, contacts in zip(_SIDES, feet, strict=True):
             self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
-        return True
 
     def sample_body(self) -> Sensors:
         """Sample encoders and IMU, with the soles' latest readings."""

@@ -26,9 +26,10 @@ from numpy.typing import NDArray
 
 from plantar.cell_cutting import CellCutter
 from plantar.errors import InputError, LayoutError
+from plantar.kernels.foundation import spread_part, spread_whole
 from plantar.layout import SoleLayout
 from plantar.polygon import area as polygon_area
-from plantar.polygon import closest_point, inner_offset
+from plantar.polygon import closest_point, convex_hull, inner_offset
 from sim.contact_truth import small_hull
 
 __all__ = ["SolePressure"]
@@ -46,11 +47,9 @@ class _Patch(NamedTuple):
     scale: float
     area: NDArray[np.float64]  # (m,): shares of the covered area
     u: NDArray[np.float64]  # (m, 3)
-    weighted_u: NDArray[np.float64]  # (m, 3): area times u
-    weighted_uu: NDArray[np.float64]  # (m, 6): area times 1, x, y, xx, xy, yy
     inverse: NDArray[np.float64]  # (3, 3): load to (a, b, c) where every covered cell carries
     reach: NDArray[np.float64]  # (k, 2): polygon of the resultants that the cells can carry, in scaled coordinates
-    last: list[NDArray[np.bool_]]  # the cells (m,) that carried last: where the search for them starts; empty at first
+    carried: NDArray[np.uint8]  # (m,): whether a cell carried last, where the search starts; none at first
 
 
 class SolePressure:
@@ -108,12 +107,10 @@ class SolePressure:
         shape = self._patch(patch)
         x = (center_of_pressure[0] - shape.centre[0]) / shape.scale
         y = (center_of_pressure[1] - shape.centre[1]) / shape.scale
-        pressure = shape.u @ (shape.inverse @ np.array([1.0, x, y]))
-        if pressure.min() < 0.0:
-            pressure = _one_sided(shape, x, y)
-        load = pressure * shape.area
-        load *= force / load.sum()
-        out[shape.cells] = load
+        if not spread_whole(shape.u, shape.area, shape.inverse, x, y, force, shape.cells, out):
+            inside = closest_point(shape.reach, (x, y))
+            assert inside is not None
+            _spread_part(shape, inside, force, out)
         return out if self._gain is None else np.asarray(out * self._gain)
 
     def _patch(self, points: Sequence[tuple[float, float]]) -> _Patch:
@@ -146,19 +143,16 @@ class SolePressure:
         centre = area @ points
         scale = max(float(np.abs(points - centre).max()), 1e-3)
         u = np.column_stack([np.ones(len(points)), (points - centre) / scale])
-        weighted = area[:, None] * u
         return _Patch(
             cells,
             (float(centre[0]), float(centre[1])),
             scale,
             area,
             u,
-            weighted,
-            np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]]),
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
-            np.asarray(np.linalg.pinv(weighted.T @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
-            inner_offset(_hull(u[:, 1:]), 2e-3),
-            [],
+            np.asarray(np.linalg.pinv((area * u.T) @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
+            inner_offset(convex_hull(u[:, 1:]), 2e-3),
+            np.zeros(len(cells), dtype=np.uint8),
         )
 
     def _covered(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -169,38 +163,18 @@ class SolePressure:
         return self._cutter.cut(lines)[0]
 
 
-def _one_sided(shape: _Patch, x: float, y: float) -> NDArray[np.float64]:
-    """Pressures (m,) of a unit load at (x, y) where part of the patch lifts off.
-
-    The cells that carry and the field they give determine each other. Starting from the cells that carried in the last
-    call, which are mostly the same, one or two rounds find both; the result depends on the cells alone, not on the way
-    there. Where the rounds do not settle, `_damped` does.
-    """
-    inside = closest_point(shape.reach, (x, y))
-    assert inside is not None
-    load = [1.0, *inside.tolist()]
-    start = shape.last[0] if shape.last else shape.u @ (shape.inverse @ load) > 0.0
-    pressure = _settled(shape, start, load)
-    if pressure is None:
-        rough = _damped(shape, np.array(load))
-        pressure = _settled(shape, rough > 0.0, load)
-        if pressure is None:
-            return rough
-    return pressure
-
-
-def _settled(shape: _Patch, active: NDArray[np.bool_], load: list[float]) -> NDArray[np.float64] | None:
-    """Pressures (m,) once the cells that carry are those with a field above 0; None where that is not soon."""
-    for _ in range(8):
-        pressure = shape.u @ _solve_symmetric((active @ shape.weighted_uu).tolist(), load, 1e-12)
-        positive = pressure > 0.0
-        if (positive == active).all():
-            shape.last[:] = [positive]
-            return np.asarray(pressure * positive)
-        if not positive.any():
-            break
-        active = positive
-    return None
+def _spread_part(shape: _Patch, point: NDArray[np.float64], force: float, out: NDArray[np.float64]) -> None:
+    """Spread a load at a point (2,), from which a part of the patch lifts off, over `out` (n,). Where the kernel's
+    rounds do not settle, `_damped` tells it where to start."""
+    x, y = point.tolist()
+    if not shape.carried.any():
+        shape.carried[:] = shape.u @ (shape.inverse @ (1.0, x, y)) > 0.0
+    if not spread_part(shape.u, shape.area, x, y, force, shape.carried, shape.cells, out):
+        pressure = _damped(shape, np.array([1.0, x, y]))
+        shape.carried[:] = pressure > 0.0
+        if not spread_part(shape.u, shape.area, x, y, force, shape.carried, shape.cells, out):
+            load = pressure * shape.area
+            out[shape.cells] = force * load / load.sum()
 
 
 def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -210,20 +184,22 @@ def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
 
     whose gradient is the pressure's wrench minus the load.
     """
+    weighted = shape.area[:, None] * shape.u
+    products = np.column_stack([weighted, weighted[:, 1:2] * shape.u[:, 1:], weighted[:, 2] * shape.u[:, 2]])
     field = shape.inverse @ load
     pressure = np.maximum(shape.u @ field, 0.0)
-    residual = pressure @ shape.weighted_u - load
+    residual = pressure @ weighted - load
     error = _largest(residual)
     ridge = 1e-9
     for _ in range(40):
         if error < 1e-10:
             break
-        step = _solve_symmetric(((pressure > 0.0) @ shape.weighted_uu).tolist(), residual.tolist(), ridge)
+        step = _solve_symmetric(((pressure > 0.0) @ products).tolist(), residual.tolist(), ridge)
         start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
         for _ in range(12):
             field = start - rate * step
             previous, pressure = pressure, np.maximum(shape.u @ field, 0.0)
-            residual = pressure @ shape.weighted_u - load
+            residual = pressure @ weighted - load
             largest = _largest(residual)
             if largest < 0.9 * error:
                 break

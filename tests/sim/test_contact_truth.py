@@ -12,6 +12,7 @@ from plantar.polygon import area, convex_hull, signed_margin
 from sim.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
+    feet_contacts,
     foot_contacts,
     ground_truth,
     small_hull,
@@ -208,3 +209,28 @@ def test_corner_lifted_by_micrometres_still_supports() -> None:
     assert 0.0 < contacts.distances.max() < 5e-4
     assert area(support_polygon_of_contacts([contacts])) == pytest.approx(0.25 * 0.155, rel=1e-3)
     assert len(support_polygon_of_contacts([contacts], reach=0.0)) == 3
+
+
+@pytest.mark.parametrize("cone", ["elliptic", "pyramidal"])
+@pytest.mark.parametrize("condim", [1, 3, 4, 6])
+@pytest.mark.parametrize("first", [False, True])
+def test_contacts_of_two_feet_are_what_mujoco_says_of_each(cone: str, condim: int, first: bool) -> None:
+    model = foot_model(BLOCK, first=first, condim=condim)
+    model.opt.cone = getattr(mujoco.mjtCone, f"mjCONE_{cone.upper()}")
+    data = settled(model, 0.3, (20.0, 30.0, 0.0, 5.0, 8.0, 2.0))
+    foot, ground = (frozenset({model.geom(name).id}) for name in ("left_sole_box", "floor"))
+    force = np.empty(6)
+    for own, contacts in zip((foot, ground), feet_contacts(model, data, (foot, ground)), strict=True):
+        assert contacts.size == data.ncon > 0
+        for i in range(data.ncon):
+            c = data.contact[i]
+            sign = 1.0 if int(c.geom2) in own else -1.0
+            mujoco.mj_contactForce(model, data, i, force)
+            axes = c.frame.reshape(3, 3)
+            assert contacts.forces[i] == pytest.approx(sign * force[:3] @ axes, abs=1e-9)
+            assert contacts.torques[i] == pytest.approx(sign * force[3:] @ axes, abs=1e-9)
+            assert contacts.positions[i].tolist() == c.pos.tolist()
+            assert {int(contacts.own_geoms[i]), int(contacts.other_geoms[i])} == {int(c.geom1), int(c.geom2)}
+            assert int(contacts.own_geoms[i]) in own
+            assert contacts.distances[i] == c.dist
+            assert contacts.carries[i] == (c.efc_address >= 0)

@@ -14,7 +14,7 @@ QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, acceleromete
 def test_noise_free_sensors_tell_the_state(world: World) -> None:
     mujoco.mj_forward(world.model, world.data)
     suite = SensorSuite(world, QUIET, 0)
-    assert suite.sample_skin(0)
+    suite.sample_skin()
     sensors = suite.sample_body()
     assert np.array_equal(sensors.joint_positions, world.data.qpos[world.joint_qpos])
     assert np.array_equal(sensors.gyro, world.data.sensor("imu_gyro").data)
@@ -27,7 +27,7 @@ def test_noise_has_the_stated_size_and_follows_the_seed(world: World) -> None:
 
     def series(seed: int) -> np.ndarray:
         suite = SensorSuite(world, sensing, seed)
-        suite.sample_skin(0)
+        suite.sample_skin()
         rows = []
         for _ in range(500):
             s = suite.sample_body()
@@ -45,12 +45,14 @@ def test_noise_has_the_stated_size_and_follows_the_seed(world: World) -> None:
 
 def test_skin_is_sampled_at_its_rate(world: World) -> None:
     mujoco.mj_forward(world.model, world.data)
-    suite = SensorSuite(world, Sensing(), 0)
-    due = []
+    suite = SensorSuite(world, Sensing(skin_rate=250.0), 0)
+    times = []
     for k in range(20):
-        due.append(suite.sample_skin(k))
+        if k % suite.skin_every == 0:
+            suite.sample_skin()
+        times.append(round(1e3 * suite.readings["left"].time))
         mujoco.mj_step(world.model, world.data)
-    assert [k for k, d in enumerate(due) if d] == [0, 4, 8, 12, 16]
+    assert times == [4 * (k // 4) for k in range(20)]
 
 
 @pytest.mark.parametrize("name", ["h1", "hrp2kai"])
@@ -60,7 +62,7 @@ def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -
     mujoco.mj_forward(world.model, world.data)
     quiet = Sensing(force_noise=0.0, ankle_force_noise=0.0, ankle_torque_noise=0.0)
     suite = SensorSuite(world, quiet, 0, force_torque=True)
-    suite.sample_skin(0)
+    suite.sample_skin()
     mounted = ankle_sensors(simulation.legs.model, simulation.robot)
     total = 0.0
     for side, measured in suite.sample_body().ankles.items():
@@ -79,9 +81,9 @@ def test_ankle_noise_has_the_stated_size_and_leaves_the_other_sensors_alone(worl
     sensing = Sensing(ankle_force_noise=2.0, ankle_torque_noise=0.1)
     with_ankles, without = SensorSuite(world, sensing, 3, force_torque=True), SensorSuite(world, sensing, 3)
     rows = []
-    for k in range(400):
-        with_ankles.sample_skin(k)
-        without.sample_skin(k)
+    for _ in range(400):
+        with_ankles.sample_skin()
+        without.sample_skin()
         one, other = with_ankles.sample_body(), without.sample_body()
         assert np.array_equal(one.joint_positions, other.joint_positions)
         assert np.array_equal(one.readings["left"].force, other.readings["left"].force)

@@ -40,5 +40,5 @@ def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Si
 
 
 def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
-    simulation.sensors.sample_skin(0)
+    simulation.sensors.sample_skin()
     return simulation.sensors.sample_body()
