@@ -1,0 +1,155 @@
+"""Count what the soles' view of a foothold is worth: `python benchmarks/footholds.py [WORKERS]`.
+
+Runs every case over its seeds, appends a row a run to benchmarks/footholds.csv (a run that is there already is not
+repeated), and writes the tables in footholds.md and the map footholds_map.png beside it.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+from resumable import Case, rows_of, run_missing, write_table
+
+FOLDER = Path(__file__).parent
+COLUMNS = (
+    "completed",
+    "fell",
+    "steps_planned",
+    "steps_taken",
+    "sim_time_s",
+    "tilt_max_deg",
+    "zmp_margin_min_m",
+    "com_error_max_m",
+    "control_p99_us",
+    "replans",
+    "foothold_error_p95_m",
+    "area_ratios",
+    "zmp_margins_mm",
+    "error",
+)
+ROBOTS = ("h1", "hrp2kai")
+BLIND = "footholds=off"
+
+# name, scene, settings, seeds; each is run blind, too
+LINES: list[tuple[str, str, tuple[str, ...], int]] = [
+    *((f"`partial-{part}`", f"partial-{part}", (), 20) for part in ("rear", "front", "inner", "outer")),
+    ("`partial-third`", "partial-third", (), 20),
+    *((f"`partial-third` share {share}", "partial-third", (f"share={share}",), 10) for share in (0.25, 0.2)),
+    ("`beam` 12 cm, +-80 mm", "beam", (), 20),
+    ("`beam` 8 cm, +-60 mm", "beam", ("width=0.08", "offset_range=0.06"), 20),
+    ("`beam` 6 cm, +-40 mm", "beam", ("width=0.06", "offset_range=0.04"), 20),
+    ("`beam` 5 cm, +-40 mm", "beam", ("width=0.05", "offset_range=0.04"), 10),
+    ("`beam` 4 cm, +-40 mm", "beam", ("width=0.04", "offset_range=0.04"), 10),
+    *((f"`beam-yaw` {yaw:+d} deg", "beam-yaw", (f"yaw={yaw}",), 20) for yaw in (5, -5)),
+    *((f"`beam-yaw` {yaw:+d} deg", "beam-yaw", (f"yaw={yaw}",), 10) for yaw in (10, -10)),
+    ("`beam-forward`", "beam-forward", (), 20),
+    ("`stones`", "stones", (), 20),
+    ("`pebbles`", "pebbles", (), 20),
+]
+
+WIDTHS = (0.12, 0.10, 0.08, 0.06)
+DISTURBANCES: list[tuple[str, tuple[str, ...]]] = [
+    ("none", ()),
+    *((f"noise {n} N", (f"force_noise={n}",)) for n in (4.0, 8.0)),
+    *((f"dead {round(100 * d)} %", (f"dead_taxels={d}",)) for d in (0.1, 0.2, 0.3)),
+    *((f"delay {4 * p} ms", (f"delay_periods={p}",)) for p in (3, 5)),
+    *((f"push {i} N s", (f"impulse={i}",)) for i in (10, 20, 30)),
+]
+MAP_SEEDS = 5
+
+
+def cases(lines: bool = True, grid: bool = True) -> list[Case]:
+    """Everything there is to run."""
+    found = []
+    if lines:
+        for name, scene, settings, seeds in LINES:
+            for robot in ROBOTS:
+                found.append(Case(name, scene, robot, settings, seeds))
+                found.append(Case(f"{name}, blind", scene, robot, (*settings, BLIND), seeds))
+    if grid:
+        for width in WIDTHS:
+            for name, settings in DISTURBANCES:
+                # The same share of the offsets that leave something of each beam under the sole.
+                place = (f"width={width}", f"offset_range={0.08 * (width / 0.12):.3f}")
+                found.append(Case(f"map {width} {name}", "beam", "h1", (*place, *settings), MAP_SEEDS))
+    return found
+
+
+def run(case: Case, seed: int) -> dict[str, Any]:
+    """One run as a row."""
+    from sim.sweep import run_one
+
+    row = run_one(case.scene, case.robot, case.settings, seed)
+    return {name: row[name] for name in COLUMNS}
+
+
+def report(rows: list[dict[str, str]]) -> None:
+    """Write the tables between their markers, and draw the map."""
+    lines = [
+        "| scene | robot | with | without | smallest true share of the sole | true ZMP margin of a step, median [mm] "
+        "| centroid error, 95 % of a run [mm] |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for name, *_ in LINES:
+        for robot in ROBOTS:
+            mine, blind = (
+                [r for r in rows if r["case"] == n and r["robot"] == robot] for n in (name, f"{name}, blind")
+            )
+            if not mine:
+                continue
+            good = [r for r in mine if r["completed"] == "True"]
+            shares = [min(map(float, r["area_ratios"].split())) for r in good if r["area_ratios"]]
+            margins = [float(v) for r in good for v in r["zmp_margins_mm"].split() if v != "-"]
+            errors = [1e3 * float(r["foothold_error_p95_m"]) for r in mine if r["foothold_error_p95_m"]]
+            cells = (
+                _count(mine),
+                _count(blind),
+                f"{min(shares):.2f}" if shares else "",
+                f"{median(margins):.0f}" if margins else "",
+                f"{median(errors):.1f}" if errors else "",
+            )
+            lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
+    write_table(FOLDER / "footholds.md", lines)
+    _draw_map(rows)
+
+
+def _count(rows: list[dict[str, str]]) -> str:
+    return f"{sum(r['completed'] == 'True' for r in rows)}/{len(rows)}" if rows else "-"
+
+
+def _draw_map(rows: list[dict[str, str]]) -> None:
+    """Draw the share of crossings over beam width and disturbance."""
+    from plantar.plotting import new_figure, save_figure
+
+    names = [name for name, _ in DISTURBANCES]
+    share = np.full((len(WIDTHS), len(names)), np.nan)
+    texts = {}
+    for i, width in enumerate(WIDTHS):
+        for j, name in enumerate(names):
+            mine = [r for r in rows if r["case"] == f"map {width} {name}"]
+            if mine:
+                share[i, j] = sum(r["completed"] == "True" for r in mine) / len(mine)
+                texts[i, j] = _count(mine)
+    figure, axis = new_figure(8.0, 3.0)
+    image = axis.imshow(100.0 * share, cmap="RdYlGn", vmin=0.0, vmax=100.0, aspect="auto")
+    for (i, j), text in texts.items():
+        axis.text(j, i, text, ha="center", va="center", fontsize=8)
+    axis.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=8)
+    axis.set_yticks(range(len(WIDTHS)), [f"{100 * w:.0f}" for w in WIDTHS])
+    axis.set_ylabel("width of the beam [cm]")
+    axis.set_title(
+        "H1: crossings of 50 side steps, offset drawn from two thirds of the width to either side", fontsize=9
+    )
+    figure.colorbar(image, ax=axis, label="crossed [%]")
+    save_figure(figure, FOLDER / "footholds_map.png")
+
+
+if __name__ == "__main__":
+    path = FOLDER / "footholds.csv"
+    if sys.argv[1:] != ["report"]:
+        run_missing(path, COLUMNS, cases(), run, int(sys.argv[1]) if len(sys.argv) > 1 else 2)
+    report(rows_of(path))
