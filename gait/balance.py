@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.com_admittance import ComAdmittance
 from gait.gains import Gains
 from gait.vrp_plan import LipReference
 from gait.wrench_cone import FootContact
@@ -138,8 +139,7 @@ class DcmBalance:
         self.omega = omega
         self.period = period
         self.states: Counter[str] = Counter()
-        self._offset = np.zeros(2)  # CoM reference minus the plan's CoM
-        self._error = np.zeros(2)  # filtered p - p_d
+        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period)
 
     def desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
@@ -179,15 +179,12 @@ class DcmBalance:
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
-        g = self.gains
         desired = self.desired_zmp(reference, dcm, region)
-        error = np.zeros(2) if zmp is None else zmp - desired
-        self._error += min(1.0, self.period / (g.zmp_filter + self.period)) * (error - self._error)
-        rate = g.zmp_gain * self._error - g.com_gain * self._offset
-        self._offset = self._offset + self.period * rate
+        self._admittance.update(np.zeros(2) if zmp is None else zmp - desired)
+        com = reference.com + self._admittance.offset
         return BalanceState(
             zmp_desired=desired,
-            com=reference.com + self._offset,
-            com_velocity=reference.com_velocity + rate,
-            com_acceleration=self.omega**2 * (reference.com + self._offset - desired),
+            com=com,
+            com_velocity=reference.com_velocity + self._admittance.rate,
+            com_acceleration=self.omega**2 * (com - desired),
         )

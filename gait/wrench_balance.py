@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance import BalanceState, FootAction, FootState
+from gait.com_admittance import ComAdmittance
 from gait.foot_admittance import AdmittanceGains, FootAdmittance
 from gait.gains import Gains
 from gait.lip import GRAVITY
@@ -96,8 +97,7 @@ class WrenchBalance:
         self.feet = FootAdmittance(gains.feet, period)
         self.states: Counter[str] = Counter()
         self._integral = np.zeros(2)
-        self._offset = np.zeros(2)  # CoM reference minus the plan's CoM
-        self._error = np.zeros(2)  # filtered p - p_d
+        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period)
 
     def update(
         self,
@@ -119,20 +119,15 @@ class WrenchBalance:
         Returns:
             Desired ZMP, CoM reference, and what each standing foot shall carry and how it gives way.
         """
-        g, dt = self.gains, self.period
         desired = self._desired_zmp(reference, dcm, region)
-        acceleration = self.omega**2 * (reference.com + self._offset - desired)
+        acceleration = self.omega**2 * (reference.com + self._admittance.offset - desired)
         actions = self._act(desired, acceleration, feet)
-        if g.zmp_gain == 0.0:
-            return BalanceState(desired, reference.com, reference.com_velocity, acceleration, actions)
-        error = -self._error if zmp is None else zmp - desired - self._error
-        self._error += dt / (g.zmp_filter + dt) * error
-        rate = g.zmp_gain * self._error - g.com_gain * self._offset
-        self._offset = self._offset + dt * rate
+        if self.gains.zmp_gain > 0.0:
+            self._admittance.update(np.zeros(2) if zmp is None else zmp - desired)
         return BalanceState(
             zmp_desired=desired,
-            com=reference.com + self._offset,
-            com_velocity=reference.com_velocity + rate,
+            com=reference.com + self._admittance.offset,
+            com_velocity=reference.com_velocity + self._admittance.rate,
             com_acceleration=acceleration,
             feet=actions,
         )

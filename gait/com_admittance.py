@@ -1,0 +1,49 @@
+"""CoM admittance: the CoM reference yields to the error of the ZMP (T 4.29)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["ComAdmittance"]
+
+
+class ComAdmittance:
+    """Offset of the CoM reference from the plan.
+
+    Attributes:
+        offset: The offset (2,) in m.
+        rate: Its rate (2,) in m/s.
+
+    Args:
+        zmp_gain: k_f in 1/s: how fast the CoM reference yields to a ZMP error.
+        com_gain: k_x in 1/s: how fast it returns to the plan.
+        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        period: Control period in s.
+
+    Example:
+        >>> admittance = ComAdmittance(zmp_gain=1.0, com_gain=4.0, zmp_filter=0.02, period=0.005)
+        >>> for _ in range(2000):
+        ...     admittance.update(np.array([0.02, 0.0]))
+        >>> admittance.offset.round(4).tolist()
+        [0.005, 0.0]
+    """
+
+    def __init__(self, zmp_gain: float, com_gain: float, zmp_filter: float, period: float) -> None:
+        self.offset = np.zeros(2)
+        self.rate = np.zeros(2)
+        self._zmp_gain = zmp_gain
+        self._com_gain = com_gain
+        self._period = period
+        self._share = period / (zmp_filter + period)
+        self._error = np.zeros(2)  # filtered
+
+    def update(self, error: NDArray[np.float64]) -> None:
+        """One control tick.
+
+        Args:
+            error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
+        """
+        self._error += self._share * (error - self._error)
+        self.rate = self._zmp_gain * self._error - self._com_gain * self.offset
+        self.offset = self.offset + self._period * self.rate
