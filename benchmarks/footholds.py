@@ -51,7 +51,7 @@ LINES: list[tuple[str, str, tuple[str, ...], int]] = [
     ("`pebbles`", "pebbles", (), 20),
 ]
 
-WIDTHS = (0.12, 0.10, 0.08, 0.06)
+WIDTHS = (0.12, 0.08, 0.06)
 DISTURBANCES: list[tuple[str, tuple[str, ...]]] = [
     ("none", ()),
     *((f"noise {n} N", (f"force_noise={n}",)) for n in (4.0, 8.0)),
@@ -59,7 +59,7 @@ DISTURBANCES: list[tuple[str, tuple[str, ...]]] = [
     *((f"delay {4 * p} ms", (f"delay_periods={p}",)) for p in (3, 5)),
     *((f"push {i} N s", (f"impulse={i}",)) for i in (10, 20, 30)),
 ]
-MAP_SEEDS = 5
+MAP_SEEDS = 4
 
 
 def cases(lines: bool = True, grid: bool = True) -> list[Case]:
