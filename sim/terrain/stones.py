@@ -121,6 +121,8 @@ class Uneven(Terrain):
 class Pebbles(Terrain):
     """Sloping stones with bumps on them; the standing feet and the last two steps have level ones.
 
+    So does a step whose stone overlaps with one of those: a slope or a bump would reach under the other footprint.
+
     Attributes:
         bump_min: Smallest height in m of a bump.
         bump_max: Largest height.
@@ -141,13 +143,14 @@ class Pebbles(Terrain):
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
         solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
+        level = [*feet.standing.values(), *feet.steps[-2:]]
         for k, foot in enumerate(feet.steps):
             pitch, roll = _slope(rng, self.slope_range)
             places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
             heights = rng.uniform(self.bump_min, self.bump_max, self.bumps)
             if any(_same_place(foot, other) for other in [*feet.standing.values(), *feet.steps[:k]]):
                 continue
-            if k >= len(feet.steps) - 2:
+            if any(foot.side == other.side and _overlap(foot, other) for other in level):
                 solids.append(_stone(foot, feet, self.height, self.depth))
                 continue
             stone = _stone(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)

@@ -132,6 +132,14 @@ def test_bumps_rise_above_sloping_stones() -> None:
     assert 0.005 < max(rises) < 0.0151
 
 
+def test_no_slope_and_no_bump_reaches_under_a_level_footprint() -> None:
+    planned = feet(8)
+    height = height_of(Pebbles(), planned)
+    for foot in (*planned.standing.values(), *planned.steps[-2:]):
+        assert share(height, foot) == 1.0
+    assert all(share(height, foot) < 0.5 for foot in planned.steps[1:-3])
+
+
 def test_a_sliding_block_comes_during_the_swing() -> None:
     planned = feet()
     ground = Block(step=2, slide=0.4).ground(planned, np.random.default_rng(0))
