@@ -36,6 +36,7 @@ __all__ = ["SolePressure"]
 
 _GRID = 1e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 256
+_INSIDE = 2e-3  # of a patch's size: how far inside its outermost cells a load has to act that several cells carry
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
 
@@ -151,7 +152,7 @@ class SolePressure:
             u,
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
             np.asarray(np.linalg.pinv((area * u.T) @ u, rcond=1e-9, hermitian=True), dtype=np.float64),
-            inner_offset(convex_hull(u[:, 1:]), 2e-3),
+            _reach(convex_hull(u[:, 1:])),
             np.zeros(len(cells), dtype=np.uint8),
         )
 
@@ -213,6 +214,15 @@ def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
             ridge *= 100.0  # the active cells are nearly in a row: steps are too long, not just too bold
         error = largest
     return np.asarray(pressure)
+
+
+def _reach(hull: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A hull with its edges a little further inside; one that is thinner than that, as of cells in a row, shrunk."""
+    inside = inner_offset(hull, _INSIDE)
+    if len(inside) >= 3:
+        return inside
+    middle = hull.mean(axis=0)
+    return np.asarray(middle + (1.0 - _INSIDE) * (hull - middle))
 
 
 def _hull(points: NDArray[np.float64]) -> NDArray[np.float64]:

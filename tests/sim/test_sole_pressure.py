@@ -30,6 +30,18 @@ def test_line_on_the_bare_rim_keeps_its_place_along_the_rim() -> None:
     assert force.max() < 50.0
 
 
+@pytest.mark.parametrize("y", [0.0, -0.0775])
+@pytest.mark.parametrize("x", [-0.09, -0.04, 0.0, 0.06, 0.1])
+def test_a_line_along_a_row_of_cells_carries_its_load_where_it_acts(x: float, y: float) -> None:
+    """Cells in a row span no area; a load near the end of the line must not move to its middle."""
+    line = [(-0.125, y), (0.125, y)]
+    force = SolePressure(LAYOUT).spread(line, 100.0, (x, y))
+    cop = center_of_pressure(LAYOUT, force)
+    assert cop is not None
+    assert cop[0] == pytest.approx(x, abs=0.008)  # a quarter of a cell
+    assert len(np.unique(LAYOUT.positions[force > 0, 1].round(3))) == 1
+
+
 def test_pressure_is_zero_where_the_sole_lifts_off() -> None:
     """Beyond a sixth of the length a foundation that cannot pull lifts off at the far end."""
     pressure = SolePressure(LAYOUT)
