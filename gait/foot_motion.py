@@ -112,6 +112,7 @@ class FootMotion:
         self.press: float | None = None
         self.surprise = 0.0
         self._lowered = self._lowering = 0.0
+        self._touch_height = 0.0
 
     @property
     def last_side(self) -> Side | None:
@@ -238,9 +239,10 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
-            view = compliance.look(*sense)
+            view = compliance.look(*sense, time)
             if elapsed > 0.5 * swing.duration and compliance.feel(load):
                 self.landed = True
+                self._touch_height = float(sense.position[2])
                 compliance.touched()
         if not self.landed:
             if elapsed < swing.lifted:
@@ -250,11 +252,11 @@ class FootMotion:
                 return
             planned, heading = swing.at(elapsed)
             falling = (planned[2] - swing.at(elapsed + period)[0][2]) / period
-            late = phase.swing is None
-            if late:
+            time_left = (phase.end if phase.swing is not None else phase.start) - time
+            if time_left <= 0.0:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
-            drop = compliance.descent(view, falling, remaining, late, period)
+            drop = compliance.descent(view, falling, remaining, time_left, period)
             if view is not None and remaining < _NEARLY_THERE:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             if view is not None and remaining < _CLOSE_BY:
@@ -262,11 +264,13 @@ class FootMotion:
             self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
             return
         hold = compliance.gains.hold_force if self.press is None else self.press
+        above = max(0.0, float(sense.position[2]) - self._touch_height)
         if phase.swing is not None:
-            drop = compliance.yielding(load, hold, period)
+            drop = compliance.yielding(load, hold, above, period)
         else:
             share = min(1.0, 2.0 * (time - phase.start) / (phase.end - phase.start))
-            drop = max(0.0, compliance.yielding(load, hold + share * (self._landing.press_force - hold), period))
+            target = hold + share * (self._landing.press_force - hold)
+            drop = max(0.0, compliance.yielding(load, target, above, period))
         self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
 
     def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:

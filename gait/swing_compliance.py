@@ -14,6 +14,7 @@ the first contact is and which way the ground slopes.
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,10 @@ from plantar.virtual_wrench import SoleWrenchSwitch, virtual_ground_reaction_wre
 __all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground", "vector_from_rotation"]
 
 
+_LARGEST_DRIFT = 0.005  # m/s that a body moves up or down above a foot that has touched
+_REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
+
+
 @dataclass(frozen=True)
 class ComplianceGains:
     """Settings of preemptive foot compliance.
@@ -35,7 +40,8 @@ class ComplianceGains:
     Attributes:
         orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
         sensing_range: Range of the proximity sensors in m.
-        damping: Time constant in s with which the swing comes to the ground: speed = touch_speed + distance / damping.
+        damping: Smallest time constant in s with which the swing comes to the ground: speed = touch_speed + distance /
+            time constant.
         touch_speed: Speed in m/s at which it touches.
         margin: Distance in m from the ground at which it is down to that speed.
         top_speed: Largest speed downwards in m/s.
@@ -43,7 +49,10 @@ class ComplianceGains:
         clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
         clearance_slope: The same, for each metre that it still has to go.
         correction: Time constant in s with which the foot follows the distance that it should have.
-        haste: How many times faster a foot touches that the plan puts weight on already.
+        steepness: Power of the time that is left with which a descent that has time to spare comes to the ground.
+        crawl_time: Time in s before the plan puts weight on the foot at which it is there.
+        reserve: The same at which a foot that has not touched hurries down; it begins at twice that.
+        haste: How many times faster it touches then.
         turning: Time constant in s with which the sole turns to the ground.
         turn_rate: Largest rate of that in rad/s.
         largest_slope: Slope in rad beyond which the sole does not follow the ground.
@@ -53,22 +62,28 @@ class ComplianceGains:
         contact_force: Force in N that counts as touchdown.
         hold_force: Force in N that a foot carries from its touchdown to the double support.
         pliancy: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
-        kept: Share of the map of distances that a new reading leaves.
-        kept_moving: The same while the sole moves over the ground.
-        still: Horizontal move in m a control tick below which it does not.
+        settling: Time constant in s with which it learns how fast the body above it moves up or down.
+        readings: Number of readings that the map of distances averages over while the sole stands still.
+        readings_moving: The same while it moves fast.
+        still: Move in m a control tick that halves it.
+        jump: Difference in m from the map by which a taxel's reading shows that the ground has moved.
+        jump_of_all: The same for the mean of all taxels, which is less noisy.
     """
 
     orientation: str = "plane"
     sensing_range: float = 0.05
-    damping: float = 0.05
-    touch_speed: float = 0.003
+    damping: float = 0.04
+    touch_speed: float = 0.002
     margin: float = 0.0002
     top_speed: float = 0.3
     acceleration: float = 4.0
     clearance: float = 0.012
     clearance_slope: float = 0.2
-    correction: float = 0.05
-    haste: float = 4.0
+    correction: float = 0.03
+    steepness: float = 3.0
+    crawl_time: float = 0.25
+    reserve: float = 0.04
+    haste: float = 2.5
     turning: float = 0.04
     turn_rate: float = 1.5
     largest_slope: float = 0.25
@@ -76,10 +91,13 @@ class ComplianceGains:
     ankle_reach: float = 0.095
     contact_force: float = 18.0
     hold_force: float = 28.0
-    pliancy: float = 5e-5
-    kept: float = 0.85
-    kept_moving: float = 0.8
-    still: float = 0.0005
+    pliancy: float = 1e-4
+    settling: float = 0.1
+    readings: int = 60
+    readings_moving: int = 5
+    still: float = 0.0001
+    jump: float = 0.012
+    jump_of_all: float = 0.003
 
 
 @dataclass(frozen=True)
@@ -117,10 +135,11 @@ class SwingCompliance:
         self._centre = layout.positions.mean(axis=0)
         self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
         self._distance = np.full(len(layout), np.inf)
-        self._readings = 0
-        self._still = False
-        self._pose: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
-        self._speed = 0.0
+        self._readings = np.zeros(len(layout))
+        self._read = -math.inf
+        self._most = float(gains.readings_moving)
+        self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
+        self._speed = self._drift = 0.0
         self._aim: float | None = None
 
     @property
@@ -131,9 +150,9 @@ class SwingCompliance:
     def begin(self) -> None:
         """A swing begins."""
         self._distance[:] = np.inf
-        self._readings = 0
-        self._pose = None
-        self._speed = 0.0
+        self._readings[:] = 0.0
+        self._poses.clear()
+        self._speed = self._drift = 0.0
         self._aim = None
         self.switch.reset()
         self.force = 0.0
@@ -149,35 +168,42 @@ class SwingCompliance:
         self.switch.update(up, np.zeros(6))
         return self.switch.landed
 
-    def look(self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> GroundView | None:
+    def look(
+        self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
+    ) -> GroundView | None:
         """What the sole sees now.
 
         Args:
             percept: What the sole senses.
             position: Sole position (3,) in the world as estimated in m.
             rotation: Rotation (3, 3) from the sole to the world as estimated.
+            time: Now in s.
 
         Returns:
             The ground, or None where nothing is seen.
         """
-        self._carry(position, rotation)
+        if self._poses:
+            _, before, turned = self._poses[-1]
+            g, moved = self.gains, math.dist(position, before)
+            self._most = max(float(g.readings_moving), g.readings * g.still / (g.still + moved))
+            self._distance = self._distance + self._risen(before, turned, position, rotation)
+        self._poses.append((time, position.copy(), rotation.copy()))
         reading = percept.reading.proximity
-        if reading is not None:
-            self._readings += 1
-            kept = min(self.gains.kept if self._still else self.gains.kept_moving, 1.0 - 1.0 / self._readings)
-            with np.errstate(invalid="ignore"):
-                mixed = kept * self._distance + (1.0 - kept) * reading
-            self._distance = np.where(np.isfinite(self._distance), mixed, reading)
+        if reading is not None and percept.reading.time > self._read:
+            self._read = percept.reading.time
+            self._mix(reading + self._risen_since(self._read))
         return self._view()
 
-    def descent(self, view: GroundView | None, planned: float, remaining: float, late: bool, period: float) -> float:
+    def descent(
+        self, view: GroundView | None, planned: float, remaining: float, time_left: float, period: float
+    ) -> float:
         """How far the foot goes down in one control tick, in m; negative: up.
 
         Args:
             view: What the sole sees.
             planned: Speed downwards in m/s of the swing's own plan, which holds while nothing is seen.
             remaining: Horizontal distance in m that the foot still has to go.
-            late: Whether the plan puts weight on the foot already.
+            time_left: Time in s until the plan puts weight on the foot; negative where it does already.
             period: Control period in s.
 
         Returns:
@@ -190,30 +216,36 @@ class SwingCompliance:
             return self._speed * period
         if self._aim is None:
             self._aim = view.distance
-        left = self._aim - (g.margin if remaining < 0.002 else min(g.clearance, 0.004 + g.clearance_slope * remaining))
-        crawl = g.touch_speed * (g.haste if late else 1.0)
-        wanted = left / g.damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
-        if remaining < 0.002:
+        above = remaining < 0.002
+        left = self._aim - (g.margin if above else min(g.clearance, 0.004 + g.clearance_slope * remaining))
+        hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
+        crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry)
+        damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
+        wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
+        if above:
             wanted = max(wanted, crawl)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
 
-    def yielding(self, load: float, target: float, period: float) -> float:
+    def yielding(self, load: float, target: float, above: float, period: float) -> float:
         """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
 
         Args:
             load: Vertical force in N on the sole.
             target: Force in N that it should have.
+            above: How far in m it is above where it touched; a foot that has lost the ground comes back from there.
             period: Control period in s.
 
         Returns:
             The distance.
         """
         g = self.gains
-        wanted = g.pliancy * (target - load)
+        missing = g.pliancy * (target - load)
+        self._drift = min(_LARGEST_DRIFT, max(-_LARGEST_DRIFT, self._drift + missing * period / g.settling))
+        wanted = missing + self._drift
         if load < 0.3 * g.hold_force:
-            wanted = max(wanted, 0.5 * g.haste * g.touch_speed)
+            wanted = max(wanted, g.touch_speed + above / g.damping)
         self._speed = min(0.02, max(-0.02, wanted))
         return self._speed * period
 
@@ -223,15 +255,41 @@ class SwingCompliance:
         if view is not None and abs(view.distance) < 0.015:
             self.bias += 0.5 * view.distance
 
-    def _carry(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
-        """Move the map along with the sole: each taxel's distance changes by how far it rose."""
-        if self._pose is not None:
-            before, turned = self._pose
-            moved = rotation.T @ (position - before)
-            self._still = math.hypot(float(moved[0]), float(moved[1])) < self.gains.still
-            turn = turned.T @ rotation
-            self._distance = self._distance + moved[2] + turn[2, 0] * self._x + turn[2, 1] * self._y
-        self._pose = (position.copy(), rotation.copy())
+    def _risen(
+        self,
+        before: NDArray[np.float64],
+        turned: NDArray[np.float64],
+        position: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """How far (n,) each taxel rose in m from one pose of the sole to another: its distance grows by that."""
+        up = rotation.T @ (position - before)
+        turn = turned.T @ rotation
+        return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
+
+    def _risen_since(self, time: float) -> NDArray[np.float64]:
+        """How far (n,) each taxel rose in m since a time, for a reading that is as old as that."""
+        _, position, rotation = self._poses[-1]
+        later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
+        for then, before, turned in reversed(self._poses):
+            risen = self._risen(before, turned, position, rotation)
+            if then <= time:
+                span = later[0] - then
+                share = (time - then) / span if span > 0.0 else 1.0
+                return risen + share * (later[1] - risen)
+            later = (then, risen)
+        return later[1]
+
+    def _mix(self, reading: NDArray[np.float64]) -> None:
+        """Take a reading (n,) in m into the map; where the ground has moved the map begins anew."""
+        g = self.gains
+        known = np.isfinite(reading) & np.isfinite(self._distance)
+        news = np.where(known, reading, 0.0) - np.where(known, self._distance, 0.0)
+        if known.any() and abs(float(news[known].mean())) > g.jump_of_all:
+            self._readings[:] = 0.0
+        self._readings[~known | (np.abs(news) > g.jump)] = 0.0
+        self._readings = np.minimum(self._readings + 1.0, self._most)
+        self._distance = np.where(known, self._distance + news / self._readings, reading)
 
     def _view(self) -> GroundView | None:
         seen = np.flatnonzero(np.isfinite(self._distance))
