@@ -93,8 +93,9 @@ class Simulation:
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )
+        crouch = robot.largest_crouch if scene.terrain.whole else robot.largest_crouch_partial
         self.settings = ControllerSettings(
-            com_height=robot.com_height - min(walk.crouch, robot.largest_crouch),
+            com_height=robot.com_height - min(walk.crouch, crouch),
             mass=self.legs.mass,
             trunk_lean=robot.trunk_lean if walk.lean else 0.0,
             period=CONTROL_PERIOD,

@@ -37,7 +37,7 @@ class Walk:
         lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
             `trunk_lean`).
         crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
-            expected; as far as the robot can (its `largest_crouch`).
+            expected; as far as the robot can (its `largest_crouch` and `largest_crouch_partial`).
         approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
             far below it, for ground that is lower than expected.
         approach_speed: Speed of that in m/s.

@@ -82,6 +82,8 @@ class Robot:
         com_height: CoM height above the outer soles when walking in m.
         stance_width: Distance of the sole frames' origins when the feet stand side by side in m.
         largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
+        largest_crouch_partial: The same on ground that carries only a part of a sole, where a centre of pressure at the
+            heel loads the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s of a walk whose scene does not say.
         double_support: t_ds in s of a walk whose scene does not say.
@@ -109,6 +111,7 @@ class Robot:
     com_height: float
     stance_width: float
     largest_crouch: float
+    largest_crouch_partial: float
     trunk_lean: float
     single_support: float
     double_support: float
@@ -248,6 +251,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
     efforts: tuple[float, ...] = ()
     if "effort_limits" in servo:
         efforts = _numbers(servo, "effort_limits", joints_of_leg, f"{where}: [servo]")
+    crouch = _number({"largest_crouch": 0.15, **gait}, "largest_crouch", f"{where}: [gait]", 0.0, 0.5)
     return Robot(
         name=_text(source, "name", where),
         description=str(source.get("description", "")),
@@ -266,7 +270,10 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         posture=angles,
         com_height=_number(gait, "com_height", f"{where}: [gait]", 0.05, 5.0),
         stance_width=_number(gait, "stance_width", f"{where}: [gait]", 0.01, 2.0),
-        largest_crouch=_number({"largest_crouch": 0.15, **gait}, "largest_crouch", f"{where}: [gait]", 0.0, 0.5),
+        largest_crouch=crouch,
+        largest_crouch_partial=_number(
+            {"largest_crouch_partial": crouch, **gait}, "largest_crouch_partial", f"{where}: [gait]", 0.0, crouch
+        ),
         trunk_lean=_number({"trunk_lean": 0.0, **gait}, "trunk_lean", f"{where}: [gait]", 0.0, 5.0),
         single_support=_number({"single_support": 0.9, **gait}, "single_support", f"{where}: [gait]", 0.2, 10.0),
         double_support=_number({"double_support": 0.3, **gait}, "double_support", f"{where}: [gait]", 0.02, 10.0),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
 
@@ -30,6 +31,7 @@ class Beam(Terrain):
         depth: How deep in m the floor lies below.
     """
 
+    whole: ClassVar[bool] = False
     width: float = field(default=0.12, metadata=limits(0.005, 2.0))
     length: float = field(default=1.3, metadata=limits(0.1, 100.0))
     start: float = field(default=0.32, metadata=limits(0.0, 10.0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -29,6 +29,7 @@ class Course(Terrain):
             degrees.
     """
 
+    whole: ClassVar[bool] = False
     floor: float = field(default=0.0, metadata=limits(-10.0, 10.0))
     solid: tuple[Mapping[str, Any], ...] = ()
 

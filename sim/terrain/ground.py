@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -247,8 +247,10 @@ class Terrain:
         kind: Name of the kind.
         friction: Sliding friction coefficient of sole on ground.
         height: Height in m of the ground that the robot stands on at the start, and that the plan expects.
+        whole: Whether all of a sole that lands where it is planned to finds ground.
     """
 
+    whole: ClassVar[bool] = True
     kind: str = "flat"
     friction: float = field(default=0.8, metadata=limits(0.05, 5.0))
     height: float = field(default=0.0, metadata=limits(-10.0, 10.0))

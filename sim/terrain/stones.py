@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,6 +34,7 @@ class Partial(Terrain):
         depth: How deep in m the floor lies below.
     """
 
+    whole: ClassVar[bool] = False
     step: int = field(default=2, metadata=limits(0, 100000))
     share: float = field(default=0.5, metadata=limits(0.02, 1.0))
     part: str = field(default="rear", metadata={"choices": _PARTS})
@@ -59,6 +61,7 @@ class Stones(Terrain):
         depth: How deep in m the floor lies below.
     """
 
+    whole: ClassVar[bool] = False
     share_min: float = field(default=0.3, metadata=limits(0.02, 1.0))
     share_max: float = field(default=1.0, metadata=limits(0.02, 1.0))
     depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
@@ -132,6 +135,7 @@ class Pebbles(Terrain):
         depth: How deep in m the floor lies below.
     """
 
+    whole: ClassVar[bool] = False
     bump_min: float = field(default=0.005, metadata=limits(0.0, 0.05))
     bump_max: float = field(default=0.015, metadata=limits(0.0, 0.05))
     bump_radius: float = field(default=0.03, metadata=limits(0.005, 0.2))
