@@ -112,7 +112,7 @@ class FootMotion:
         self.press: float | None = None
         self.surprise = 0.0
         self._lowered = self._lowering = 0.0
-        self._touch_height = 0.0
+        self._touch = (0.0, 0.0)
 
     @property
     def last_side(self) -> Side | None:
@@ -242,7 +242,7 @@ class FootMotion:
             view = compliance.look(*sense, time)
             if elapsed > 0.5 * swing.duration and compliance.feel(load):
                 self.landed = True
-                self._touch_height = float(sense.position[2])
+                self._touch = (time, float(sense.position[2]))
                 compliance.touched()
         if not self.landed:
             if elapsed < swing.lifted:
@@ -263,8 +263,9 @@ class FootMotion:
                 self._turn(compliance, side, view)
             self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
             return
-        hold = compliance.gains.hold_force if self.press is None else self.press
-        above = max(0.0, float(sense.position[2]) - self._touch_height)
+        touched_at, height = self._touch
+        hold = compliance.holding(time - touched_at) if self.press is None else self.press
+        above = max(0.0, float(sense.position[2]) - height)
         if phase.swing is not None:
             drop = compliance.yielding(load, hold, above, period)
         else:

@@ -60,7 +60,9 @@ class ComplianceGains:
         ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
             outwards itself; on a steeper one the body stays further inside.
         contact_force: Force in N that counts as touchdown.
-        hold_force: Force in N that a foot carries from its touchdown to the double support.
+        touch_force: Force in N that a foot carries at first.
+        hold_force: Force in N that it carries from then on to the double support.
+        firming: Time in s from the one to the other.
         pliancy: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
         settling: Time constant in s with which it learns how fast the body above it moves up or down.
         readings: Number of readings that the map of distances averages over while the sole stands still.
@@ -90,7 +92,9 @@ class ComplianceGains:
     follow_taxels: int = 10
     ankle_reach: float = 0.095
     contact_force: float = 18.0
-    hold_force: float = 28.0
+    touch_force: float = 20.0
+    hold_force: float = 30.0
+    firming: float = 0.15
     pliancy: float = 1e-4
     settling: float = 0.1
     readings: int = 60
@@ -227,6 +231,15 @@ class SwingCompliance:
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
         return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
+
+    def holding(self, since: float) -> float:
+        """Force in N that a foot shall carry some time after it touched, until weight is put on it.
+
+        Args:
+            since: Time in s since it touched.
+        """
+        g = self.gains
+        return g.touch_force + min(1.0, since / g.firming) * (g.hold_force - g.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
         """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
