@@ -29,7 +29,10 @@ from plantar.virtual_wrench import SoleWrenchSwitch, virtual_ground_reaction_wre
 __all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground", "vector_from_rotation"]
 
 
+_DOUBT = 0.001  # m past the ground that it sees at which a sole that has not touched goes down twice as fast
 _LARGEST_DRIFT = 0.005  # m/s that a body moves up or down above a foot that has touched
+_LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
+_LEAST_BIAS = 0.0015  # m that noise cannot make of that
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
 
@@ -142,6 +145,8 @@ class SwingCompliance:
         self._readings = np.zeros(len(layout))
         self._read = -math.inf
         self._most = float(gains.readings_moving)
+        self._rising = False
+        self._liftoff: float | None = None
         self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
         self._speed = self._drift = 0.0
         self._aim: float | None = None
@@ -156,6 +161,8 @@ class SwingCompliance:
         self._distance[:] = np.inf
         self._readings[:] = 0.0
         self._poses.clear()
+        self._rising = True
+        self._liftoff = None
         self._speed = self._drift = 0.0
         self._aim = None
         self.switch.reset()
@@ -196,6 +203,22 @@ class SwingCompliance:
         if reading is not None and percept.reading.time > self._read:
             self._read = percept.reading.time
             self._mix(reading + self._risen_since(self._read))
+        view = self._view()
+        if not self._rising:
+            return view
+        return self._lifted_off(view, float(position[2] + rotation[2, :2] @ self._centre[:2]))
+
+    def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
+        """The ground that the sole has just left is as far away as its middle rose to a height in m, but for a bias."""
+        if self._liftoff is None:
+            self._liftoff = height
+        risen = height - self._liftoff
+        if risen < _LIFTED_OFF:
+            return view
+        self._rising = False
+        if view is None or abs(view.middle - risen) < _LEAST_BIAS:
+            return view
+        self.bias += view.middle - risen
         return self._view()
 
     def descent(
@@ -223,7 +246,8 @@ class SwingCompliance:
         above = remaining < 0.002
         left = self._aim - (g.margin if above else min(g.clearance, 0.004 + g.clearance_slope * remaining))
         hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
-        crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry)
+        doubt = max(0.0, -view.distance) / _DOUBT  # it should have touched already
+        crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
         wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
         if above:
