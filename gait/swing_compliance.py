@@ -32,7 +32,11 @@ __all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground
 _DOUBT = 0.001  # m past the ground that it sees at which a sole that has not touched goes down twice as fast
 _LARGEST_DRIFT = 0.005  # m/s that a body moves up or down above a foot that has touched
 _LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
-_LEAST_BIAS = 0.0015  # m that noise cannot make of that
+_LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expected at least
+_NOISE_SHARE = 0.02  # share of a reading in what is known of that
+_SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
+_LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
+_TOLERANCE = 1.5  # standard deviations that a point of the map may lie above the plane that is the ground
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
 
@@ -47,7 +51,7 @@ class ComplianceGains:
             time constant.
         touch_speed: Speed in m/s at which it touches.
         margin: Distance in m from the ground at which it is down to that speed.
-        top_speed: Largest speed downwards in m/s.
+        top_speed: Largest speed downwards, and upwards from ground that has come nearer, in m/s.
         acceleration: Largest acceleration downwards in m/s^2.
         clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
         clearance_slope: The same, for each metre that it still has to go.
@@ -71,7 +75,8 @@ class ComplianceGains:
         readings: Number of readings that the map of distances averages over while the sole stands still.
         readings_moving: The same while it moves fast.
         still: Move in m a control tick that halves it.
-        jump: Difference in m from the map by which a taxel's reading shows that the ground has moved.
+        jump: Difference from the map, in standard deviations of the readings, by which one of them shows that the
+            ground has moved.
         jump_of_all: The same for the mean of all taxels, which is less noisy.
     """
 
@@ -103,8 +108,8 @@ class ComplianceGains:
     readings: int = 60
     readings_moving: int = 5
     still: float = 0.0001
-    jump: float = 0.012
-    jump_of_all: float = 0.003
+    jump: float = 6.0
+    jump_of_all: float = 1.5
 
 
 @dataclass(frozen=True)
@@ -145,6 +150,7 @@ class SwingCompliance:
         self._readings = np.zeros(len(layout))
         self._read = -math.inf
         self._most = float(gains.readings_moving)
+        self._noise = _LEAST_NOISE
         self._rising = False
         self._liftoff: float | None = None
         self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
@@ -216,7 +222,7 @@ class SwingCompliance:
         if risen < _LIFTED_OFF:
             return view
         self._rising = False
-        if view is None or abs(view.middle - risen) < _LEAST_BIAS:
+        if view is None or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
             return view
         self.bias += view.middle - risen
         return self._view()
@@ -249,12 +255,12 @@ class SwingCompliance:
         doubt = max(0.0, -view.distance) / _DOUBT  # it should have touched already
         crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
-        wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
+        wanted = left / damping + crawl if left > 0.0 else max(-g.top_speed, left / g.damping)
         if above:
             wanted = max(wanted, crawl)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
-        return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
+        return period * min(g.top_speed, max(-g.top_speed, self._speed + (view.distance - self._aim) / g.correction))
 
     def holding(self, since: float) -> float:
         """Force in N that a foot shall carry some time after it touched, until weight is put on it.
@@ -322,9 +328,12 @@ class SwingCompliance:
         g = self.gains
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.where(known, reading, 0.0) - np.where(known, self._distance, 0.0)
-        if known.any() and abs(float(news[known].mean())) > g.jump_of_all:
-            self._readings[:] = 0.0
-        self._readings[~known | (np.abs(news) > g.jump)] = 0.0
+        if known.any():
+            if abs(float(news[known].mean())) > g.jump_of_all * self._noise:
+                self._readings[:] = 0.0
+            spread = _SIGMA_OF_MEDIAN * float(np.median(np.abs(news[known])))
+            self._noise = max(_LEAST_NOISE, self._noise + _NOISE_SHARE * (spread - self._noise))
+        self._readings[~known | (np.abs(news) > g.jump * self._noise)] = 0.0
         self._readings = np.minimum(self._readings + 1.0, self._most)
         self._distance = np.where(known, self._distance + news / self._readings, reading)
 
@@ -333,7 +342,7 @@ class SwingCompliance:
         if len(seen) < 3:
             return None
         x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
-        level, sx, sy, used = _highest_plane(x, y, d)
+        level, sx, sy, used = _highest_plane(x, y, d, _TOLERANCE * self._noise)
         g = self.gains
         slope: tuple[float, float] | None = (sx, sy)
         if len(used) < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
@@ -359,11 +368,11 @@ class SwingCompliance:
 
 
 def _highest_plane(
-    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
+    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64], tolerance: float
 ) -> tuple[float, float, float, NDArray[np.float64]]:
     """Plane z = -level + sx x + sy y through the highest ground under a sole.
 
-    A least-squares plane; while it leaves out ground that is higher than it by more than noise explains, the fit is
+    A least-squares plane; while it leaves out ground that is higher than it by more than a tolerance in m, the fit is
     repeated with the points above it. Fewer than six points, or points in a row, give a level plane. Also returns the
     distances of the points that lie on it.
     """
@@ -378,7 +387,7 @@ def _highest_plane(
         xw, yw = float(u @ w), float(v @ w)
         sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
         above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
-        if float(above.max()) < 0.003:
+        if float(above.max()) < tolerance:
             break
         higher = above > 0.0
         x, y, d = x[higher], y[higher], d[higher]
