@@ -29,8 +29,10 @@ from plantar.virtual_wrench import SoleWrenchSwitch, virtual_ground_reaction_wre
 __all__ = ["ComplianceGains", "GroundView", "SwingCompliance", "turned_to_ground", "vector_from_rotation"]
 
 
+_LARGEST_LESSON = 0.0015  # m that one touch changes the bias by: more is ground that moved
 _DOUBT = 0.001  # m past the ground that it sees at which a sole that has not touched goes down twice as fast
 _LARGEST_DRIFT = 0.005  # m/s that a body moves up or down above a foot that has touched
+_EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one
 _LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
 _LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expected at least
 _NOISE_SHARE = 0.02  # share of a reading in what is known of that
@@ -51,7 +53,7 @@ class ComplianceGains:
             time constant.
         touch_speed: Speed in m/s at which it touches.
         margin: Distance in m from the ground at which it is down to that speed.
-        top_speed: Largest speed downwards, and upwards from ground that has come nearer, in m/s.
+        top_speed: Largest speed downwards in m/s.
         acceleration: Largest acceleration downwards in m/s^2.
         clearance: Distance in m from the ground that the foot keeps at most while it still moves horizontally.
         clearance_slope: The same, for each metre that it still has to go.
@@ -121,11 +123,13 @@ class GroundView:
         middle: How far down in m the ground is under the middle of the sole; the same where it is no plane.
         slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by; None where there is
             too little of it to follow.
+        even: Whether nearly all that is seen of the ground lies on one plane.
     """
 
     distance: float
     middle: float
     slope: tuple[float, float] | None
+    even: bool = True
 
 
 class SwingCompliance:
@@ -222,7 +226,7 @@ class SwingCompliance:
         if risen < _LIFTED_OFF:
             return view
         self._rising = False
-        if view is None or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
+        if view is None or not view.even or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
             return view
         self.bias += view.middle - risen
         return self._view()
@@ -255,12 +259,12 @@ class SwingCompliance:
         doubt = max(0.0, -view.distance) / _DOUBT  # it should have touched already
         crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
-        wanted = left / damping + crawl if left > 0.0 else max(-g.top_speed, left / g.damping)
+        wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
         if above:
             wanted = max(wanted, crawl)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         self._aim -= self._speed * period
-        return period * min(g.top_speed, max(-g.top_speed, self._speed + (view.distance - self._aim) / g.correction))
+        return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
 
     def holding(self, since: float) -> float:
         """Force in N that a foot shall carry some time after it touched, until weight is put on it.
@@ -296,7 +300,7 @@ class SwingCompliance:
         """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
         view = self._view()
         if view is not None and abs(view.distance) < 0.015:
-            self.bias += 0.5 * view.distance
+            self.bias += min(_LARGEST_LESSON, max(-_LARGEST_LESSON, 0.5 * view.distance))
 
     def _risen(
         self,
@@ -353,7 +357,7 @@ class SwingCompliance:
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
             if g.orientation == "moment":
                 slope = self._slope_of_moment(len(seen))
-        return GroundView(nearest, middle, slope)
+        return GroundView(nearest, middle, slope, len(used) > _EVEN * len(seen))
 
     def _slope_of_moment(self, count: int) -> tuple[float, float]:
         """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
