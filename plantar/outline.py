@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.cell_edges import EdgeTable, edge_table
 from plantar.errors import ReadingError
-from plantar.kernels.outline import area_and_centroid
+from plantar.kernels.outline import Rings, area_and_centroid
 from plantar.layout import SoleLayout
 
 __all__ = ["Outline", "concave_outline", "feet_outline"]
 
 
-class Outline:
+class Outline(Rings):
     """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise.
 
     Attributes:
@@ -25,6 +26,7 @@ class Outline:
         starts: Offsets (r + 1) of the rings in `points`.
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
         apart: Whether islands are known to meet in points at most, so that what lies in the area lies in one of them.
+        area: Area in m^2, holes left out; exact to 1e-12 of it.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -33,13 +35,18 @@ class Outline:
         (2.0, [1.0, 0.5], 1, 0.0)
     """
 
-    def __init__(
-        self, points: NDArray[np.float64], starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
-    ) -> None:
-        self.points = points
-        self.starts = starts
-        self.ring_areas = ring_areas
-        self.apart = apart
+    if TYPE_CHECKING:  # what the kernel's class brings
+        points: NDArray[np.float64]
+        starts: Sequence[int]
+        ring_areas: Sequence[float]
+        apart: bool
+
+        def __init__(
+            self, points: NDArray[np.float64], starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
+        ) -> None: ...
+
+        @property
+        def area(self) -> float: ...
 
     @classmethod
     def of_rings(cls, rings: Sequence[ArrayLike], apart: bool = False) -> Outline:
@@ -69,11 +76,6 @@ class Outline:
     def rings(self) -> tuple[NDArray[np.float64], ...]:
         """Vertices (k, 2) of each ring in m."""
         return tuple(self.points[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True))
-
-    @property
-    def area(self) -> float:
-        """Area in m^2, holes left out; exact to 1e-12 of it."""
-        return math.fsum(self.ring_areas)
 
     @cached_property
     def centroid(self) -> NDArray[np.float64] | None:
@@ -124,7 +126,7 @@ def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
 
     Args:
         layout: The sole, n taxels.
-        active: Active taxels (n,).
+        active: Active taxels (n,), one byte each: bool.
 
     Returns:
         Outline in the sole frame in m, its area exact to 1e-12 of it; empty without contact. Islands that meet in a
@@ -140,21 +142,21 @@ def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
         >>> len(whole), bool(abs(whole.area - layout.areas.sum()) < 1e-15)
         (1, True)
     """
-    cells = active.tobytes()
-    if len(cells) != len(layout.corners) or active.dtype.char != "?":
-        raise ReadingError(
-            f"mask of active taxels is {active.dtype} {active.shape}; layout '{layout.name}' has {len(layout)}"
-        )
     table: EdgeTable | None
     try:
         table = layout.__dict__["_edge_table"]
     except KeyError:
         table = edge_table(layout.vertices[:, :2], layout.corners)
         layout.__dict__["_edge_table"] = table
-    if table is None:
+    if table is not None:
+        outline: Outline | None = table.rings(active.tobytes(), Outline)
+        if outline is not None:
+            return outline
+    elif active.shape == (len(layout),):
         return _union([layout.cell_polygon(int(i)) for i in np.flatnonzero(active)])
-    points, starts, areas = table.walk(cells)
-    return Outline(points, starts, areas, True)
+    raise ReadingError(
+        f"mask of active taxels is {active.dtype} {active.shape}; layout '{layout.name}' has {len(layout)}"
+    )
 
 
 def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:

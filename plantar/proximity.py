@@ -159,11 +159,13 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
     """
     if any(math.isnan(h) for h in heights):
         raise InputError("heights of contours hold NaN")
+    readings = np.asarray(distance, dtype=np.float64)
     stack: list[HeightContour] = []
+    before = b""
     for height in sorted(float(h) for h in heights):
-        taxels = near_taxels(distance, height)
-        same = bool(stack) and bool((stack[-1].taxels == taxels).all())
-        stack.append(
-            HeightContour(height, taxels, stack[-1].polygon_in_sole if same else cells_polygon(layout, taxels))
-        )
+        taxels = near_taxels(readings, height)
+        cells = taxels.tobytes()  # the quickest way to compare two masks
+        polygon = stack[-1].polygon_in_sole if stack and cells == before else cells_polygon(layout, taxels)
+        stack.append(HeightContour(height, taxels, polygon))
+        before = cells
     return tuple(stack)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -78,9 +79,16 @@ class SolePose:
         The rotation is E of T 3.21; the moment of the force about the world's origin is added.
         """
         given = np.asarray(wrench, dtype=float)
-        force = given[..., :3] @ self.rotation_sole_to_world.T
-        moment = given[..., 3:] @ self.rotation_sole_to_world.T + np.cross(self.position_in_world, force)
-        return np.concatenate([force, moment], axis=-1)
+        turn, lever = self._wrench_maps
+        force, moment = given[..., :3], given[..., 3:]
+        return np.concatenate([force @ turn, moment @ turn + force @ lever], axis=-1)
+
+    @cached_property
+    def _wrench_maps(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """What a force (3,) from the left is multiplied by to be turned, and to give its moment about the origin."""
+        turn = self.rotation_sole_to_world.T
+        x, y, z = self.position_in_world.tolist()
+        return turn, turn @ np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
 def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePose]) -> NDArray[np.float64]:

@@ -5,12 +5,13 @@ from . cimport concave, rectangle
 
 cdef double _QUARTER
 cdef double _GOLDEN
-cdef int _PIECES
+cdef double _WIDEST
 cdef int _SEEDS
-cdef double _FINE
 cdef double _CLOSE
 cdef int _SECTIONS
 cdef double _STEP
+cdef double _STRIDE
+cdef double _LONGEST
 
 @cython.final
 cdef class AnyAngle:
@@ -20,8 +21,10 @@ cdef class AnyAngle:
     cdef double best
     cdef double best_angle
     cdef double[::1] stack
+    cdef double[::1] direction
     cdef double[::1] ring
     cdef double[::1] work
+    cdef double[::1] room
     cdef readonly concave.OutlineRectangles outline
 
     cdef _numbers(self, Py_ssize_t size)
@@ -31,16 +34,26 @@ cdef class AnyAngle:
     @cython.locals(outline=concave.OutlineRectangles, parts=Py_ssize_t, best_part=Py_ssize_t, k=Py_ssize_t)
     cpdef double in_outline(self, const double[:, :] points, object starts, bint apart, double[::1] out) except -1
 
+    cdef _take_ring(self, double[::1] points, Py_ssize_t n)
     cdef double _largest(self, double angle, double floor, double[::1] out) except -1
 
     @cython.locals(
-        stack="double[::1]", count=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, known=bint, angle=double, area=double
+        direction="double[::1]", count=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, known=bint, angle=double, dx=double,
+        dy=double
     )
+    cdef Py_ssize_t _find_directions(self, double[::1] points, Py_ssize_t n) noexcept
+
+    @cython.locals(k=Py_ssize_t, area=double)
     cdef void _seed(self, double[::1] points, Py_ssize_t n, double[::1] out) except *
 
-    @cython.locals(stack="double[::1]", reach2=double, i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, top=Py_ssize_t)
-    cdef void _search(self, double[::1] points, Py_ssize_t n, double[::1] out) except *
+    cdef void _march(self, double[::1] out) except *
 
-    cdef void _refine(self, double low, double middle, double high, double area, double[::1] out) except *
+    @cython.locals(
+        outline=concave.OutlineRectangles, stack="double[::1]", turn="double[::1]", k=Py_ssize_t,
+        i=Py_ssize_t, count=Py_ssize_t, pieces=Py_ssize_t, top=Py_ssize_t, low=double, high=double, angle=double
+    )
+    cdef void _search(self, double[::1] out) except *
 
-    cdef void _climb(self, double low, double middle, double high, double area, double[::1] out) except *
+    @cython.locals(golden=bint, beyond=bint)
+    cdef void _climb(self, double middle, double area, double[::1] out) except *
+    cdef double _lower(self, double area, double turn) noexcept

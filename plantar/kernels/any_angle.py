@@ -18,20 +18,28 @@ __all__ = ["AnyAngle"]
 
 _QUARTER = 0.5 * math.pi
 _GOLDEN = 0.3819660112501051
-_PIECES = 12  # intervals of a quarter turn that the search starts with
+_WIDEST = 0.14  # rad of the widest interval that the search in an outline starts with
 _SEEDS = 6  # directions of edges that are looked at first
-_FINE = 6e-3  # half an interval in rad below which one summit at most is taken to stand in it
-_CLOSE = 2e-7  # share of the area that is not looked for
+_CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
 _STEP = 1e-6  # rad to either side by which a summit is told
+_STRIDE = 2e-3  # rad of the first step uphill
+_LONGEST = 0.3  # rad of a step along the angles of a convex ring
 
 
 class AnyAngle:
     """Largest rectangles at any angle, with the work arrays they need.
 
-    A rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old angle, d its
-    diagonal. So the largest area at one angle bounds what is there at angles near it: intervals of a quarter turn are
-    cut and thrown away until those that are left are narrow, and in these the summit is found by golden sections.
+    In an outline: a rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old
+    angle, d its diagonal. So the rectangles at one angle bound what is there at angles near it: intervals of a quarter
+    turn are cut and thrown away until nothing above the best area is left.
+
+    In a convex ring the bound is of second order. The edges that hold the largest rectangle at one angle bound the
+    rectangle at every angle t: with their multipliers l the area is at most (sum l h)^2 / (U V), U = sum l |cos| and
+    V = sum l |sin| of the angles between t and the edges' normals. The second derivative of that bound's logarithm is
+    2 + (U'/U)^2 + (V'/V)^2, where |U'| <= V and |V'| <= U, and at the rectangle U / V is the ratio of its sides. So it
+    is at most (2 / sin 2 a)^2, with `a` the angle between diagonal and longer side, which may shrink by as much as t
+    grows. A step along the angles is as long as the bound stays below the best area.
 
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
@@ -44,6 +52,8 @@ class AnyAngle:
         self.best = 0.0
         self.best_angle = 0.0
         self.stack = self._numbers(512)
+        self.room = self._numbers(512)
+        self.direction = self._numbers(_SEEDS + 2)
         self.outline = concave.OutlineRectangles(lists)
 
     def _numbers(self, size):
@@ -68,7 +78,9 @@ class AnyAngle:
         self.best = 0.0
         self.best_angle = 0.0
         self._seed(ring, n, out)
-        self._search(ring, n, out)
+        if self.best > 0.0:
+            self._climb(self.best_angle, self.best, out)
+            self._march(out)
         return self._largest(self.best_angle, 0.0, out)
 
     def in_outline(self, points, starts, apart, out):
@@ -100,11 +112,26 @@ class AnyAngle:
             if outline.choose(k) <= self.best:
                 break
             before = self.best
-            self._search(outline.points, outline.m, out)
+            if outline.is_convex():
+                self._take_ring(outline.points, outline.m)
+                self._march(out)
+                self.convex = False
+            else:
+                outline.measure()
+                self._search(out)
             if self.best > before:
                 best_part = k
         outline.choose(best_part)
         return self._largest(self.best_angle, 0.0, out)
+
+    def _take_ring(self, points, n):
+        """Look at a convex part of an outline as a ring."""
+        if 8 * n + 16 > len(self.room):
+            self.room = self._numbers(16 * n + 16)
+        self.convex = True
+        self.ring = points
+        self.n = n
+        self.work = self.room
 
     def _largest(self, angle, floor, out):
         """Largest rectangle at one angle; the floor where it is not above it."""
@@ -112,9 +139,9 @@ class AnyAngle:
             return rectangle.largest_rectangle(self.ring, self.n, angle, floor, self.work, out)
         return self.outline.largest(angle, floor, out)
 
-    def _seed(self, points, n, out):
-        """Try the directions of some edges."""
-        stack = self.stack
+    def _find_directions(self, points, n):
+        """Find the directions of some edges, within a quarter turn; their number."""
+        direction = self.direction
         count = 0
         for i in range(n - 1):
             dx = points[2 * i + 2] - points[2 * i]
@@ -122,112 +149,159 @@ class AnyAngle:
             angle = (math.atan2(dy, dx) + 4.0 * _QUARTER) % _QUARTER
             known = False
             for k in range(count):
-                if abs(stack[k] - angle) < 1e-6 or abs(stack[k] - angle) > _QUARTER - 1e-6:
+                if abs(direction[k] - angle) < 1e-6 or abs(direction[k] - angle) > _QUARTER - 1e-6:
                     known = True
-            if known:
-                continue
-            stack[count] = angle
-            count += 1
-            area = self._largest(angle, self.best, out)
+            if not known:
+                direction[count] = angle
+                count += 1
+                if count == _SEEDS:
+                    break
+        return count
+
+    def _seed(self, points, n, out):
+        """Try the directions of some edges."""
+        for k in range(self._find_directions(points, n)):
+            area = self._largest(self.direction[k], self.best, out)
             if area > self.best:
                 self.best = area
-                self.best_angle = angle
-            if count == _SEEDS:
-                break
+                self.best_angle = self.direction[k]
 
-    def _search(self, points, n, out):
-        """Search all angles of a quarter turn for more than the best so far."""
-        reach2 = 0.0  # square of the diameter
-        for i in range(n):
-            for j in range(i):
-                dx = points[2 * i] - points[2 * j]
-                dy = points[2 * i + 1] - points[2 * j + 1]
-                reach2 = max(reach2, dx * dx + dy * dy)
+    def _march(self, out):
+        """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best."""
+        angle = 0.0
+        while angle < _QUARTER:
+            area = self._largest(angle, 0.0, out)
+            if area <= 0.0:
+                return
+            if area > self.best:
+                self._climb(angle, area, out)
+                area = self._largest(angle, 0.0, out)
+            along = math.hypot(out[2] - out[0], out[3] - out[1])
+            across = math.hypot(out[4] - out[2], out[5] - out[3])
+            lean = math.atan2(min(along, across), max(along, across))
+            longest = min(_LONGEST, 0.5 * lean)
+            curve = 2.0 / math.sin(2.0 * (lean - longest))
+            curve *= curve
+            gap = math.log(self.best * (1.0 + _CLOSE) / area)
+            # The slope is at most what it rose by from a little before, and a bit for the bend in between.
+            back = max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve)))
+            slope = math.log(area / max(1e-300, self._largest(angle - back, 0.0, out))) / back + 0.5 * curve * back
+            root = math.sqrt(slope * slope + 2.0 * curve * gap)
+            step = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
+            angle += min(longest, step)
+
+    def _search(self, out):
+        """Search all angles of a quarter turn in an outline for more than the best so far."""
+        outline = self.outline
         if self.best > 0.0:
-            self._climb(self.best_angle - _FINE, self.best_angle, self.best_angle + _FINE, self.best, out)
+            self._climb(self.best_angle, self.best, out)
+        # Intervals between the directions of edges, at which the areas have their corners, none of them too wide.
+        turn = self.direction
+        count = self._find_directions(outline.points, outline.m)
+        turn[count] = self.best_angle % _QUARTER
+        turn[count + 1] = _QUARTER
+        count += 2
+        for k in range(1, count):
+            angle = turn[k]
+            i = k
+            while i > 0 and turn[i - 1] > angle:
+                turn[i] = turn[i - 1]
+                i -= 1
+            turn[i] = angle
         stack = self.stack
-        for k in range(_PIECES):
-            stack[2 * k] = _QUARTER * k / _PIECES
-            stack[2 * k + 1] = _QUARTER * (k + 1) / _PIECES
-        top = _PIECES
+        top = 0
+        low = 0.0
+        for k in range(count):
+            pieces = int((turn[k] - low) / _WIDEST) + 1
+            if turn[k] - low < 1e-12:
+                continue
+            for i in range(pieces):
+                stack[2 * top] = low + (turn[k] - low) * i / pieces
+                stack[2 * top + 1] = low + (turn[k] - low) * (i + 1) / pieces
+                top += 1
+            low = turn[k]
         while top > 0:
             top -= 1
             low = stack[2 * top]
             high = stack[2 * top + 1]
             middle = 0.5 * (low + high)
             half = 0.5 * (high - low)
-            floor = max(0.0, self.best * (1.0 + _CLOSE) - reach2 * half)
-            area = self._largest(middle, floor, out)
+            target = self.best * (1.0 + _CLOSE)
+            area = outline.unproven(middle, half, target, out)
+            floor = max(0.0, target - outline.diameter2 * half)
             if area <= floor:
                 continue
             if area > self.best:
-                self.best = area
-                self.best_angle = middle
-                self._climb(low, middle, high, area, out)
-            if half <= _FINE:
-                self._refine(low, middle, high, area, out)
-                continue
-            safe = (self.best * (1.0 + _CLOSE) - area) / reach2
-            if safe >= half:
-                continue
-            if top + 2 <= len(stack) // 2:
+                self._climb(middle, area, out)
+                target = self.best * (1.0 + _CLOSE)
+            safe = (target - area) / outline.diameter2
+            if safe < half and 2 * top + 4 <= len(stack):
                 stack[2 * top] = low
                 stack[2 * top + 1] = middle - safe
                 stack[2 * top + 2] = middle + safe
                 stack[2 * top + 3] = high
                 top += 2
 
-    def _refine(self, low, middle, high, area, out):
-        """Look for a summit in a narrow interval, unless what it rises by at its ends leaves no room for one."""
-        half = middle - low
-        before = self._largest(low, 0.5 * area, out)
-        after = self._largest(high, 0.5 * area, out)
-        summit = max(area, max(before, after))
-        rise = max(abs(area - before), abs(area - after))
-        if summit + rise <= self.best * (1.0 + _CLOSE):
-            return
-        if before > area and before >= after:
-            self._climb(low - half, low, middle, before, out)
-        elif after > area:
-            self._climb(middle, high, high + half, after, out)
-        else:
-            self._climb(low, middle, high, area, out)
-
-    def _climb(self, low, middle, high, area, out):
-        """Golden sections round a summit; the best so far where it is higher."""
+    def _climb(self, middle, area, out):
+        """Climb to the summit beside an angle; the best so far where it is higher."""
+        mine = area
+        at = middle
         side = middle + _STEP
         beside = self._largest(side, area, out)
-        if beside > area:
-            low = middle
-        else:
+        if beside <= area:
             side = middle - _STEP
             beside = self._largest(side, area, out)
-            if beside > area:
-                high = middle
-        if beside > area:
-            middle = side
-            area = beside
-        else:  # the summit itself, as edges and corners that touch make them
-            low = high
-        for _ in range(_SECTIONS):
-            if high - low < 1e-8:
-                break
-            if high - middle > middle - low:
-                angle = middle + _GOLDEN * (high - middle)
-            else:
-                angle = middle - _GOLDEN * (middle - low)
-            trial = self._largest(angle, area, out)
-            if trial > area:
-                if angle > middle:
-                    low = middle
+        if beside > area:  # else the summit itself, as edges and corners that touch make them
+            low = middle
+            at_low = area
+            at = side
+            mine = beside
+            reach = _STRIDE if side > middle else -_STRIDE
+            high = at + reach
+            at_high = self._largest(high, self._lower(mine, high - at), out)
+            while at_high > mine and abs(reach) < _QUARTER:
+                low = at
+                at_low = mine
+                at = high
+                mine = at_high
+                reach *= 2.0
+                high = at + reach
+                at_high = self._largest(high, self._lower(mine, high - at), out)
+            # The summit of the parabola through the three, or a golden section where that does not halve the bracket.
+            golden = False
+            for _ in range(_SECTIONS):
+                width = abs(high - low)
+                if width < 3e-8 or mine - min(at_low, at_high) < 1e-7 * mine:
+                    break
+                angle = at + _GOLDEN * ((high if abs(high - at) > abs(at - low) else low) - at)
+                p = (at - low) * (mine - at_high)
+                q = (at - high) * (mine - at_low)
+                if not golden and p != q:
+                    trial = at - 0.5 * ((at - low) * p - (at - high) * q) / (p - q)
+                    if min(low, high) < trial < max(low, high) and trial != at:
+                        angle = trial
+                trial = self._largest(angle, self._lower(mine, angle - at), out)
+                beyond = (angle > at) == (high > at)
+                if trial > mine:
+                    if beyond:
+                        low = at
+                        at_low = mine
+                    else:
+                        high = at
+                        at_high = mine
+                    at = angle
+                    mine = trial
+                elif beyond:
+                    high = angle
+                    at_high = trial
                 else:
-                    high = middle
-                middle = angle
-                area = trial
-            elif angle > middle:
-                high = angle
-            else:
-                low = angle
-        if area > self.best:
-            self.best = area
-            self.best_angle = middle
+                    low = angle
+                    at_low = trial
+                golden = abs(high - low) > 0.5 * width
+        if mine > self.best:
+            self.best = mine
+            self.best_angle = at
+
+    def _lower(self, area, turn):
+        """Area below which nothing matters so far from an angle with an area."""
+        return max(0.5 * area, area - self.outline.diameter2 * abs(turn)) if not self.convex else 0.0

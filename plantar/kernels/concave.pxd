@@ -1,7 +1,10 @@
 # C types of concave.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rectangle
+from . cimport rectangle, turn_bound
+
+cdef double _CLOSER
+
 
 @cython.final
 cdef class OutlineRectangles:
@@ -36,6 +39,18 @@ cdef class OutlineRectangles:
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] corner
+    cdef double[::1] box
+    cdef double[::1] proven
+    cdef turn_bound.TurnBound bound
+    cdef double diameter2
+    cdef double half
+    cdef double target
+    cdef double best
+    cdef bint found
+    cdef double x1
+    cdef double x2
+    cdef double y1
+    cdef double y2
 
     cdef _numbers(self, Py_ssize_t size)
     cdef _places(self, Py_ssize_t size)
@@ -55,12 +70,34 @@ cdef class OutlineRectangles:
     @cython.locals(chosen=Py_ssize_t, m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
     cpdef double choose(self, Py_ssize_t k) noexcept
 
+    @cython.locals(points="double[::1]", a=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t)
+    cdef bint is_convex(self) noexcept
+
+    @cython.locals(points="double[::1]", i=Py_ssize_t, j=Py_ssize_t)
+    cdef void measure(self) noexcept
+    cpdef double largest(self, double angle, double floor, double[::1] out) except -1
+    cpdef double unproven(self, double angle, double half, double target, double[::1] out) except -1
+
     @cython.locals(
         slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
-        path="Py_ssize_t[::1]", reach="double[::1]",         trapezoid="double[::1]", count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t,
-        n=Py_ssize_t, top=Py_ssize_t, exact=bint, found=bint
+        path="Py_ssize_t[::1]", reach="double[::1]", trapezoid="double[::1]", count=Py_ssize_t, k=Py_ssize_t,
+        start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint
     )
-    cpdef double largest(self, double angle, double floor, double[::1] out) except -1
+    cdef double _enumerate(self, double angle, double floor, double[::1] out) except -1
+    cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
+
+    @cython.locals(n=Py_ssize_t, area=double, floor=double, width=double, height=double)
+    cdef void _solve(
+        self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
+    ) noexcept
+
+    @cython.locals(proven="double[::1]")
+    cdef bint _is_around(self, double[::1] box) noexcept
+
+    @cython.locals(box="double[::1]", side=Py_ssize_t)
+    cdef bint _is_proven(
+        self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t n, double area
+    ) noexcept
 
     @cython.locals(
         m=Py_ssize_t, points="double[::1]", xs="double[::1]", ys="double[::1]", order="Py_ssize_t[::1]",

@@ -11,9 +11,11 @@ import math
 
 import numpy as np
 
-from . import rectangle
+from . import rectangle, turn_bound
 
 __all__ = ["OutlineRectangles"]
+
+_CLOSER = 0.05  # half an interval in rad in which pairs of trapezoids are looked at closer
 
 
 class OutlineRectangles:
@@ -38,6 +40,18 @@ class OutlineRectangles:
         self.ring = self._numbers(18)
         self.work = self._numbers(96)
         self.corner = self._numbers(8)
+        self.box = self._numbers(4)
+        self.proven = self._numbers(4)
+        self.bound = turn_bound.TurnBound(lists)
+        self.diameter2 = 0.0
+        self.half = 0.0
+        self.target = 0.0
+        self.best = 0.0
+        self.found = False
+        self.x1 = 0.0
+        self.x2 = 0.0
+        self.y1 = 0.0
+        self.y2 = 0.0
 
     def _numbers(self, size):
         return [0.0] * size if self.lists else np.zeros(size)
@@ -183,6 +197,32 @@ class OutlineRectangles:
         self.m = m
         return self.part_area[chosen]
 
+    def is_convex(self):
+        """Whether the chosen part is one convex ring."""
+        points = self.points
+        if self.rings != 1:
+            return False
+        a = self.m - 2
+        b = self.m - 1
+        for c in range(self.m):
+            if (points[2 * b] - points[2 * a]) * (points[2 * c + 1] - points[2 * b + 1]) <= (
+                points[2 * b + 1] - points[2 * a + 1]
+            ) * (points[2 * c] - points[2 * b]):
+                return False
+            a = b
+            b = c
+        return True
+
+    def measure(self):
+        """Measure the diameter of the chosen part, which `unproven` needs."""
+        points = self.points
+        self.diameter2 = 0.0
+        for i in range(self.m):
+            for j in range(i):
+                dx = points[2 * i] - points[2 * j]
+                dy = points[2 * i + 1] - points[2 * j + 1]
+                self.diameter2 = max(self.diameter2, dx * dx + dy * dy)
+
     def largest(self, angle, floor, out):
         """Largest rectangle in the chosen part whose first side stands at an angle.
 
@@ -199,6 +239,32 @@ class OutlineRectangles:
         Returns:
             Its area; the floor where there is none above it.
         """
+        self.half = 0.0
+        return self._enumerate(angle, floor, out)
+
+    def unproven(self, angle, half, target, out):
+        """Largest rectangle at an angle among those from which one above a target may turn.
+
+        A rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old angle, d the
+        diagonal of that one. So pairs of trapezoids (see `largest`) whose rectangles are too small for that need no
+        closer look; nor do those that `_is_proven` throws away.
+
+        Args:
+            angle: Angle of the first side in rad.
+            half: How far from it in rad rectangles above the target are looked for.
+            target: That area.
+            out: As in `largest`.
+
+        Returns:
+            Its area; the target less what a turn by `half` may gain, or 0, where no rectangle is left. Then none of more
+            than the target stands within `half` of the angle.
+        """
+        self.half = half if target > self.diameter2 * math.tan(half) else 0.0  # thinner ones have none to turn back to
+        self.target = target
+        return self._enumerate(angle, max(0.0, target - self.diameter2 * half), out)
+
+    def _enumerate(self, angle, floor, out):
+        """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in."""
         slabs = self._cut(angle)
         if slabs < 1:
             return floor
@@ -225,12 +291,9 @@ class OutlineRectangles:
                         ):
                             far = reach[t]
                 reach[start] = far
-        best = floor
-        x1 = 0.0
-        x2 = 0.0
-        y1 = 0.0
-        y2 = 0.0
-        found = False
+        self.best = floor
+        self.found = False
+        self.proven[0] = -math.inf
         # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
         for exact in range(1 if floor > 0.0 else 0, 2):
             for start in range(count):
@@ -239,30 +302,13 @@ class OutlineRectangles:
                 above = trapezoid[4 * start + 1]
                 low_right = trapezoid[4 * start + 2]
                 high_right = trapezoid[4 * start + 3]
-                box = (line[i + 1] - line[i]) * (max(above, high_right) - min(below, low_right))
-                if box > best:
+                if (line[i + 1] - line[i]) * (max(above, high_right) - min(below, low_right)) > self.best:
                     if exact:
-                        n = self._octagon(i, i, min(below, low_right), max(above, high_right), start, start)
-                        if n >= 3:
-                            area = rectangle.largest_rectangle(self.ring, n, 0.0, best, self.work, self.corner)
-                            if area > best:
-                                best = area
-                                x1 = self.corner[0]
-                                y1 = self.corner[1]
-                                x2 = self.corner[4]
-                                y2 = self.corner[5]
-                                found = True
+                        self._solve(i, i, min(below, low_right), max(above, high_right), start, start)
                     else:
-                        area = (line[i + 1] - line[i]) * (min(above, high_right) - max(below, low_right))
-                        if area > best:
-                            best = area
-                            x1 = line[i]
-                            x2 = line[i + 1]
-                            y1 = max(below, low_right)
-                            y2 = min(above, high_right)
-                            found = True
+                        self._offer(line[i], line[i + 1], max(below, low_right), min(above, high_right))
                 top = 0
-                if (reach[start] - line[i]) * (high_right - low_right) > best:
+                if (reach[start] - line[i]) * (high_right - low_right) > self.best:
                     path[0] = start
                     stack[0] = low_right
                     stack[1] = high_right
@@ -272,7 +318,7 @@ class OutlineRectangles:
                     t = path[top]
                     low_y = stack[2 * top]
                     high_y = stack[2 * top + 1]
-                    if (reach[t] - line[i]) * (high_y - low_y) <= best:
+                    if (reach[t] - line[i]) * (high_y - low_y) <= self.best:
                         continue
                     k = slab[t] + 1
                     if k >= slabs:
@@ -282,69 +328,96 @@ class OutlineRectangles:
                         top_y = min(high_y, trapezoid[4 * t + 1])
                         if top_y <= bottom_y:
                             continue
-                        if (line[k + 1] - line[i]) * (top_y - bottom_y) > best:
+                        if (line[k + 1] - line[i]) * (top_y - bottom_y) > self.best:
                             if exact:
-                                n = self._octagon(i, k, bottom_y, top_y, start, t)
-                                if n >= 3:
-                                    area = rectangle.largest_rectangle(self.ring, n, 0.0, best, self.work, self.corner)
-                                    if area > best:
-                                        best = area
-                                        x1 = self.corner[0]
-                                        y1 = self.corner[1]
-                                        x2 = self.corner[4]
-                                        y2 = self.corner[5]
-                                        found = True
+                                self._solve(i, k, bottom_y, top_y, start, t)
                             else:
-                                inner_low = max(bottom_y, below)
-                                inner_high = min(top_y, above)
-                                area = (line[k] - line[i]) * (inner_high - inner_low)
-                                if area > best:
-                                    best = area
-                                    x1 = line[i]
-                                    x2 = line[k]
-                                    y1 = inner_low
-                                    y2 = inner_high
-                                    found = True
+                                self._offer(line[i], line[k], max(bottom_y, below), min(top_y, above))
                         bottom_y = max(bottom_y, trapezoid[4 * t + 2])
                         top_y = min(top_y, trapezoid[4 * t + 3])
                         if top_y <= bottom_y:
                             continue
                         if not exact:
-                            area = (line[k + 1] - line[i + 1]) * (top_y - bottom_y)
-                            if area > best:
-                                best = area
-                                x1 = line[i + 1]
-                                x2 = line[k + 1]
-                                y1 = bottom_y
-                                y2 = top_y
-                                found = True
-                            inner_low = max(bottom_y, below)
-                            inner_high = min(top_y, above)
-                            area = (line[k + 1] - line[i]) * (inner_high - inner_low)
-                            if area > best:
-                                best = area
-                                x1 = line[i]
-                                x2 = line[k + 1]
-                                y1 = inner_low
-                                y2 = inner_high
-                                found = True
-                        if (reach[t] - line[i]) * (top_y - bottom_y) > best:
+                            self._offer(line[i + 1], line[k + 1], bottom_y, top_y)
+                            self._offer(line[i], line[k + 1], max(bottom_y, below), min(top_y, above))
+                        if (reach[t] - line[i]) * (top_y - bottom_y) > self.best:
                             path[top] = t
                             stack[2 * top] = bottom_y
                             stack[2 * top + 1] = top_y
                             top += 1
-        if found:
-            cosine = math.cos(angle)
-            sine = math.sin(angle)
-            out[0] = cosine * x1 - sine * y1
-            out[1] = sine * x1 + cosine * y1
-            out[2] = cosine * x2 - sine * y1
-            out[3] = sine * x2 + cosine * y1
-            out[4] = cosine * x2 - sine * y2
-            out[5] = sine * x2 + cosine * y2
-            out[6] = cosine * x1 - sine * y2
-            out[7] = sine * x1 + cosine * y2
-        return best
+        if self.found:
+            rectangle.write_corners(out, math.cos(angle), math.sin(angle), self.x1, self.x2, self.y1, self.y2)
+        return self.best
+
+    def _offer(self, x1, x2, y1, y2):
+        """Keep a rectangle if it is larger than the best so far."""
+        area = (x2 - x1) * (y2 - y1)
+        if area > self.best:
+            self.best = area
+            self.x1 = x1
+            self.x2 = x2
+            self.y1 = y1
+            self.y2 = y2
+            self.found = True
+
+    def _solve(self, i, k, low, high, start, end):
+        """Keep the largest rectangle of a pair of trapezoids if it is larger than the best so far (see `_octagon`)."""
+        floor = self.best
+        if self.half > 0.0:
+            width = self.line[k + 1] - self.line[i]
+            height = high - low
+            floor = max(floor, self.target - self.half * min(self.diameter2, width * width + height * height))
+            if width * height <= floor:
+                return
+        n = self._octagon(i, k, low, high, start, end)
+        if n < 3:
+            return
+        area = rectangle.largest_rectangle(self.ring, n, 0.0, floor, self.work, self.corner)
+        if area > floor and not (self.half > 0.0 and self._is_proven(i, k, low, high, n, area)):
+            self._offer(self.corner[0], self.corner[4], self.corner[1], self.corner[5])
+
+    def _is_proven(self, i, k, low, high, n, area):
+        """Whether no rectangle above the target, at an angle within `half`, turns back into one of a pair of trapezoids.
+
+        The one that it turns back into reaches from slab i to slab k and fills most of the window, so all of them
+        enclose a box, and `TurnBound` applies.
+
+        Args:
+            i: Slab of the first trapezoid; k of the last one.
+            low: Bottom of the window in m; high its top.
+            n: Number of vertices in `ring`, what the pair may use.
+            area: Largest area of the pair at the middle angle, its corners in `corner`.
+        """
+        width = self.line[k + 1] - self.line[i]
+        height = high - low
+        flat = min(height, area / width)
+        slim = min(width, area / height)
+        diagonal2 = min(self.diameter2, max(width * width + flat * flat, height * height + slim * slim))
+        least = self.target - self.half * diagonal2
+        if area <= least:
+            return True
+        if self.found or self.half > _CLOSER or least <= 0.0 or area > self.target * self.bound.keeps(self.corner, self.half):
+            return False
+        box = self.box
+        box[0] = min(self.line[i + 1], self.line[k + 1] - least / height)
+        box[1] = max(self.line[k], self.line[i] + least / height)
+        box[2] = high - least / width
+        box[3] = low + least / width
+        if self._is_around(box):
+            return True
+        self.bound.narrow(self.ring, n, self.corner, least, box)
+        if self._is_around(box):
+            return True
+        if not self.bound.is_held(self.xs, self.ys, self.start, self.rings, box, self.half, self.target):
+            return False
+        for side in range(4):
+            self.proven[side] = box[side]
+        return True
+
+    def _is_around(self, box):
+        """Whether a box is around the last one that `TurnBound` proved at this angle."""
+        proven = self.proven
+        return box[0] <= proven[0] and box[1] >= proven[1] and box[2] <= proven[2] and box[3] >= proven[3]
 
     def _cut(self, angle):
         """Cut the part, turned back by an angle, into trapezoids; the number of slabs."""

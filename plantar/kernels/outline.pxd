@@ -9,6 +9,12 @@ cdef Py_ssize_t _SHORT
 )
 cpdef (double, double, double) area_and_centroid(const double[:, :] points, object starts)
 
+cdef class Rings:
+    cdef public object points
+    cdef public object starts
+    cdef public object ring_areas
+    cdef public bint apart
+
 cdef class EdgeTable:
     cdef readonly const Py_ssize_t[::1] cell_start
     cdef readonly const Py_ssize_t[::1] cell
@@ -24,15 +30,20 @@ cdef class EdgeTable:
     cdef Py_ssize_t[::1] place
     cdef object room
     cdef double[:, ::1] points
-    cdef list parts
+    cdef list copies
 
     @cython.locals(
         n=Py_ssize_t, edges=Py_ssize_t, places=Py_ssize_t, count=Py_ssize_t, pinched=bint, i=Py_ssize_t, h=Py_ssize_t,
         t=Py_ssize_t, v=Py_ssize_t, first=Py_ssize_t, size=Py_ssize_t, low=Py_ssize_t, k=Py_ssize_t, used=Py_ssize_t,
-        mark=cython.uchar[::1], leaving=cython.uchar[::1], path=Py_ssize_t[::1], place=Py_ssize_t[::1], points=double[:, ::1], starts=list,
-        areas=list
+        mark=cython.uchar[::1], leaving=cython.uchar[::1], path=Py_ssize_t[::1], place=Py_ssize_t[::1], points=double[:, ::1]
     )
+    cdef object _trace(self, bytes active, list starts, list areas)
+
+    @cython.locals(starts=list, areas=list)
     cpdef walk(self, bytes active)
+
+    @cython.locals(found=Rings, starts=list, areas=list)
+    cpdef rings(self, bytes active, object kind)
 
     @cython.locals(
         base=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t, k=Py_ssize_t, ax=double, ay=double, bx=double,

@@ -8,9 +8,11 @@ edges and is the public face.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-__all__ = ["EdgeTable", "area_and_centroid"]
+__all__ = ["EdgeTable", "Rings", "area_and_centroid"]
 
 _SHORT = 256  # points of an outline for which there is a view at hand
 
@@ -48,6 +50,29 @@ def area_and_centroid(points, starts):
     return 0.5 * twice, x0 + sx / (3.0 * twice), y0 + sy / (3.0 * twice)
 
 
+class Rings:
+    """Rings around an area of the plane, what `plantar.outline.Outline` adds to.
+
+    Args:
+        points: Vertices (k, 2) of all rings in m, one ring after another.
+        starts: Offsets (r + 1) of the rings.
+        ring_areas: Signed area (r) of each ring in m^2.
+        apart: Whether islands are known to meet in points at most.
+    """
+
+    def __init__(self, points, starts, ring_areas, apart=False):
+        self.points = points
+        self.starts = starts
+        self.ring_areas = ring_areas
+        self.apart = apart
+
+    @property
+    def area(self):
+        """Area in m^2, holes left out; exact to 1e-12 of it."""
+        areas = self.ring_areas
+        return areas[0] if len(areas) == 1 else math.fsum(areas)
+
+
 class EdgeTable:
     """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
 
@@ -83,7 +108,7 @@ class EdgeTable:
         self.leaving = bytearray(len(vertices) // 2)
         self.room = np.empty((len(cell), 2))
         self.points = self.room
-        self.parts = [self.room[:k] for k in range(min(len(cell), _SHORT) + 1)]  # a copy is the cheapest new array
+        self.copies = [self.room[:k].copy for k in range(min(len(cell), _SHORT) + 1)]  # the cheapest new arrays
 
     def __reduce__(self):
         """Rebuild from the arguments, so that a layout crosses to another process."""
@@ -100,6 +125,33 @@ class EdgeTable:
             Points (k, 2) of all rings in m, one ring after another; offsets (r + 1) of the rings; their signed areas
             (r) in m^2, above 0 for the rim of an island and below 0 for that of a hole.
         """
+        starts = [0]
+        areas = []
+        return self._trace(active, starts, areas), starts, areas
+
+    def rings(self, active, kind):
+        """Rings around the active cells as an object.
+
+        Args:
+            active: As in `walk`.
+            kind: Its class, `Rings` or one derived from it; made without a call of its `__init__`.
+
+        Returns:
+            The object; None where there are not n bytes.
+        """
+        if len(active) != len(self.cell_start) - 1:
+            return None
+        found = Rings.__new__(kind)
+        starts = [0]
+        areas = []
+        found.points = self._trace(active, starts, areas)
+        found.starts = starts
+        found.ring_areas = areas
+        found.apart = True
+        return found
+
+    def _trace(self, active, starts, areas):
+        """Walk; the points, with offsets and areas of the rings added to two lists."""
         n = len(self.cell_start) - 1
         # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
         mark = self.mark
@@ -124,10 +176,8 @@ class EdgeTable:
                         leaving[v] += 1
                         if leaving[v] > 1:
                             pinched = True
-        starts = [0]
-        areas = []
         if count == 0:
-            return np.empty((0, 2)), starts, areas
+            return np.empty((0, 2))
         points = self.points
         if not self.reuse:
             room = np.empty((count, 2))
@@ -167,10 +217,10 @@ class EdgeTable:
                     mark[h] = 0
                     leaving[self.origin[h]] = 0
         if not self.reuse:
-            return room[:used], starts, areas
+            return room[:used]
         if used <= _SHORT:
-            return self.parts[used].copy(), starts, areas
-        return self.room[:used].copy(), starts, areas
+            return self.copies[used]()
+        return self.room[:used].copy()
 
     def _keep(self, path, low, high, points, used, starts, areas):
         """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["largest_rectangle"]
+__all__ = ["largest_rectangle", "write_corners"]
 
 
 def largest_rectangle(ring, n, angle, floor, work, out):
@@ -243,15 +243,26 @@ def largest_rectangle(ring, n, angle, floor, work, out):
     x = min(x, best_x)
     y = max(y, best_x + best_w)
     best = (y - x) * (best_t - best_b)
-    out[0] = cosine * x - sine * best_b
-    out[1] = sine * x + cosine * best_b
-    out[2] = cosine * y - sine * best_b
-    out[3] = sine * y + cosine * best_b
-    out[4] = cosine * y - sine * best_t
-    out[5] = sine * y + cosine * best_t
-    out[6] = cosine * x - sine * best_t
-    out[7] = sine * x + cosine * best_t
+    write_corners(out, cosine, sine, x, y, best_b, best_t)
     return best
+
+
+def write_corners(out, cosine, sine, x1, x2, y1, y2):
+    """Write the corners of a rectangle, turned about the origin.
+
+    Args:
+        out: Receives the 4 corners, flat, counter-clockwise.
+        cosine: Cosine of the angle; sine its sine.
+        x1: First x in the turned frame in m, up to x2; likewise y1 and y2.
+    """
+    out[0] = cosine * x1 - sine * y1
+    out[1] = sine * x1 + cosine * y1
+    out[2] = cosine * x2 - sine * y1
+    out[3] = sine * x2 + cosine * y1
+    out[4] = cosine * x2 - sine * y2
+    out[5] = sine * x2 + cosine * y2
+    out[6] = cosine * x1 - sine * y2
+    out[7] = sine * x1 + cosine * y2
 
 
 def _chain(work, n, low, high, step, tolerance, at):

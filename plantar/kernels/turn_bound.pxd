@@ -1,0 +1,59 @@
+# C types of turn_bound.py. Without a compiler this file is not read.
+cimport cython
+from libc cimport math
+from . cimport rectangle
+
+cdef Py_ssize_t _LINES
+cdef Py_ssize_t _CHAIN
+cdef double _BEND
+
+@cython.final
+cdef class TurnBound:
+    cdef bint lists
+    cdef Py_ssize_t lines
+    cdef double[::1] line
+    cdef double[::1] ring
+    cdef double[::1] cut
+    cdef double[::1] work
+    cdef double[::1] corner
+
+    cdef _numbers(self, Py_ssize_t size)
+
+    @cython.locals(side=Py_ssize_t, wide=Py_ssize_t, size=Py_ssize_t, at=double, sign=double, reach=double)
+    cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept
+
+    @cython.locals(m=Py_ssize_t, middle=double, most=double)
+    cdef bint is_held(
+        self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double half,
+        double target
+    ) noexcept
+
+    @cython.locals(along=double, across=double, lean=double, bend=double)
+    cdef double keeps(self, double[::1] corner, double half) noexcept
+
+    @cython.locals(
+        line="double[::1]", r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, low=Py_ssize_t, high=Py_ssize_t, dx=double,
+        dy=double, qx=double, qy=double
+    )
+    cdef void _find_lines(
+        self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double lean
+    ) noexcept
+
+    @cython.locals(
+        x=double, y=double, dx=double, dy=double, ex=double, ey=double, gap=double, following=Py_ssize_t
+    )
+    cdef bint _is_anchored(
+        self, double[::1] xs, double[::1] ys, Py_ssize_t low, Py_ssize_t high, Py_ssize_t end, Py_ssize_t other,
+        Py_ssize_t step, double[::1] box, double lean
+    ) noexcept
+
+    @cython.locals(
+        v=Py_ssize_t, n=Py_ssize_t, k=Py_ssize_t, i=Py_ssize_t, size=Py_ssize_t, open_sides=bint, ring="double[::1]",
+        x=double, y=double, gap=double, left=double, right=double, bottom=double, top=double, area=double
+    )
+    cdef double _room(
+        self, double[::1] xs, double[::1] ys, Py_ssize_t m, double[::1] box, double half, double turn
+    ) noexcept
+
+@cython.locals(count=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, before=double, after=double, share=double)
+cdef Py_ssize_t _cut(double[::1] ring, Py_ssize_t n, double nx, double ny, double level, double[::1] out) noexcept
