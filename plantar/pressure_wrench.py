@@ -64,6 +64,10 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
     """
     if not reference_area > 0.0:
         raise InputError(f"reference area is {reference_area} m^2; allowed: above 0")
+    if isinstance(contact_area, float):  # one reading: without arrays for one number
+        return np.asarray(
+            np.asarray(wrench, dtype=np.float64) * (reference_area / contact_area if contact_area > 0.0 else 0.0)
+        )
     area = np.asarray(contact_area, dtype=np.float64)[..., None]
     gain = np.divide(reference_area, area, out=np.zeros_like(area), where=area > 0.0)
     return np.asarray(np.asarray(wrench, dtype=np.float64) * gain)

@@ -30,7 +30,8 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
     """
     readings = np.asarray(temperature, dtype=np.float64)
     usable = np.isfinite(readings) & (readings >= threshold)
-    return np.where(usable, np.minimum(np.where(usable, readings, threshold), highest) - threshold, 0.0).clip(min=0.0)
+    excess = np.minimum(np.where(usable, readings, threshold), highest) - threshold
+    return np.asarray(np.maximum(excess, 0.0))
 
 
 def temperature_wrench(

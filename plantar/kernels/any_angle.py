@@ -24,7 +24,7 @@ _CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
 _STEP = 1e-6  # rad to either side by which a summit is told
 _STRIDE = 2e-3  # rad of the first step uphill
-_LONGEST = 0.3  # rad of a step along the angles of a convex ring
+_LONGEST = 0.5  # rad of a step along the angles of a convex ring
 
 
 class AnyAngle:
@@ -176,19 +176,47 @@ class AnyAngle:
             if area > self.best:
                 self._climb(angle, area, out)
                 area = self._largest(angle, 0.0, out)
-            along = math.hypot(out[2] - out[0], out[3] - out[1])
-            across = math.hypot(out[4] - out[2], out[5] - out[3])
-            lean = math.atan2(min(along, across), max(along, across))
-            longest = min(_LONGEST, 0.5 * lean)
-            curve = 2.0 / math.sin(2.0 * (lean - longest))
+            lean = self._lean(out)
+            curve = 2.0 / math.sin(2.0 * lean)
             curve *= curve
             gap = math.log(self.best * (1.0 + _CLOSE) / area)
             # The slope is at most what it rose by from a little before, and a bit for the bend in between.
             back = max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve)))
-            slope = math.log(area / max(1e-300, self._largest(angle - back, 0.0, out))) / back + 0.5 * curve * back
+            bend = back * 2.0 / math.sin(2.0 * max(0.5 * lean, lean - back))
+            before = self._largest(angle - back, 0.0, out)
+            slope = (math.log(area / max(1e-300, before)) + 0.5 * bend * bend) / back
             root = math.sqrt(slope * slope + 2.0 * curve * gap)
             step = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
-            angle += min(longest, step)
+            step = min(_LONGEST, min(step, 0.9 * lean))
+            # Less, since the bound's curve rises; integrated twice it is this logarithm.
+            cotangent = 2.0 * math.cos(2.0 * lean) / math.sin(2.0 * lean)
+            while (
+                slope * step - math.log(math.sin(2.0 * (lean - step)) / math.sin(2.0 * lean)) - cotangent * step > gap
+            ):
+                step *= 0.9
+            skip = math.sqrt(0.7 * _CLOSE / curve)
+            if step < skip and self._is_skipped(angle, skip, out):
+                step = skip
+            angle += step
+
+    def _is_skipped(self, angle, skip, out):
+        """Whether nothing above the best stands a little behind an angle, by the bound from there backwards."""
+        after = self._largest(angle + 2.0 * skip, 0.0, out)
+        ahead = self._largest(angle + skip, 0.0, out)
+        if ahead <= 0.0:
+            return False
+        lean = self._lean(out) - skip
+        if lean <= 0.0:
+            return False
+        bend = skip * 2.0 / math.sin(2.0 * lean)
+        rise = math.log(ahead / max(1e-300, after)) + bend * bend
+        return math.log(self.best * (1.0 + _CLOSE) / ahead) >= max(0.0, rise)
+
+    def _lean(self, corners):
+        """Angle between the diagonal and the longer side of a rectangle in rad."""
+        along = math.hypot(corners[2] - corners[0], corners[3] - corners[1])
+        across = math.hypot(corners[4] - corners[2], corners[5] - corners[3])
+        return math.atan2(min(along, across), max(along, across))
 
     def _search(self, out):
         """Search all angles of a quarter turn in an outline for more than the best so far."""

@@ -84,6 +84,7 @@ cdef class OutlineRectangles:
         start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint
     )
     cdef double _enumerate(self, double angle, double floor, double[::1] out) except -1
+    cdef bint _may_hold(self, double width, double height) noexcept
     cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
 
     @cython.locals(n=Py_ssize_t, area=double, floor=double, width=double, height=double)

@@ -302,13 +302,13 @@ class OutlineRectangles:
                 above = trapezoid[4 * start + 1]
                 low_right = trapezoid[4 * start + 2]
                 high_right = trapezoid[4 * start + 3]
-                if (line[i + 1] - line[i]) * (max(above, high_right) - min(below, low_right)) > self.best:
+                if self._may_hold(line[i + 1] - line[i], max(above, high_right) - min(below, low_right)):
                     if exact:
                         self._solve(i, i, min(below, low_right), max(above, high_right), start, start)
                     else:
                         self._offer(line[i], line[i + 1], max(below, low_right), min(above, high_right))
                 top = 0
-                if (reach[start] - line[i]) * (high_right - low_right) > self.best:
+                if self._may_hold(reach[start] - line[i], high_right - low_right):
                     path[0] = start
                     stack[0] = low_right
                     stack[1] = high_right
@@ -318,7 +318,7 @@ class OutlineRectangles:
                     t = path[top]
                     low_y = stack[2 * top]
                     high_y = stack[2 * top + 1]
-                    if (reach[t] - line[i]) * (high_y - low_y) <= self.best:
+                    if not self._may_hold(reach[t] - line[i], high_y - low_y):
                         continue
                     k = slab[t] + 1
                     if k >= slabs:
@@ -328,7 +328,7 @@ class OutlineRectangles:
                         top_y = min(high_y, trapezoid[4 * t + 1])
                         if top_y <= bottom_y:
                             continue
-                        if (line[k + 1] - line[i]) * (top_y - bottom_y) > self.best:
+                        if self._may_hold(line[k + 1] - line[i], top_y - bottom_y):
                             if exact:
                                 self._solve(i, k, bottom_y, top_y, start, t)
                             else:
@@ -340,7 +340,7 @@ class OutlineRectangles:
                         if not exact:
                             self._offer(line[i + 1], line[k + 1], bottom_y, top_y)
                             self._offer(line[i], line[k + 1], max(bottom_y, below), min(top_y, above))
-                        if (reach[t] - line[i]) * (top_y - bottom_y) > self.best:
+                        if self._may_hold(reach[t] - line[i], top_y - bottom_y):
                             path[top] = t
                             stack[2 * top] = bottom_y
                             stack[2 * top + 1] = top_y
@@ -348,6 +348,12 @@ class OutlineRectangles:
         if self.found:
             rectangle.write_corners(out, math.cos(angle), math.sin(angle), self.x1, self.x2, self.y1, self.y2)
         return self.best
+
+    def _may_hold(self, width, height):
+        """Whether a box may hold what is looked for: more than the best so far, or what turns into more than the target."""
+        if width * height <= self.best:
+            return False
+        return self.half == 0.0 or width * height + self.half * (width * width + height * height) > self.target
 
     def _offer(self, x1, x2, y1, y2):
         """Keep a rectangle if it is larger than the best so far."""
@@ -366,9 +372,7 @@ class OutlineRectangles:
         if self.half > 0.0:
             width = self.line[k + 1] - self.line[i]
             height = high - low
-            floor = max(floor, self.target - self.half * min(self.diameter2, width * width + height * height))
-            if width * height <= floor:
-                return
+            floor = max(floor, self.target - self.half * (width * width + height * height))
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
             return
