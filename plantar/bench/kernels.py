@@ -195,19 +195,39 @@ def _outline_any_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Refer
         Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, _size, ours=True),
         Route("histogram stack, 1 mm, 16 angles", rivals.histogram_any_angle, rings, approximate=True),
     ]
-    angles = np.arange(0.0, 90.0, 0.5)
-    return routes, Reference([max(_best_known(o, float(a)) for a in np.deg2rad(angles)) for o in outlines])
+    return routes, Reference([_best_known_at_any_angle(o) for o in outlines])
 
 
 def _best_known(outline: Outline, angle: float) -> float:
     """Area in m^2 of the best rectangle known at an angle: ours once shapely finds it inside, or the reference's."""
+    ours = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
+    return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
+
+
+def _best_known_at_any_angle(outline: Outline) -> float:
+    """The same at any angle: every half degree, then ever finer steps around the best four."""
+    found: dict[float, float] = {}
+
+    def areas(angles: Array) -> Array:
+        for a in angles.tolist():
+            found[a] = _size(inscribed.rectangle_in_outline(outline, a))
+        return np.array([found[a] for a in angles.tolist()])
+
+    exact.search_period(areas, 0.5 * np.pi, 180)
+    for angle in sorted(found, key=lambda a: -found[a])[:8]:
+        inside = _area_inside(outline, inscribed.rectangle_in_outline(outline, angle))
+        if inside:
+            return max(inside, _best_known(outline, 0.0))
+    return _best_known(outline, 0.0)
+
+
+def _area_inside(outline: Outline, corners: Array) -> float:
+    """Area in m^2 of a rectangle that shapely finds inside an outline, else 0."""
     import shapely
 
-    corners = inscribed.rectangle_in_outline(outline, angle)
     parts = [shapely.Polygon(i[0], i[1:]) for i in outline.islands]
     outside = shapely.area(shapely.difference(shapely.Polygon(corners), shapely.union_all(parts)))
-    ours = _size(corners) if outside < 1e-9 * _size(corners) else 0.0
-    return ours if angle else max(ours, exact.outline_rectangle_area(outline.rings))
+    return _size(corners) if outside < 1e-9 * _size(corners) else 0.0
 
 
 def _around(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:

@@ -27,6 +27,7 @@ __all__ = [
     "parallelogram_area",
     "rectangle_area",
     "rectangle_area_any_angle",
+    "search_period",
     "triangle_area_exact",
     "wrench_exact",
 ]
@@ -286,8 +287,22 @@ def rectangle_area(polygon: Array, angle: float = 0.0) -> float:
     return float(_rectangles(polygon, np.array([angle]))[0])
 
 
-def _search(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
-    """Largest value over a period: samples, then ever finer ones around the best of them."""
+def search_period(values: Callable[[Array], Array], period: float, samples: int, finest: float = 1e-10) -> float:
+    """Largest value over a period: samples, then ever finer ones around the best of them.
+
+    Args:
+        values: Values (m,) at angles (m,) in rad.
+        period: Period in rad.
+        samples: Angles tried first.
+        finest: Step in rad at which the search ends.
+
+    Returns:
+        The best value found.
+
+    Example:
+        >>> round(search_period(lambda angles: np.cos(angles - 1.0), 2.0 * math.pi, 12), 12)
+        1.0
+    """
     step = period / samples
     angles: Array = np.arange(samples) * np.float64(step)
     found = values(angles)
@@ -312,7 +327,7 @@ def rectangle_area_any_angle(polygon: Array, samples: int = 120) -> float:
     Returns:
         The best area found: the samples, then a finer and finer search around the best four.
     """
-    return _search(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
+    return search_period(lambda angles: _rectangles(polygon, angles), 0.5 * math.pi, samples)
 
 
 def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13) -> float:
@@ -356,7 +371,7 @@ def parallelogram_area(polygon: Array, samples: int = 240, finest: float = 1e-13
 
         return _golden(area, np.zeros(len(angles)), length.max(axis=1))
 
-    return _search(best, math.pi, samples, finest)
+    return search_period(best, math.pi, samples, finest)
 
 
 def outline_rectangle_area(rings: Sequence[Array]) -> float:

@@ -6,6 +6,10 @@ from . cimport concave, rectangle
 cdef double _QUARTER
 cdef double _GOLDEN
 cdef double _WIDEST
+cdef double _SHARE
+cdef double _LEAST
+cdef int _STEPS
+cdef int _MOST
 cdef int _SEEDS
 cdef double _CLOSE
 cdef int _SECTIONS
@@ -52,9 +56,13 @@ cdef class AnyAngle:
 
     @cython.locals(
         outline=concave.OutlineRectangles, stack="double[::1]", turn="double[::1]", k=Py_ssize_t,
-        i=Py_ssize_t, count=Py_ssize_t, pieces=Py_ssize_t, top=Py_ssize_t, low=double, high=double, angle=double
+        i=Py_ssize_t, count=Py_ssize_t, pieces=Py_ssize_t, top=Py_ssize_t, low=double, high=double, angle=double,
+        widest=double
     )
     cdef void _search(self, double[::1] out) except *
+
+    @cython.locals(before="double[::1]", i=Py_ssize_t)
+    cdef _widen(self)
 
     @cython.locals(golden=bint, beyond=bint)
     cdef void _climb(self, double middle, double area, double[::1] out) except *

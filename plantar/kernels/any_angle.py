@@ -18,7 +18,11 @@ __all__ = ["AnyAngle"]
 
 _QUARTER = 0.5 * math.pi
 _GOLDEN = 0.3819660112501051
-_WIDEST = 0.14  # rad of the widest interval that the search in an outline starts with
+_WIDEST = 0.2  # rad of the widest interval that the search in an outline starts with, or so many times A / d^2
+_SHARE = 1.2
+_LEAST = 1e-10  # rad of the least step: summits that are narrower, of needles, are looked for at edges alone
+_STEPS = 1000  # steps along a ring's angles; some 20 are the rule, needles may want more
+_MOST = 20000  # angles that are looked at for an island, which only slivers with more bays than area need
 _SEEDS = 6  # directions of edges that are looked at first
 _CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
@@ -169,7 +173,9 @@ class AnyAngle:
     def _march(self, out):
         """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best."""
         angle = 0.0
-        while angle < _QUARTER:
+        for _ in range(_STEPS):
+            if angle >= _QUARTER:
+                return
             area = self._largest(angle, 0.0, out)
             if area <= 0.0:
                 return
@@ -181,10 +187,11 @@ class AnyAngle:
             curve *= curve
             gap = math.log(self.best * (1.0 + _CLOSE) / area)
             # The slope is at most what it rose by from a little before, and a bit for the bend in between.
-            back = max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve)))
-            bend = back * 2.0 / math.sin(2.0 * max(0.5 * lean, lean - back))
+            back = min(0.25 * lean, max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve))))
+            bend = back * 2.0 / math.sin(2.0 * (lean - back))
             before = self._largest(angle - back, 0.0, out)
             slope = (math.log(area / max(1e-300, before)) + 0.5 * bend * bend) / back
+            slope = min(slope, math.sqrt(curve))
             root = math.sqrt(slope * slope + 2.0 * curve * gap)
             step = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
             step = min(_LONGEST, min(step, 0.9 * lean))
@@ -197,7 +204,7 @@ class AnyAngle:
             skip = math.sqrt(0.7 * _CLOSE / curve)
             if step < skip and self._is_skipped(angle, skip, out):
                 step = skip
-            angle += step
+            angle += max(step, _LEAST)
 
     def _is_skipped(self, angle, skip, out):
         """Whether nothing above the best stands a little behind an angle, by the bound from there backwards."""
@@ -236,11 +243,12 @@ class AnyAngle:
                 turn[i] = turn[i - 1]
                 i -= 1
             turn[i] = angle
+        widest = max(0.02, min(_WIDEST, _SHARE * self.best / outline.diameter2))
         stack = self.stack
         top = 0
         low = 0.0
         for k in range(count):
-            pieces = int((turn[k] - low) / _WIDEST) + 1
+            pieces = int((turn[k] - low) / widest) + 1
             if turn[k] - low < 1e-12:
                 continue
             for i in range(pieces):
@@ -248,27 +256,37 @@ class AnyAngle:
                 stack[2 * top + 1] = low + (turn[k] - low) * (i + 1) / pieces
                 top += 1
             low = turn[k]
-        while top > 0:
+        for _ in range(_MOST):
+            if top == 0:
+                break
             top -= 1
             low = stack[2 * top]
             high = stack[2 * top + 1]
             middle = 0.5 * (low + high)
             half = 0.5 * (high - low)
             target = self.best * (1.0 + _CLOSE)
-            area = outline.unproven(middle, half, target, out)
-            floor = max(0.0, target - outline.diameter2 * half)
-            if area <= floor:
-                continue
+            area = outline.clear(middle, half, target, out)
             if area > self.best:
                 self._climb(middle, area, out)
-                target = self.best * (1.0 + _CLOSE)
-            safe = (target - area) / outline.diameter2
-            if safe < half and 2 * top + 4 <= len(stack):
+                outline.clear(middle, half, self.best * (1.0 + _CLOSE), out)
+            if 2 * top + 4 > len(stack):
+                self._widen()
+                stack = self.stack
+            if outline.clear_low < half:
                 stack[2 * top] = low
-                stack[2 * top + 1] = middle - safe
-                stack[2 * top + 2] = middle + safe
-                stack[2 * top + 3] = high
-                top += 2
+                stack[2 * top + 1] = middle - outline.clear_low
+                top += 1
+            if outline.clear_high < half:
+                stack[2 * top] = middle + outline.clear_high
+                stack[2 * top + 1] = high
+                top += 1
+
+    def _widen(self):
+        """Make room for more intervals."""
+        before = self.stack
+        self.stack = self._numbers(2 * len(before))
+        for i in range(len(before)):
+            self.stack[i] = before[i]
 
     def _climb(self, middle, area, out):
         """Climb to the summit beside an angle; the best so far where it is higher."""

@@ -40,7 +40,9 @@ cdef class OutlineRectangles:
     cdef double[::1] work
     cdef double[::1] corner
     cdef double[::1] box
-    cdef double[::1] proven
+    cdef double[::1] reached
+    cdef double clear_low
+    cdef double clear_high
     cdef turn_bound.TurnBound bound
     cdef double diameter2
     cdef double half
@@ -76,7 +78,7 @@ cdef class OutlineRectangles:
     @cython.locals(points="double[::1]", i=Py_ssize_t, j=Py_ssize_t)
     cdef void measure(self) noexcept
     cpdef double largest(self, double angle, double floor, double[::1] out) except -1
-    cpdef double unproven(self, double angle, double half, double target, double[::1] out) except -1
+    cpdef double clear(self, double angle, double half, double target, double[::1] out) except -1
 
     @cython.locals(
         slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
@@ -92,11 +94,11 @@ cdef class OutlineRectangles:
         self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
     ) noexcept
 
-    @cython.locals(proven="double[::1]")
-    cdef bint _is_around(self, double[::1] box) noexcept
-
-    @cython.locals(box="double[::1]", side=Py_ssize_t)
-    cdef bint _is_proven(
+    @cython.locals(
+        box="double[::1]", reach="double[::1]", width=double, height=double, flat=double, slim=double,
+        diagonal2=double, least=double
+    )
+    cdef void _narrow(
         self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t n, double area
     ) noexcept
 

@@ -41,7 +41,9 @@ class OutlineRectangles:
         self.work = self._numbers(96)
         self.corner = self._numbers(8)
         self.box = self._numbers(4)
-        self.proven = self._numbers(4)
+        self.reached = self._numbers(2)
+        self.clear_low = 0.0
+        self.clear_high = 0.0
         self.bound = turn_bound.TurnBound(lists)
         self.diameter2 = 0.0
         self.half = 0.0
@@ -214,7 +216,7 @@ class OutlineRectangles:
         return True
 
     def measure(self):
-        """Measure the diameter of the chosen part, which `unproven` needs."""
+        """Measure the diameter of the chosen part, which `clear` needs."""
         points = self.points
         self.diameter2 = 0.0
         for i in range(self.m):
@@ -242,12 +244,13 @@ class OutlineRectangles:
         self.half = 0.0
         return self._enumerate(angle, floor, out)
 
-    def unproven(self, angle, half, target, out):
-        """Largest rectangle at an angle among those from which one above a target may turn.
+    def clear(self, angle, half, target, out):
+        """Find how far from an angle no rectangle stands above a target.
 
         A rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old angle, d the
-        diagonal of that one. So pairs of trapezoids (see `largest`) whose rectangles are too small for that need no
-        closer look; nor do those that `_is_proven` throws away.
+        diagonal of that one. So a pair of trapezoids (see `largest`) whose largest rectangle has the area B gives none
+        above the target within (target - B) / d^2; often `TurnBound` knows of more. What is left after all pairs stands
+        in `clear_low` and `clear_high`, in rad towards smaller and larger angles.
 
         Args:
             angle: Angle of the first side in rad.
@@ -256,12 +259,24 @@ class OutlineRectangles:
             out: As in `largest`.
 
         Returns:
-            Its area; the target less what a turn by `half` may gain, or 0, where no rectangle is left. Then none of more
-            than the target stands within `half` of the angle.
+            The largest area at the angle where it is above the target, then nothing around is clear; else 0.
         """
-        self.half = half if target > self.diameter2 * math.tan(half) else 0.0  # thinner ones have none to turn back to
+        self.clear_low = half
+        self.clear_high = half
         self.target = target
-        return self._enumerate(angle, max(0.0, target - self.diameter2 * half), out)
+        if target <= self.diameter2 * math.tan(half):  # thin ones have none to turn back to
+            self.half = 0.0
+            area = self._enumerate(angle, 0.0, out)
+            self.clear_low = max(0.0, min(half, (target - area) / self.diameter2))
+            self.clear_high = self.clear_low
+        else:
+            self.half = half
+            area = self._enumerate(angle, target - self.diameter2 * half, out)
+        if area <= target:
+            return 0.0
+        self.clear_low = 0.0
+        self.clear_high = 0.0
+        return area
 
     def _enumerate(self, angle, floor, out):
         """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in."""
@@ -293,7 +308,6 @@ class OutlineRectangles:
                 reach[start] = far
         self.best = floor
         self.found = False
-        self.proven[0] = -math.inf
         # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
         for exact in range(1 if floor > 0.0 else 0, 2):
             for start in range(count):
@@ -350,7 +364,7 @@ class OutlineRectangles:
         return self.best
 
     def _may_hold(self, width, height):
-        """Whether a box may hold what is looked for: more than the best so far, or what turns into more than the target."""
+        """Whether a box may hold more than the best so far, or what turns into more than the target."""
         if width * height <= self.best:
             return False
         return self.half == 0.0 or width * height + self.half * (width * width + height * height) > self.target
@@ -377,14 +391,18 @@ class OutlineRectangles:
         if n < 3:
             return
         area = rectangle.largest_rectangle(self.ring, n, 0.0, floor, self.work, self.corner)
-        if area > floor and not (self.half > 0.0 and self._is_proven(i, k, low, high, n, area)):
+        if area <= floor:
+            return
+        if self.half > 0.0 and area <= self.target:
+            self._narrow(i, k, low, high, n, area)
+        else:
             self._offer(self.corner[0], self.corner[4], self.corner[1], self.corner[5])
 
-    def _is_proven(self, i, k, low, high, n, area):
-        """Whether no rectangle above the target, at an angle within `half`, turns back into one of a pair of trapezoids.
+    def _narrow(self, i, k, low, high, n, area):
+        """Narrow what is clear around the middle angle to what a pair of trapezoids leaves.
 
-        The one that it turns back into reaches from slab i to slab k and fills most of the window, so all of them
-        enclose a box, and `TurnBound` applies.
+        The rectangle that one above the target turns back into reaches from slab i to slab k and fills most of the
+        window, so all of them enclose a box, and `TurnBound` applies.
 
         Args:
             i: Slab of the first trapezoid; k of the last one.
@@ -397,31 +415,22 @@ class OutlineRectangles:
         flat = min(height, area / width)
         slim = min(width, area / height)
         diagonal2 = min(self.diameter2, max(width * width + flat * flat, height * height + slim * slim))
+        reach = self.reached
+        reach[0] = min(self.half, (self.target - area) / diagonal2)
+        reach[1] = reach[0]
+        if reach[0] >= max(self.clear_low, self.clear_high):
+            return
         least = self.target - self.half * diagonal2
-        if area <= least:
-            return True
-        if self.found or self.half > _CLOSER or least <= 0.0 or area > self.target * self.bound.keeps(self.corner, self.half):
-            return False
-        box = self.box
-        box[0] = min(self.line[i + 1], self.line[k + 1] - least / height)
-        box[1] = max(self.line[k], self.line[i] + least / height)
-        box[2] = high - least / width
-        box[3] = low + least / width
-        if self._is_around(box):
-            return True
-        self.bound.narrow(self.ring, n, self.corner, least, box)
-        if self._is_around(box):
-            return True
-        if not self.bound.is_held(self.xs, self.ys, self.start, self.rings, box, self.half, self.target):
-            return False
-        for side in range(4):
-            self.proven[side] = box[side]
-        return True
-
-    def _is_around(self, box):
-        """Whether a box is around the last one that `TurnBound` proved at this angle."""
-        proven = self.proven
-        return box[0] <= proven[0] and box[1] >= proven[1] and box[2] <= proven[2] and box[3] >= proven[3]
+        if self.half <= _CLOSER and least > 0.0:
+            box = self.box
+            box[0] = min(self.line[i + 1], self.line[k + 1] - least / height)
+            box[1] = max(self.line[k], self.line[i] + least / height)
+            box[2] = high - least / width
+            box[3] = low + least / width
+            self.bound.narrow(self.ring, n, self.corner, least, box)
+            self.bound.clear(self.xs, self.ys, self.start, self.rings, box, self.half, self.target, reach)
+        self.clear_low = min(self.clear_low, reach[0])
+        self.clear_high = min(self.clear_high, reach[1])
 
     def _cut(self, angle):
         """Cut the part, turned back by an angle, into trapezoids; the number of slabs."""

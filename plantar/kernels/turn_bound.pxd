@@ -22,14 +22,17 @@ cdef class TurnBound:
     @cython.locals(side=Py_ssize_t, wide=Py_ssize_t, size=Py_ssize_t, at=double, sign=double, reach=double)
     cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept
 
-    @cython.locals(m=Py_ssize_t, middle=double, most=double)
-    cdef bint is_held(
+    @cython.locals(
+        m=Py_ssize_t, middle=double, lean=double, bend=double, gap=double, beside=double, side=Py_ssize_t,
+        before=double, slope=double, root=double, far=double
+    )
+    cdef void clear(
         self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double half,
-        double target
+        double target, double[::1] reach
     ) noexcept
 
-    @cython.locals(along=double, across=double, lean=double, bend=double)
-    cdef double keeps(self, double[::1] corner, double half) noexcept
+    @cython.locals(along=double, across=double)
+    cdef double lean(self, double[::1] corner) noexcept
 
     @cython.locals(
         line="double[::1]", r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, low=Py_ssize_t, high=Py_ssize_t, dx=double,

@@ -25,15 +25,17 @@ class TurnBound:
 
     A vertex of the outline that stands below Q, and neither left nor right of it at any of the angles, is below every
     such rectangle; likewise on the other sides. An edge that runs from beside Q to below Q holds the corner: no such
-    rectangle crosses its line. So do the edges of a convex chain together. These vertices and lines, a choice of the outline's, leave a problem that is convex at
-    each angle: the largest rectangle in a box whose sides turn about vertices, its corners cut by lines that stand.
+    rectangle crosses its line. So do the edges of a convex chain together. These vertices and lines, a choice of the
+    outline's, leave a problem that is convex at each angle: the largest rectangle in a box whose sides turn about
+    vertices, its corners cut by lines that stand.
 
-    Weak duality bounds it at every angle t by D(t) = (sum l h)^2 / (4 g1 g2): l are the multipliers of the middle angle, changed with t so that
-    they stay in balance, h the levels, g1 and g2 the pushes along the two sides. As for a convex ring (see `any_angle`)
-    |g1'| <= g2 and |g2'| <= g1. Where the sides take up what the lines' pushes change by, the second derivative of log D
-    is at most r^2 + 3, r = w / h + h / w, so less than 2 r^2. Where only lines bear on two opposite sides this is not
-    proven; of 85,000 random problems, these among them, no second difference came above r^2. With the bound's curve
-    and the areas at the middle and at both ends follows the largest area between.
+    Weak duality bounds it at every angle t by D(t) = (sum l h)^2 / (4 g1 g2): l are the multipliers of the middle
+    angle, changed with t so that they stay in balance, h the levels, g1 and g2 the pushes along the two sides. As
+    for a convex ring (see `any_angle`) g1 changes by g2 at most, and g2 by g1. Where the sides take up what the
+    lines' pushes change by, the second derivative of log D is at most r^2 + 3, r = w / h + h / w, so less than 2
+    r^2. Where only lines bear on two opposite sides this is not proven; of 85,000 random problems, these among
+    them, no second difference came above r^2. With the bound's curve and the areas at the middle and a little
+    beside it follows how far from there the target is not reached.
 
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
@@ -83,8 +85,8 @@ class TurnBound:
                     box[side] = at
                     break
 
-    def is_held(self, xs, ys, start, rings, box, half, target):
-        """Whether no rectangle that encloses a box, at an angle within `half`, has more than some area.
+    def clear(self, xs, ys, start, rings, box, half, target, reach):
+        """How far from the middle angle no rectangle that encloses a box has more than some area.
 
         Args:
             xs: Abscissae of the outline's vertices at the middle angle; ys ordinates.
@@ -93,33 +95,36 @@ class TurnBound:
             box: Box Q: x from and to, y from and to.
             half: Half the interval in rad.
             target: The area.
+            reach: Receives the distances in rad towards smaller and towards larger angles, up to `half`; what stands
+                there is the least that is returned.
         """
         if box[0] >= box[1] or box[2] >= box[3]:
-            return False
+            return
         self._find_lines(xs, ys, start, rings, box, math.tan(half) * (1.0 - 1e-9))
         m = start[rings]
         middle = self._room(xs, ys, m, box, half, 0.0)
-        most = target * self.keeps(self.corner, half)
-        return (
-            middle <= most
-            and middle * middle <= most * self._room(xs, ys, m, box, half, -half)
-            and middle * middle <= most * self._room(xs, ys, m, box, half, half)
-        )
+        if not 0.0 < middle < target:
+            return
+        lean = self.lean(self.corner) - half
+        if lean <= 0.0:
+            return
+        bend = 2.0 / math.sin(2.0 * lean)
+        bend *= _BEND * bend
+        gap = math.log(target / middle)
+        beside = 0.125 * half
+        for side in range(2):
+            # The slope is at most what the areas rose by from the other side, and a bit for the bend in between.
+            before = self._room(xs, ys, m, box, half, beside if side == 0 else -beside)
+            slope = math.log(middle / max(1e-300, before)) / beside + 0.5 * bend * beside
+            root = math.sqrt(slope * slope + 2.0 * bend * gap)
+            far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
+            reach[side] = max(reach[side], min(half, far))
 
-    def keeps(self, corner, half):
-        """Share of the target that a rectangle may fill at the middle angle, by how far the bound may bend up from it.
-
-        Args:
-            corner: Corners of the rectangle, its sides along x and y, flat.
-            half: Half the interval in rad.
-        """
+    def lean(self, corner):
+        """Angle between the diagonal and the longer side of a rectangle whose sides are along x and y."""
         along = corner[4] - corner[0]
         across = corner[5] - corner[1]
-        lean = math.atan2(min(along, across), max(along, across)) - half
-        if lean <= 0.0:
-            return 0.0
-        bend = half * 2.0 / math.sin(2.0 * lean)
-        return math.exp(-_BEND * bend * bend)
+        return math.atan2(min(along, across), max(along, across))
 
     def _find_lines(self, xs, ys, start, rings, box, lean):
         """Find the edges that hold a corner, alone or in a convex chain, at every angle of the interval."""
@@ -186,7 +191,7 @@ class TurnBound:
         return False
 
     def _room(self, xs, ys, m, box, half, turn):
-        """Area that vertices and lines leave at one angle, infinite where a side has no vertex; rectangle in `corner`."""
+        """Area that vertices and lines leave at one angle, infinite where it is open; rectangle in `corner`."""
         cosine = math.cos(turn)
         sine = math.sin(turn)
         lean = math.tan(half)

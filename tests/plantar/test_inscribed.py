@@ -21,6 +21,7 @@ from plantar import (
     rectangle_in_outline,
     rectangle_in_outline_any_angle,
 )
+from plantar.bench.soles import contacts
 from plantar.kernels import is_compiled
 from plantar.polygon import area, convex_hull
 
@@ -401,6 +402,49 @@ def test_rectangle_in_outline_at_any_angle_is_the_best_of_a_scan(seed):
     best = max(area(rectangle_in_outline(outline, a)) for a in np.linspace(0.0, math.pi / 2, steps))
     assert area(corners) >= best * (1 - 1e-6)
     assert shapely.Polygon(corners).difference(as_shape(outline)).area <= 1e-12
+
+
+def beaten(outline, known, share=1e-6, most=3000):
+    """Whether a rectangle stands in an outline that is larger by a share: interval by interval of a quarter turn, with
+    nothing but the rectangle at one angle and that one turned by t about its middle holds one of d^2 t less."""
+    reach2 = max(float(((i[0][:, None] - i[0][None]) ** 2).sum(axis=2).max()) for i in outline.islands)
+    target = known * (1.0 + share)
+    open_intervals = [(k * math.pi / 24, (k + 1) * math.pi / 24) for k in range(12)]
+    for _ in range(most):
+        if not open_intervals:
+            return False
+        low, high = open_intervals.pop()
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        found = area(rectangle_in_outline(outline, middle))
+        if found > target:
+            return True
+        safe = (target - found) / reach2
+        if safe < half:
+            open_intervals += [(low, middle - safe), (middle + safe, high)]
+    raise AssertionError("the bound of first order came to no end")
+
+
+@pytest.mark.skipif(not is_compiled("any_angle"), reason="too slow for the interpreted form")
+@pytest.mark.parametrize("size", ["20", "51", "dense"])
+def test_nothing_beats_the_rectangle_at_any_angle(size):
+    for contact in contacts(size)[: 2 if size == "dense" else 6]:
+        outline = concave_outline(contact.layout, contact.active)
+        assert not beaten(outline, area(rectangle_in_outline_any_angle(outline)))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_a_rectangle_whose_area_stays_the_same_over_angles_is_found_in_time(turn):
+    # Three cells in a row: between two angles the largest rectangle turns without changing its area.
+    layout = hex_layout([[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]], angle=turn)
+    row = np.zeros(len(layout), dtype=bool)
+    middle = np.argmin(np.hypot(*layout.positions[:, :2].T))
+    beside = [i for i in layout.neighbours[middle] if i >= 0]
+    row[[middle, beside[0], beside[1]]] = True
+    outline = concave_outline(layout, row)
+    found = area(rectangle_in_outline_any_angle(outline))
+    steps = 400 if is_compiled("any_angle") else 40
+    best = max(area(rectangle_in_outline(outline, a)) for a in np.linspace(0.0, math.pi / 2, steps))
+    assert best * (1 - 1e-6) <= found <= outline.area
 
 
 @given(seeds)
