@@ -12,6 +12,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 KERNELS = sorted(p for p in Path("plantar/kernels").glob("*.pxd") if p.stem != "__init__")
+BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 FLAGS = [] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=off"]
 # Kernels keep their indices in range, never count from the end, and guard each division themselves.
@@ -29,8 +30,12 @@ def extensions() -> list[Extension]:
         Extension(f"plantar.kernels.{p.stem}", [str(p.with_suffix(".py"))], extra_compile_args=FLAGS, optional=True)
         for p in KERNELS
     ]
+    # Kernels that use each other's types do so by relative cimports, which Cython does not follow when it looks for what
+    # has changed.
+    types = max(p.stat().st_mtime for p in KERNELS)
+    stale = any(c.stat().st_mtime < types for c in Path(BUILD, "plantar/kernels").glob("*.c"))
     found: list[Extension] = cythonize(
-        modules, build_dir="build/cython", language_level=3, quiet=True, compiler_directives=DIRECTIVES
+        modules, build_dir=BUILD, language_level=3, quiet=True, compiler_directives=DIRECTIVES, force=stale
     )
     return found
 
