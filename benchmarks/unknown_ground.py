@@ -1,12 +1,14 @@
 """Count what preemptive foot compliance and step feasibility are worth: `python benchmarks/unknown_ground.py`.
 
-Runs every case over its seeds, appends a row a run to benchmarks/unknown_ground.csv (a run that is there already is not
-repeated) and writes the table unknown_ground.md and the bars unknown_ground.png beside it.
+Runs every case over its seeds, appends a row a run to benchmarks/unknown_ground.csv and writes the table
+unknown_ground.md and the bars unknown_ground.png beside it. A run that is there already is not repeated, so a benchmark
+that was stopped goes on where it was; rows of other code than today's are dropped first.
 """
 
 from __future__ import annotations
 
 import csv
+import hashlib
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -15,42 +17,58 @@ from statistics import median
 import numpy as np
 
 FOLDER = Path(__file__).parent
-COLUMNS = ("case", "seed", "completed", "fell", "steps", "impact_mean", "impact_max", "here", "angle_deg", "feasible")
-COLUMNS += ("area_ratio", "moment_Nm", "tilt_deg", "time_s", "rays_skipped", "p99_us")
+COLUMNS = ("code", "case", "seed", "completed", "fell", "steps", "impact_mean", "impact_max", "here", "angle_deg")
+COLUMNS += ("feasible", "area_ratio", "moment_Nm", "tilt_deg", "time_s", "rays_skipped", "p99_us")
 IN_PLACE = "walk.length=0"
 
 # name, scene, settings, seeds
-CASES: list[tuple[str, str, tuple[str, ...], int]] = [
+_ON_BOTH: list[tuple[str, str, tuple[str, ...], int]] = [
     ("feasibility-1, skin", "feasibility-1", (), 20),
     ("feasibility-2, skin", "feasibility-2", (), 20),
     ("feasibility-3, skin", "feasibility-3", (), 20),
     ("feasibility-4, skin", "feasibility-4", (), 20),
     ("obstacle 3 cm, on", "obstacle", (), 20),
     ("obstacle 3 cm, off", "obstacle", ("pfc=false",), 6),
-    ("uneven forward, on", "uneven", (), 1),
-    ("uneven forward, off", "uneven", ("pfc=false",), 1),
-    ("uneven in place, on", "uneven", (IN_PLACE,), 1),
-    ("uneven in place, off", "uneven", (IN_PLACE, "pfc=false"), 1),
-    ("tilt pitch +10", "tilt", ("pitch=10",), 6),
-    ("tilt pitch -10", "tilt", ("pitch=-10",), 6),
-    ("tilt roll +10", "tilt", ("pitch=0", "roll=10"), 6),
-    ("tilt roll -10", "tilt", ("pitch=0", "roll=-10"), 6),
+    ("uneven forward, on", "uneven", (), 20),
+    ("uneven forward, off", "uneven", ("pfc=false",), 6),
+    ("uneven in place, on", "uneven", (IN_PLACE,), 20),
+    ("uneven in place, off", "uneven", (IN_PLACE, "pfc=false"), 6),
+    ("tilt pitch +10", "tilt", ("pitch=10",), 20),
+    ("tilt pitch -10", "tilt", ("pitch=-10",), 20),
+    ("tilt roll +10", "tilt", ("pitch=0", "roll=10"), 20),
+    ("tilt roll -10", "tilt", ("pitch=0", "roll=-10"), 20),
     ("tilt pitch +5", "tilt", ("pitch=5",), 3),
     ("tilt pitch -5", "tilt", ("pitch=-5",), 3),
     ("tilt roll +5", "tilt", ("pitch=0", "roll=5"), 3),
     ("tilt roll -5", "tilt", ("pitch=0", "roll=-5"), 3),
-    ("feasibility-1, force-torque", "feasibility-1", ("feasibility=force_torque",), 3),
-    ("feasibility-2, force-torque", "feasibility-2", ("feasibility=force_torque",), 3),
-    ("feasibility-3, force-torque", "feasibility-3", ("feasibility=force_torque",), 3),
-    ("feasibility-4, force-torque", "feasibility-4", ("feasibility=force_torque",), 3),
+    *[
+        (f"slid in, {way} {sign}{size}", "tilt", (IN_PLACE, "pitch=0", f"{way}={sign}{size}", "slide=0.3"), 3)
+        for way in ("pitch", "roll")
+        for sign in ("+", "-")
+        for size in (5, 10)
+    ],
     ("obstacle 4 cm, on", "obstacle", ("top=0.04", "crouch=0.05"), 4),
     ("obstacle 5 cm, on", "obstacle", ("top=0.05", "crouch=0.05"), 4),
-    ("slid in, roll +5", "tilt", (IN_PLACE, "pitch=0", "roll=5", "slide=0.3"), 3),
-    *[(f"dead taxels {s}", "uneven", ("steps=20", f"dead_taxels={s}"), 1) for s in (0.1, 0.3, 0.5)],
-    *[(f"bias {s} mm", "uneven", ("steps=20", f"proximity_bias={s / 1000}"), 1) for s in (-10, -5, 5, 10)],
-    *[(f"delay {4 * s} ms", "uneven", ("steps=20", f"delay_periods={s}"), 1) for s in (3, 5, 8)],
-    *[(f"noise {s} mm", "uneven", ("steps=20", f"proximity_noise={s / 1000}"), 1) for s in (5, 10)],
+    *[(f"dead taxels {s}", "uneven", ("steps=20", f"dead_taxels={s}"), 3) for s in (0.1, 0.3, 0.5)],
+    *[(f"bias {s} mm", "uneven", ("steps=20", f"proximity_bias={s / 1000}"), 3) for s in (-10, -5, 5, 10)],
+    *[(f"delay {4 * s} ms", "uneven", ("steps=20", f"delay_periods={s}"), 3) for s in (3, 5, 8)],
+    *[(f"noise {s} mm", "uneven", ("steps=20", f"proximity_noise={s / 1000}"), 3) for s in (5, 10)],
 ]
+_FORCE_TORQUE: list[tuple[str, str, tuple[str, ...], int]] = [
+    (f"feasibility-{k}, force-torque", f"feasibility-{k}", ("feasibility=force_torque",), 3) for k in range(1, 5)
+]
+ROBOTS = ("h1", "hrp2kai")
+CASES = [*_ON_BOTH, *_FORCE_TORQUE, *[(f"{n}, hrp2kai", s, o, k) for n, s, o, k in _ON_BOTH]]
+
+
+def code() -> str:
+    """Short hash of the code that a row comes from: whatever walks, senses and simulates, and the scenes and robots."""
+    digest = hashlib.sha1(usedforsecurity=False)
+    for folder in ("gait", "plantar", "sim"):
+        for path in sorted((FOLDER.parent / folder).rglob("*")):
+            if path.suffix in (".py", ".pyx", ".c", ".h", ".toml", ".json"):
+                digest.update(path.read_bytes())
+    return digest.hexdigest()[:10]
 
 
 def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
@@ -59,7 +77,8 @@ def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
     from sim.scene import load_scene
 
     name, scene, settings, seed = job
-    simulation = Simulation(load_scene(scene, settings), seed)
+    robot = ROBOTS[name.endswith(ROBOTS[1])]
+    simulation = Simulation(load_scene(scene, settings, robot), seed)
     out = simulation.run()
     weight = simulation.legs.mass * 9.81
     impact = np.array(out["impacts_N"] or [np.nan]) / weight
@@ -71,6 +90,7 @@ def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
         here = int(near[0]) if len(near) else None
     checks = out.get("feasibility") or [{}]
     return {
+        "code": code(),
         "case": name,
         "seed": seed,
         "completed": int(out["completed"]),
@@ -101,12 +121,15 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 def main(workers: int = 2) -> None:
     """Run what is missing and write the table."""
     path = FOLDER / "unknown_ground.csv"
-    done = {(r["case"], int(r["seed"])) for r in rows_of(path)}
+    today = code()
+    kept = [r for r in rows_of(path) if r.get("code") == today]
+    done = {(r["case"], int(r["seed"])) for r in kept}
     jobs = [(n, s, o, k) for n, s, o, seeds in CASES for k in range(seeds) if (n, k) not in done]
-    with path.open("a", newline="", encoding="utf-8") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        if not done:
-            writer.writeheader()
+        writer.writeheader()
+        writer.writerows(kept)
+        file.flush()
         with ProcessPoolExecutor(workers) as pool:
             for row in pool.map(run, jobs):
                 writer.writerow(row)
@@ -147,7 +170,7 @@ def report(rows: list[dict[str, str]]) -> None:
     shown = [n for n in bars if n.startswith(("uneven", "obstacle 3"))]
     for i, name in enumerate(shown):
         low, mean, high = bars[name]
-        colour = COLOURS["left"] if name.endswith("on") else COLOURS["right"]
+        colour = COLOURS["left"] if ", on" in name else COLOURS["right"]
         axis.bar(i, high - low, bottom=low, color=colour, alpha=0.35)
         axis.plot([i - 0.4, i + 0.4], [mean, mean], color=colour, lw=2.5)
     axis.set_xticks(range(len(shown)), [n.replace(", ", "\n") for n in shown], fontsize=8)

@@ -170,6 +170,7 @@ class SwingCompliance:
         """A swing begins."""
         self._distance[:] = np.inf
         self._readings[:] = 0.0
+        self._read = -math.inf
         self._poses.clear()
         self._rising = True
         self._liftoff = None
@@ -263,8 +264,9 @@ class SwingCompliance:
         if above:
             wanted = max(wanted, crawl)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
+        behind = view.distance - self._aim
         self._aim -= self._speed * period
-        return period * min(g.top_speed, max(-0.1, self._speed + (view.distance - self._aim) / g.correction))
+        return period * min(g.top_speed, max(-0.1, self._speed + behind / g.correction))
 
     def holding(self, since: float) -> float:
         """Force in N that a foot shall carry some time after it touched, until weight is put on it.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -33,7 +35,7 @@ def looked(
     view = None
     for k in range(20):
         reading = distance + rng.normal(0.0, noise, len(distance)) if noise else distance
-        view = compliance.look(percept(reading, 0.005 * k), np.array([0.0, 0.0, 0.03]), np.eye(3))
+        view = compliance.look(percept(reading, 0.005 * k), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.005 * k)
     return view
 
 
@@ -80,17 +82,32 @@ def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
 def test_the_map_moves_with_the_sole_between_readings() -> None:
     compliance = SwingCompliance(LAYOUT, ComplianceGains())
     compliance.begin()
-    compliance.look(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3))
+    compliance.look(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
     blind = Percept(LAYOUT, Reading(time=0.01, force=np.zeros(len(LAYOUT))))
-    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), np.eye(3))
+    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), np.eye(3), 0.01)
     assert view is not None
     assert view.middle == pytest.approx(0.021)
     angle = 0.05
     tilted = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
-    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), tilted)  # toes down
+    view = compliance.look(blind, np.array([0.0, 0.0, 0.021]), tilted, 0.015)  # toes down
     assert view is not None
     assert view.slope is not None
     assert view.slope[0] == pytest.approx(np.tan(angle), rel=0.02)
+
+
+def swung(
+    compliance: SwingCompliance, distance: Callable[[float], NDArray[np.float64]], start: float, age: float = 0.0
+) -> GroundView | None:
+    """A swing from the ground to 20 mm above it and half way down again; readings are as old as `age`."""
+    compliance.begin()
+    view = None
+    heights = [0.02 * np.sin(0.75 * np.pi * max(0.0, k) / 60) for k in range(-10, 61)]
+    late = round(age / PERIOD)
+    for k, height in enumerate(heights):
+        time = start + PERIOD * k
+        seen = percept(distance(heights[max(0, k - late)]), time - PERIOD * late)
+        view = compliance.look(seen, np.array([0.0, 0.0, height]), np.eye(3), time)
+    return view
 
 
 def test_a_bias_is_learned_from_the_touch() -> None:
@@ -98,9 +115,53 @@ def test_a_bias_is_learned_from_the_touch() -> None:
     for _ in range(8):
         compliance.begin()
         for k in range(20):
-            compliance.look(percept(np.full(len(LAYOUT), 0.005), 0.005 * k), np.zeros(3), np.eye(3))
+            compliance.look(percept(np.full(len(LAYOUT), 0.005), 0.005 * k), np.zeros(3), np.eye(3), 0.005 * k)
         compliance.touched()
     assert compliance.bias == pytest.approx(0.005, abs=1e-4)
+
+
+def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.begin()
+    compliance.look(percept(np.full(len(LAYOUT), 0.012)), np.zeros(3), np.eye(3), 0.0)
+    compliance.touched()
+    assert 0.0 < compliance.bias <= 0.0015
+
+
+@pytest.mark.parametrize("bias", [-0.01, -0.005, 0.005, 0.01])
+def test_a_bias_is_learned_where_the_sole_leaves_the_ground(bias: float) -> None:
+    rng = np.random.default_rng(2)
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    swung(compliance, lambda z: z + bias + rng.normal(0.0, 2e-3, len(LAYOUT)), 0.0)
+    assert compliance.bias == pytest.approx(bias, abs=8e-4)
+
+
+def test_ground_that_was_no_plane_teaches_no_bias() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    block = np.where(np.hypot(X - 0.05, Y) < 0.04, 0.0, 0.03)
+    swung(compliance, lambda z: z + block, 0.0)
+    assert compliance.bias == 0.0
+
+
+def test_a_reading_counts_for_when_it_was_taken() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    view = swung(compliance, lambda z: np.full(len(LAYOUT), z), 0.0, age=2 * PERIOD)
+    assert view is not None
+    assert view.distance == pytest.approx(0.02 * np.sin(0.75 * np.pi), abs=1e-4)
+
+
+def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move() -> None:
+    rng = np.random.default_rng(3)
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.begin()
+    views = []
+    for k in range(120):
+        distance = (0.03 if k < 100 else 0.015) + rng.normal(0.0, 2e-3, len(LAYOUT))
+        view = compliance.look(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
+        assert view is not None
+        views.append(view.distance)
+    assert np.ptp(views[60:100]) < 1e-3
+    assert views[100] == pytest.approx(0.015, abs=2.5e-3)
 
 
 @pytest.mark.parametrize("height", [0.06, 0.04, 0.02])
@@ -111,7 +172,7 @@ def test_the_swing_slows_down_and_touches_at_a_crawl(height: float) -> None:
     speeds = []
     for _ in range(400):
         seen = GroundView(height, height, (0.0, 0.0)) if height < gains.sensing_range else None
-        drop = compliance.descent(seen, 0.1, 0.0, False, PERIOD)
+        drop = compliance.descent(seen, 0.1, 0.0, 0.5, PERIOD)
         speeds.append(drop / PERIOD)
         height -= drop
         if height <= 0.0:
@@ -128,7 +189,7 @@ def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
     compliance.begin()
     height = 0.04
     for _ in range(400):
-        height -= compliance.descent(GroundView(height, height, None), 0.1, 0.1, False, PERIOD)
+        height -= compliance.descent(GroundView(height, height, None), 0.1, 0.1, 0.5, PERIOD)
     assert height == pytest.approx(gains.clearance, abs=1e-3)
 
 
@@ -141,9 +202,52 @@ def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     assert compliance.feel(10.0)  # above half the threshold
     load, height = 0.0, 0.001
     for _ in range(800):
-        height -= compliance.yielding(load, gains.hold_force, PERIOD)
+        height -= compliance.yielding(load, gains.hold_force, 0.0, PERIOD)
         load = max(0.0, -2e5 * height)
     assert load == pytest.approx(gains.hold_force, abs=2.0)
+
+
+def test_a_descent_is_over_before_weight_is_put_on_the_foot() -> None:
+    for height in (0.006, 0.012, 0.03):
+        gains = ComplianceGains()
+        compliance = SwingCompliance(LAYOUT, gains)
+        compliance.begin()
+        left, speed = 0.35, 0.0
+        while height > 0.0:
+            drop = compliance.descent(GroundView(height, height, None), 0.1, 0.0, left, PERIOD)
+            speed, height, left = drop / PERIOD, height - drop, left - PERIOD
+        assert 0.0 < left < 0.2
+        assert speed < 1.5 * gains.haste * gains.touch_speed
+
+
+def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:
+    speeds = []
+    for past in (0.0, 0.002, 0.004):
+        compliance = SwingCompliance(LAYOUT, ComplianceGains())
+        compliance.begin()
+        for _ in range(50):
+            drop = compliance.descent(GroundView(-past, -past, None), 0.1, 0.0, 0.5, PERIOD)
+        speeds.append(drop)
+    assert np.diff(speeds).min() > 0.0
+
+
+def test_a_load_is_held_while_the_body_moves_and_grows_gently() -> None:
+    gains = ComplianceGains()
+    compliance = SwingCompliance(LAYOUT, gains)
+    compliance.begin()
+    assert compliance.holding(0.0) == gains.touch_force < compliance.holding(1.0) == gains.hold_force
+    load, height = 20.0, -1e-4
+    for _ in range(400):
+        height += 0.002 * PERIOD - compliance.yielding(load, gains.hold_force, 0.0, PERIOD)
+        load = max(0.0, -2e5 * height)
+    assert load == pytest.approx(gains.hold_force, abs=1.0)
+
+
+def test_a_foot_that_lost_the_ground_comes_back() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.begin()
+    near, far = (compliance.yielding(0.0, 30.0, above, PERIOD) for above in (0.0, 0.0003))
+    assert 0.0 < near < far
 
 
 def test_turning_goes_to_the_slope_at_a_limited_rate() -> None:
