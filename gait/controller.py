@@ -28,9 +28,11 @@ from gait.feasibility import FeasibilityRules
 from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footholds import FootholdFelt, Footholds, middle_of_sole
 from gait.footsteps import Footstep, other_side
+from gait.ground_conformity import ConformityGains, GroundConformity
 from gait.lip import pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
 from gait.posture_compensation import PostureCompensation
+from gait.skin_load import at_its_limit
 from gait.stance_contact import ContactSettings
 from gait.step_guard import StepGuard
 from gait.support_strip import SupportStrip
@@ -67,6 +69,7 @@ class ControllerSettings:
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
         feasibility: Rules of step feasibility, which need compliance; None steps on everything.
+        conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
         lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
@@ -88,6 +91,7 @@ class ControllerSettings:
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     feasibility: FeasibilityRules | None = None
+    conformity: ConformityGains | None = None
     trunk_lean: float = 0.0
     lean_reach: float = 0.053
     alignment_time: float = 0.3
@@ -237,6 +241,21 @@ class WalkingController:
             minimum_load=settings.estimator.minimum_load,
             zmp_offset=settings.gains.zmp_offset,
         )
+        self.conformity: GroundConformity | None = None
+        if settings.conformity is not None:
+            if compliance is None:
+                raise InputError(
+                    "feet that take the ground's shape need preemptive foot compliance; give its gains too"
+                )
+            self.conformity = GroundConformity(
+                settings.conformity,
+                layouts,
+                self.schedule,
+                self.motion,
+                vrp_in_sole,
+                settings.period,
+                turns_stance=not self.balance.wants_feet,
+            )
         self._ground = CoMHeight(float(np.mean([feet[s].z for s in _SIDES])), settings.period)
 
     @property
@@ -260,7 +279,10 @@ class WalkingController:
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out."""
         s = self.settings
-        percepts = {side: Percept(self.layouts[side], sensors.readings[side]) for side in _SIDES}
+        layouts = self.layouts
+        percepts = {
+            side: Percept(layouts[side], at_its_limit(sensors.readings[side], layouts[side])) for side in _SIDES
+        }
         ankles = {
             side: sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])
             for side, sensor in s.ankles.items()
@@ -318,6 +340,8 @@ class WalkingController:
         else:
             actions = {}
             com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
+        if feedback and self.conformity is not None:
+            self.conformity.update(phase, zmp, state, percepts)
         height = self._com_height(phase)
         yaws = [self.motion.footholds[side][1] for side in _SIDES]
         target = np.array([*self._frame.to_command(com), height])

@@ -139,6 +139,20 @@ class FootMotion:
         level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
         return level if self._compliance is None else np.asarray(level @ self._tilts[side])
 
+    def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
+        """Turn the sole of a foot that stands a little further.
+
+        Args:
+            side: Which foot.
+            turn: Turn (2,) about the sole's x and y axes in rad.
+            pivot: Point (2,) in the sole frame in m that keeps its height.
+        """
+        before = self.rotation(side)
+        self._tilts[side] = self._tilts[side] @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
+        rise = float((before - self.rotation(side))[2, :2] @ pivot)
+        position, yaw = self.footholds[side]
+        self.footholds[side] = (position + np.array([0.0, 0.0, rise]), yaw)
+
     def outward_rise(self, side: Side) -> float:
         """Slope in rad across a foot's stand, positive where its outer edge is the higher one."""
         return math.asin(float(self._tilts[side][1, 2])) * (-1.0 if side == "left" else 1.0)

@@ -6,6 +6,8 @@ altogether, and with it 10 mm of the ZMP between two feet.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,7 +16,25 @@ from plantar.clipping import unclipped_mean
 from plantar.layout import SoleLayout
 from plantar.reading import Reading
 
-__all__ = ["SkinLoad"]
+__all__ = ["SkinLoad", "at_its_limit"]
+
+
+def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
+    """A reading whose saturated taxels count with the most that they can measure.
+
+    A taxel at the end of its range says nothing exact, but a foot that stands on one bump carries the body there:
+    leaving that taxel out would make it a foot in the air.
+
+    Args:
+        reading: The sole's reading.
+        layout: The sole.
+
+    Returns:
+        The same reading where no taxel is saturated.
+    """
+    if not (reading.force >= layout.force_limit).any():
+        return reading
+    return replace(reading, force=np.minimum(reading.force, np.nextafter(layout.force_limit, 0.0)))
 
 
 class SkinLoad:

@@ -16,9 +16,11 @@ import numpy as np
 
 from gait.balance_laws import balance_gains
 from gait.controller import Command, ControllerSettings, WalkingController
+from gait.estimator import EstimatorGains
 from gait.feasibility import FeasibilityRules
 from gait.foot_motion import Landing
 from gait.footsteps import Footstep, straight_plan
+from gait.ground_conformity import ConformityGains
 from gait.phases import Timing
 from gait.swing_compliance import ComplianceGains
 from gait.walk_plan import vrp_of_step
@@ -47,6 +49,9 @@ Progress = Callable[[float, str], None]
 
 CONTROL_PERIOD = 0.005
 """Control period of both robots in s."""
+
+_YAW_ON_POINTS = 0.1
+"""Heading correction by the loaded feet in 1/s on bumps: feet turn on their points, which only the gyro shows."""
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _MEMBERS = frozenset(Percept.members())
@@ -110,6 +115,8 @@ class Simulation:
             landing=Landing(approach_height=walk.approach_height, approach_speed=walk.approach_speed),
             compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
             feasibility=self._feasibility(scene),
+            conformity=self._conformity(scene),
+            estimator=EstimatorGains(yaw=_YAW_ON_POINTS) if scene.control.conform else EstimatorGains(),
             gains=balance_gains(robot.balance),
             feedback=scene.control.feedback,
             zmp_source=scene.control.zmp_source,
@@ -152,6 +159,14 @@ class Simulation:
         if not scene.control.pfc:
             raise SceneError(f"control.feasibility is '{scene.control.feasibility}'; allowed: off, or with pfc = true")
         return FeasibilityRules(rule=scene.control.feasibility)
+
+    @staticmethod
+    def _conformity(scene: Scene) -> ConformityGains | None:
+        if not scene.control.conform:
+            return None
+        if not scene.control.pfc:
+            raise SceneError("control.conform is true; allowed: with pfc = true")
+        return ConformityGains()
 
     def _planned_feet(self) -> PlannedFeet:
         """The plan's footprints with their times, which the ground is laid out by."""

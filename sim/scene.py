@@ -139,6 +139,8 @@ class Control:
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
         feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
             "force_torque" (moment at the ankle). Needs pfc.
+        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
+            loaded. For bumps; needs pfc.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
     """
 
@@ -147,6 +149,7 @@ class Control:
     footholds: str = field(default="off", metadata={"choices": ("off", "force", "skin")})
     pfc: bool = False
     feasibility: str = field(default="off", metadata={"choices": ("off", "skin", "force_torque")})
+    conform: bool = False
     skip: str = field(default="auto", metadata={"choices": ("auto", "none")})
 
 

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
-from gait.skin_load import SkinLoad
+from gait.skin_load import SkinLoad, at_its_limit
 from plantar.force import center_of_pressure
 from plantar.layout import SoleLayout
+from plantar.percept import Percept
 from plantar.reading import Reading
 from plantar.tiling import hex_layout
 
@@ -50,3 +51,13 @@ def test_dead_taxels_carry_nothing(sole: SoleLayout) -> None:
     force[:3] = np.nan
     felt = SkinLoad(sole, NOISE, 0.2).update(Reading(0.0, force))
     assert felt.vertical_force == pytest.approx(10.0 * (len(sole) - 3))
+
+
+def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole: SoleLayout) -> None:
+    force = np.zeros(len(sole))
+    force[7] = sole.force_limit
+    held = at_its_limit(Reading(0.0, force), sole)
+    assert Percept(sole, Reading(0.0, force)).vertical_force == 0.0
+    assert Percept(sole, held).vertical_force == pytest.approx(sole.force_limit)
+    sound = Reading(0.0, np.minimum(force, 500.0))
+    assert at_its_limit(sound, sole) is sound

@@ -76,6 +76,17 @@ def test_feasibility_needs_proximity() -> None:
         Simulation(load_scene("feasibility-1", ["pfc=false"]))
 
 
+def test_feet_take_the_shape_of_bumps() -> None:
+    settings = ["steps=8", "slope_range=0"]
+    assert Simulation(load_scene("pebbles", settings), seed=0).run()["completed"]
+    assert Simulation(load_scene("pebbles", [*settings, "conform=false"]), seed=0).run()["fell"]
+
+
+def test_feet_that_take_the_shape_of_the_ground_need_proximity() -> None:
+    with pytest.raises(SceneError, match="pfc"):
+        Simulation(load_scene("flat", ["conform=true"]))
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("scene", ["obstacle", "tilt", *(f"feasibility-{k}" for k in range(1, 5))])

@@ -1,0 +1,101 @@
+"""Which cells of a standing sole touch the ground: those that carry, and those that did until the sole turned away.
+
+On bumps a rigid sole rests on three points, and the load is where the ZMP is: with the ZMP near one bump the others
+carry nothing, though they are still there. A cell that has carried therefore counts until the sole's turn since then
+has lifted it off,
+
+    rise_i = (s - s_i) . (r_i - p),
+
+with s the rise of the sole along its axes now, s_i the same when the cell carried last, and p the centre of pressure,
+about which the sole turns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.layout import SoleLayout
+from plantar.polygon import area, closest_point, convex_hull, inner_offset
+from plantar.reading import Reading
+
+__all__ = ["ContactMemory"]
+
+
+class ContactMemory:
+    """Contacts of one foot over its stance.
+
+    Attributes:
+        polygon: Hull (k, 2) of the centres of the cells that touch, in the sole frame in m, counter-clockwise; empty
+            where fewer than three touch.
+
+    Args:
+        layout: The sole.
+        least_force: Running mean in N from which a cell carries.
+        least_share: Share of the foot's load from which it does.
+        smoothing: Share of a new reading in the running mean.
+        gap: Rise in m from which a cell has lifted off.
+        inset: Distance in m that the foot's load shall keep from the polygon's edge.
+        least_area: Area in m^2 of a polygon that is more than a line.
+    """
+
+    def __init__(
+        self,
+        layout: SoleLayout,
+        least_force: float = 8.0,
+        least_share: float = 0.04,
+        smoothing: float = 0.3,
+        gap: float = 0.002,
+        inset: float = 0.015,
+        least_area: float = 6e-4,
+    ) -> None:
+        self._places = layout.positions[:, :2]
+        self._least_force = least_force
+        self._least_share = least_share
+        self._smoothing = smoothing
+        self._gap = gap
+        self._inset = inset
+        self._least_area = least_area
+        self.lift()
+
+    def lift(self) -> None:
+        """The foot is in the air: forget what it touched."""
+        count = len(self._places)
+        self.polygon = np.empty((0, 2))
+        self._mean = np.zeros(count)
+        self._touches = np.zeros(count, dtype=bool)
+        self._slope = np.zeros((count, 2))
+        self._time = -np.inf
+
+    def update(self, reading: Reading, rotation: NDArray[np.float64], center_of_pressure: NDArray[np.float64]) -> None:
+        """Take the latest reading in.
+
+        Args:
+            reading: The sole's latest reading; dead taxels count as unloaded.
+            rotation: Rotation (3, 3) from the sole to the world, as estimated.
+            center_of_pressure: Where the sole's load acts (2,) in the sole frame in m.
+        """
+        slope = rotation[2, :2]
+        if reading.time > self._time:
+            self._time = reading.time
+            self._mean += self._smoothing * (np.nan_to_num(reading.force, nan=0.0, posinf=0.0) - self._mean)
+            carries = self._mean > max(self._least_force, self._least_share * float(self._mean.sum()))
+            self._touches |= carries
+            self._slope[carries] = slope
+        rise = ((slope - self._slope) * (self._places - center_of_pressure)).sum(axis=1)
+        self._touches &= rise < self._gap
+        touching = self._places[self._touches]
+        self.polygon = convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
+
+    def target(self, wanted: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Where the foot can be loaded safely.
+
+        Args:
+            wanted: Where it would best be (2,) in the sole frame in m.
+
+        Returns:
+            The nearest point (2,) well inside the polygon; None while the foot touches at a point or a line.
+        """
+        if len(self.polygon) < 3 or area(self.polygon) < self._least_area:
+            return None
+        return closest_point(inner_offset(self.polygon, self._inset), wanted)

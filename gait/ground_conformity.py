@@ -1,0 +1,227 @@
+"""Feet that take the ground's shape: the commanded sole turns until the ground carries it where it shall be loaded.
+
+A rigid sole comes to rest on three bumps, in an orientation that no sensor saw before. A stiff ankle would keep the
+commanded one and lean the body instead. Each foot therefore turns with its centre of pressure's error (damping control
+of a foot, Caron et al. 2019, per newton of load, so that a foot that has just touched turns as fast as a loaded one):
+
+    w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)].
+
+- A foot that takes the weight over turns until c, a point well inside the contacts found so far and near the sole's
+  middle, is what carries; its centre of pressure keeps its height meanwhile.
+- The foot that carries the body turns until its centre of pressure is the desired ZMP: on three bumps that takes some
+  milliradians, and where the ZMP has to leave the triangle the foot goes on to the next bump.
+- The foot that gives the weight away keeps its orientation.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.contact_memory import ContactMemory
+from gait.estimator import BaseState
+from gait.foot_motion import FootMotion
+from gait.gains import Gains
+from gait.phases import Phase, WalkSchedule
+from plantar.layout import Side, SoleLayout
+from plantar.percept import Percept
+
+__all__ = ["ConformityGains", "FootTurn", "GroundConformity"]
+
+_SIDES: tuple[Side, Side] = ("left", "right")
+_ORIGIN = np.zeros(2)
+
+
+@dataclass(frozen=True)
+class ConformityGains(Gains):
+    """Gains of feet that take the ground's shape.
+
+    Attributes:
+        incoming: k of a foot that takes the weight over in rad/s per m.
+        stance: k of the foot that carries the body in rad/s per m.
+        nearly: Distance in m from its target at which an incoming foot stays as it is.
+        largest_rate: Largest rate of a turn in rad/s.
+        least_load: Vertical force in N from which a centre of pressure means something.
+        incoming_load: Force in N from which an incoming foot turns at its full rate.
+        stance_load: The same of the foot that carries the body.
+        contact_load: Force in N from which contacts decide where an incoming foot shall be loaded.
+        press: Force in N that a landed foot holds before it takes the weight over.
+        boost: How many times faster a stance foot turns that rolls over an edge, so that its load does not move.
+        follows: Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground.
+        watch: Number of control ticks over which that is judged.
+        least_turn: Turn in rad from which it is.
+    """
+
+    CALLED: ClassVar[str] = "conformity gain"
+
+    incoming: float = 4.0
+    stance: float = 3.4
+    nearly: float = 0.01
+    largest_rate: float = 0.6
+    least_load: float = 15.0
+    incoming_load: float = 60.0
+    stance_load: float = 400.0
+    contact_load: float = 120.0
+    press: float = 80.0
+    boost: float = 2.0
+    follows: float = 1.0
+    watch: int = 10
+    least_turn: float = 0.002
+
+
+class FootTurn:
+    """How one foot turns.
+
+    Args:
+        gains: The gains.
+        period: Control period in s.
+    """
+
+    def __init__(self, gains: ConformityGains, period: float) -> None:
+        self.gains = gains
+        self.period = period
+        self._past: deque[tuple[NDArray[np.float64], float]] = deque(maxlen=max(1, int(gains.watch)))
+
+    def lift(self) -> None:
+        """The foot is in the air."""
+        self._past.clear()
+
+    def hold(self, center_of_pressure: NDArray[np.float64]) -> None:
+        """One control tick without a turn.
+
+        Args:
+            center_of_pressure: Where the load acts (2,) in the sole frame in m.
+        """
+        self._past.append((center_of_pressure.copy(), 0.0))
+
+    def incoming(
+        self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One control tick of a foot that takes the weight over.
+
+        Args:
+            load: Vertical force on it in N.
+            center_of_pressure: Where that acts (2,) in the sole frame in m.
+            target: Where it shall act (2,) in the sole frame in m.
+
+        Returns:
+            Turn (2,) about the sole's x and y axes in rad.
+        """
+        g = self.gains
+        away = math.dist(center_of_pressure, target)
+        if away <= g.nearly:
+            self.hold(center_of_pressure)
+            return np.zeros(2)
+        rate = g.incoming * (1.0 - g.nearly / away) * min(1.0, load / g.incoming_load)
+        return self._turn(rate, center_of_pressure, target)
+
+    def stance(
+        self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """One control tick of the foot that carries the body; arguments and result as of `incoming`."""
+        g = self.gains
+        rate = g.stance * min(1.0, load / g.stance_load)
+        if self._rolls(center_of_pressure, target):
+            rate *= g.boost
+        return self._turn(rate, center_of_pressure, target)
+
+    def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
+        """Whether the turns of the last ticks have not moved the centre of pressure."""
+        g, past = self.gains, self._past
+        away = math.dist(center_of_pressure, target)
+        if len(past) < max(1, int(g.watch)) or away <= g.nearly:
+            return False
+        turned = sum(turn for _, turn in past)
+        moved = float((past[0][0] - center_of_pressure) @ (center_of_pressure - target)) / away
+        return turned > g.least_turn and moved < g.follows * turned
+
+    def _turn(
+        self, rate: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        dx, dy = (center_of_pressure - target).tolist()
+        speed = min(self.gains.largest_rate, rate * math.hypot(dx, dy))
+        away = math.hypot(dx, dy)
+        self._past.append((center_of_pressure.copy(), self.period * speed))
+        if away == 0.0:
+            return np.zeros(2)
+        return self.period * speed / away * np.array([dy, -dx])
+
+
+class GroundConformity:
+    """Both feet of a walk.
+
+    Args:
+        gains: The gains.
+        layouts: Sole layout of each side.
+        schedule: The walk's phases.
+        motion: Motion of the feet, whose standing soles it turns.
+        middles: Where each whole sole would best be loaded (2,) in its frame in m.
+        period: Control period in s.
+        turns_stance: Whether it turns the foot that carries the body, too; not where the balance law does.
+    """
+
+    def __init__(
+        self,
+        gains: ConformityGains,
+        layouts: Mapping[Side, SoleLayout],
+        schedule: WalkSchedule,
+        motion: FootMotion,
+        middles: Mapping[Side, NDArray[np.float64]],
+        period: float,
+        turns_stance: bool = True,
+    ) -> None:
+        self.gains = gains
+        self.turns_stance = turns_stance
+        self._schedule = schedule
+        self._motion = motion
+        self._middles = middles
+        self._turns = {side: FootTurn(gains, period) for side in _SIDES}
+        self._contacts = {side: ContactMemory(layouts[side]) for side in _SIDES}
+        self._targets = {side: middles[side] for side in _SIDES}
+
+    def update(
+        self, phase: Phase, zmp_desired: NDArray[np.float64], state: BaseState, percepts: Mapping[Side, Percept]
+    ) -> None:
+        """One control tick: turn the soles that stand.
+
+        Args:
+            phase: Phase of the walk.
+            zmp_desired: Desired ZMP (2,) in the world in m.
+            state: Estimated state.
+            percepts: What each sole feels.
+        """
+        self._motion.press = self.gains.press
+        for side in _SIDES:
+            turns, contacts = self._turns[side], self._contacts[side]
+            if phase.swing == side and not self._motion.landed:
+                turns.lift()
+                contacts.lift()
+                self._targets[side] = self._middles[side]
+                continue
+            load, cop = state.loads[side], percepts[side].position_cop_in_sole
+            if cop is None or load < self.gains.least_load:
+                continue
+            position, rotation = state.positions_sole[side], state.rotations_sole[side]
+            contacts.update(percepts[side].reading, rotation, cop)
+            if phase.stance == side:
+                if self.turns_stance:
+                    target = rotation[:2, :2].T @ (zmp_desired - position[:2])
+                    self._motion.turn_standing(side, turns.stance(load, cop, target), _ORIGIN)
+            elif self._comes_in(side, phase):
+                found = contacts.target(self._middles[side]) if load > self.gains.contact_load else None
+                if found is not None:
+                    self._targets[side] = found
+                self._motion.turn_standing(side, turns.incoming(load, cop, self._targets[side]), cop)
+            else:
+                turns.hold(cop)
+
+    def _comes_in(self, side: Side, phase: Phase) -> bool:
+        """Whether a standing foot takes the weight over now: not at the two ends of the walk."""
+        steps = self._schedule.steps
+        return 0 < phase.step < len(steps) and (phase.swing == side or steps[phase.step].side != side)

@@ -1,0 +1,68 @@
+"""Contacts of a sole on bumps: remembered while the load wanders, forgotten once the sole has turned away."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.contact_memory import ContactMemory
+from gait.estimator import rotation_from_vector
+from plantar.layout import SoleLayout
+from plantar.polygon import area, signed_margin
+from plantar.reading import Reading
+from plantar.tiling import hex_layout
+
+BUMPS = ((-0.07, 0.04), (0.08, 0.05), (0.02, -0.06))
+
+
+@pytest.fixture(scope="module")
+def sole() -> SoleLayout:
+    return hex_layout([[-0.11, -0.08], [0.11, -0.08], [0.11, 0.08], [-0.11, 0.08]])
+
+
+def stand(memory: ContactMemory, sole: SoleLayout, loads: tuple[float, ...], start: float, turn: float = 0.0) -> None:
+    """Forty milliseconds on the bumps with given loads, the left edge `turn` rad higher."""
+    force = np.zeros(len(sole))
+    for (x, y), load in zip(BUMPS, loads, strict=True):
+        force[int(np.argmin(np.hypot(sole.positions[:, 0] - x, sole.positions[:, 1] - y)))] += load
+    cop = force @ sole.positions[:, :2] / force.sum()
+    rotation = rotation_from_vector(np.array([turn, 0.0, 0.0]))
+    for k in range(10):
+        memory.update(Reading(start + 0.004 * k, force), rotation, cop)
+
+
+def test_a_bump_without_load_is_still_there(sole: SoleLayout) -> None:
+    memory = ContactMemory(sole)
+    stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
+    before = memory.polygon
+    assert area(before) == pytest.approx(0.0076, abs=0.002)
+    stand(memory, sole, (800.0, 0.0, 0.0), 0.1)
+    assert memory.polygon == pytest.approx(before)
+
+
+def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole: SoleLayout) -> None:
+    memory = ContactMemory(sole)
+    stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
+    stand(memory, sole, (0.0, 0.0, 800.0), 0.1)
+    assert len(memory.polygon) >= 3
+    stand(memory, sole, (0.0, 0.0, 800.0), 0.2, turn=0.05)  # the left edge rises by 5 mm
+    assert len(memory.polygon) == 0
+    assert memory.target(np.zeros(2)) is None
+
+
+def test_the_load_shall_be_near_the_wanted_place_and_well_inside(sole: SoleLayout) -> None:
+    memory = ContactMemory(sole)
+    stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
+    inside = memory.target(np.array([0.01, 0.01]))
+    assert inside == pytest.approx([0.01, 0.01])
+    held = memory.target(np.array([-0.1, -0.07]))
+    assert held is not None
+    assert signed_margin(memory.polygon, held) == pytest.approx(0.015, abs=1e-6)
+
+
+def test_a_line_of_bumps_is_no_place_to_stand(sole: SoleLayout) -> None:
+    memory = ContactMemory(sole)
+    stand(memory, sole, (250.0, 250.0, 0.0), 0.0)
+    assert memory.target(np.zeros(2)) is None
+    memory.lift()
+    assert len(memory.polygon) == 0

@@ -1,0 +1,73 @@
+"""A foot that takes the ground's shape, on ground made of springs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.foot_motion import FootMotion, Landing
+from gait.footsteps import straight_plan
+from gait.ground_conformity import ConformityGains, FootTurn
+from gait.phases import Timing, WalkSchedule
+from gait.swing_compliance import ComplianceGains, SwingCompliance
+from plantar.errors import InputError
+from plantar.tiling import hex_layout
+
+PERIOD = 0.005
+GAINS = ConformityGains()
+
+
+def test_an_incoming_sole_on_its_toes_turns_its_heel_down_at_any_load() -> None:
+    slow, fast = (
+        FootTurn(GAINS, PERIOD).incoming(load, np.array([0.1, 0.0]), np.zeros(2)) for load in (GAINS.incoming_load, 600)
+    )
+    assert slow == pytest.approx(fast)
+    assert slow[0] == 0.0
+    assert slow[1] < 0.0  # about +y the toes go down
+    assert FootTurn(GAINS, PERIOD).incoming(300.0, np.array([0.005, 0.005]), np.zeros(2)) == pytest.approx([0.0, 0.0])
+
+
+def test_a_foot_rolls_from_a_bump_onto_the_next_ones() -> None:
+    """One bump 70 mm in front of the target carries until the sole has turned by 50 mrad; then its load can move."""
+    foot, tilt, stiff = FootTurn(GAINS, PERIOD), 0.05, 9.5  # rad; m of the load's place for each rad beyond contact
+    for _ in range(80):
+        x = 0.07 if tilt > 0.0 else max(-0.05, 0.07 + stiff * tilt)
+        tilt += float(foot.incoming(200.0, np.array([x, 0.0]), np.zeros(2))[1])
+    assert -0.01 < tilt <= 0.0
+    assert abs(x) <= GAINS.nearly + 0.002
+
+
+def test_a_stance_foot_brings_its_load_where_it_is_wanted() -> None:
+    foot, tilt = FootTurn(GAINS, PERIOD), 0.0
+    track = []
+    for _ in range(100):
+        cop = np.array([0.02 + 9.5 * tilt, 0.0])
+        tilt += float(foot.stance(840.0, cop, np.array([-0.01, 0.0]))[1])
+        track.append(float(cop[0]))
+    assert track[-1] == pytest.approx(-0.01, abs=1e-4)
+    assert min(track) > -0.012  # does not swing over
+
+
+def test_a_stance_foot_that_rolls_over_an_edge_turns_faster() -> None:
+    foot, stuck = FootTurn(GAINS, PERIOD), np.array([0.05, 0.02])
+    turns = [float(np.hypot(*foot.stance(840.0, stuck, np.array([0.02, 0.0])))) for _ in range(30)]
+    assert turns[-1] == pytest.approx(GAINS.boost * turns[0])
+    assert max(turns) <= GAINS.largest_rate * PERIOD + 1e-12
+
+
+def test_a_standing_sole_turns_about_what_carries_it() -> None:
+    feet, steps = straight_plan(2)
+    layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
+    compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+    motion = FootMotion(feet, WalkSchedule(steps, Timing()), PERIOD, 0.05, Landing(), compliance)
+    pivot, before = np.array([0.1, -0.04]), motion.footholds["left"][0].copy()
+    motion.turn_standing("left", np.array([0.02, -0.03]), pivot)
+    height = motion.footholds["left"][0][2] + float(motion.rotation("left")[2, :2] @ pivot)
+    assert height == pytest.approx(before[2], abs=1e-12)
+    assert motion.rotation("left")[2, 0] == pytest.approx(0.03, abs=1e-3)  # toes up
+    assert (motion.footholds["left"][0][:2] == before[:2]).all()
+
+
+def test_a_gain_below_zero_is_refused() -> None:
+    with pytest.raises(InputError, match="conformity gain 'stance'"):
+        ConformityGains(stance=-1.0)
