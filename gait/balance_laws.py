@@ -29,20 +29,25 @@ def balance_gains(table: Mapping[str, Any]) -> Gains:
         The gains; their class is that of the law.
 
     Raises:
-        InputError: If the law is unknown or a gain not allowed.
+        InputError: If the law or one of its gains is unknown, or a gain not allowed.
 
     Example:
         >>> balance_gains({"law": "com_admittance", "dcm_gain": 3.0}).dcm_gain
         3.0
     """
     law = table.get("law", LAWS[0])
-    if law == "com_admittance":
-        return BalanceGains.from_table(table)
+    if law not in LAWS:
+        raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
+    kind: type[BalanceGains] | type[WrenchBalanceGains] = BalanceGains
     if law == "wrench_distribution":
         from gait.wrench_balance import WrenchBalanceGains
 
-        return WrenchBalanceGains.from_table(table)
-    raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
+        kind = WrenchBalanceGains
+    known = kind.names()
+    for key in table:
+        if key != "law" and key not in known:
+            raise InputError(f"[balance] has an unknown key '{key}'; allowed with law '{law}': law, {', '.join(known)}")
+    return kind.from_table(table)
 
 
 def balance_law(gains: Gains, omega: float, mass: float, period: float) -> BalanceLaw:

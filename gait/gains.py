@@ -50,5 +50,10 @@ class Gains:
         return cls(**{k: v for k, v in table.items() if k in cls._numbers()})
 
     @classmethod
+    def names(cls) -> list[str]:
+        """Names of the numbers that a table may give."""
+        return cls._numbers()
+
+    @classmethod
     def _numbers(cls) -> list[str]:
         return [item.name for item in fields(cls) if item.default is not MISSING]

@@ -64,6 +64,11 @@ class WrenchBalanceGains(Gains):
         """Gains of the law and of the feet's admittance from the keys that name one; other keys are left alone."""
         return replace(super().from_table(table), feet=AdmittanceGains.from_table(table))
 
+    @classmethod
+    def names(cls) -> list[str]:
+        """Names of the numbers of the law, and of those of the feet's admittance, that a table may give."""
+        return [*super().names(), *AdmittanceGains.names()]
+
 
 class WrenchBalance:
     """DCM feedback, wrench distribution and foot admittance.

@@ -190,7 +190,7 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
         8
     """
     try:
-        source = json.loads(Path(path).read_text(encoding="utf-8"))
+        source = json.loads(Path(path).read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise LayoutError(f"{path}: cannot be read ({error.strerror})") from None
     except (ValueError, RecursionError) as error:

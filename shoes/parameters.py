@@ -212,7 +212,7 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
     if file.suffix.lower() not in (".json", ".toml"):
         raise InputError(f"parameter file {file} ends in '{file.suffix}'; allowed: .json, .toml")
     try:
-        text = file.read_text(encoding="utf-8")
+        text = file.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "not a text file"
         raise InputError(f"parameter file {file} cannot be read ({reason})") from None

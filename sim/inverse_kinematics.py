@@ -34,7 +34,9 @@ class LegModel:
         ids = [model.joint(name).id for name in joints]
         self._qpos = np.array([model.jnt_qposadr[i] for i in ids])
         self._dof = np.array([model.jnt_dofadr[i] for i in ids])
-        self._lower, self._upper = model.jnt_range[ids, 0].copy(), model.jnt_range[ids, 1].copy()
+        free = model.jnt_limited[ids] == 0  # a joint without limits has the range 0 to 0 in the model
+        self._lower = np.where(free, -np.inf, model.jnt_range[ids, 0])
+        self._upper = np.where(free, np.inf, model.jnt_range[ids, 1])
         self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in _SIDES}
         self._torso = model.body(torso).id
         self._root = model.body_rootid[self._torso]

@@ -40,7 +40,7 @@ from sim.sensors import SensorSuite, ankle_sensors
 from sim.servos import LegServos
 from sim.standing import stand
 from sim.terrain import Footprint, PlannedFeet
-from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world
+from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world, check_stable
 from sim.zmp_comparison import ZmpComparison
 
 __all__ = ["Simulation", "run_scene"]
@@ -201,6 +201,9 @@ class Simulation:
 
         Returns:
             The summary (see DESIGN: `plantar sim --json`).
+
+        Raises:
+            SceneError: If the simulated physics becomes unstable.
         """
         with ExitStack() as stack:
             log = film = None
@@ -225,6 +228,7 @@ class Simulation:
                 if log is not None:
                     log.skin(sensors.readings)
             if k % _EVERY == 0:
+                check_stable(data)
                 reading = sensors.sample_body()
                 start = clock.perf_counter()
                 command = controller.step(reading)

@@ -293,7 +293,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
         if os.sep in str(name) or not path.is_file():
             raise SceneError(f"unknown scene '{name}'; allowed: {', '.join(builtin_scenes())}, or a scene .toml file")
     try:
-        source = tomllib.loads(path.read_text(encoding="utf-8"))
+        source = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise SceneError(f"scene file {path} is not valid TOML: {error}") from None
     source = override(source, settings)

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from gait.footsteps import Footstep
 from gait.lip import GRAVITY
-from plantar.errors import SceneError
+from plantar.errors import RobotError, SceneError
 from plantar.layout import Side
 from sim.inverse_kinematics import LegModel
 from sim.servos import LegServos
-from sim.world import PHYSICS_PERIOD, World
+from sim.world import PHYSICS_PERIOD, World, check_stable
 
 __all__ = ["stand"]
 
@@ -41,9 +41,16 @@ def stand(
         com_height: CoM height above the soles in m.
 
     Raises:
-        SceneError: If the legs cannot reach that stance.
+        RobotError: If the left foot is to the right of the other.
+        SceneError: If the legs cannot reach that stance, or the physics becomes unstable in it.
     """
     posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
+    stands = legs.posture(posture).positions
+    if not stands["left"][1] > stands["right"][1]:
+        raise RobotError(
+            f"robot '{world.robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
+            "x points forward, y to the left"
+        )
     ground = float(np.mean([feet[s].z for s in _SIDES]))
     middle = np.mean([centers[s] for s in _SIDES], axis=0)
     com = np.array([middle[0], middle[1], ground + com_height])
@@ -61,7 +68,8 @@ def stand(
     if not error < 1e-6:
         raise SceneError(
             f"robot '{world.robot.name}' cannot stand with its CoM at {com_height:.3f} m and feet "
-            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart"
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart; "
+            "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
         )
     half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
     torques = legs.static_torques(dict.fromkeys(_SIDES, half), {s: np.array([*centers[s], ground]) for s in _SIDES})
@@ -71,4 +79,5 @@ def stand(
     data.time = -_SETTLING
     servos.start(joints, torques)
     mujoco.mj_step(world.model, data, round(_SETTLING / PHYSICS_PERIOD))
+    check_stable(data)
     data.time = 0.0

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import RobotError
+from plantar.errors import RobotError, SceneError
 from plantar.layout import Side
 from sim.inverse_kinematics import LegModel
 from sim.robots.biped import biped_mjcf
@@ -18,12 +18,18 @@ from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
 from sim.terrain import GROUND_GROUP, Ground, Solid
 
-__all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "robot_spec"]
+__all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "check_stable", "robot_spec"]
 
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s."""
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_DIVERGED = (
+    mujoco.mjtWarning.mjWARN_BADQPOS,
+    mujoco.mjtWarning.mjWARN_BADQVEL,
+    mujoco.mjtWarning.mjWARN_BADQACC,
+    mujoco.mjtWarning.mjWARN_BADCTRL,
+)
 
 
 def robot_spec(robot: Robot) -> Any:
@@ -35,6 +41,7 @@ def robot_spec(robot: Robot) -> Any:
     Raises:
         RobotError: If the model cannot be read.
     """
+    mujoco.set_mju_user_warning(_quiet)
     if robot.biped is not None:
         center, half = robot.sole_rectangle("left")
         text = biped_mjcf(
@@ -52,9 +59,44 @@ def robot_spec(robot: Robot) -> Any:
     return spec_from_file(robot)
 
 
+def _quiet(text: str) -> None:
+    """MuJoCo's warnings go nowhere: by itself it prints each and writes MUJOCO_LOG.TXT into the working directory.
+
+    What matters of them is asked for: a model that cannot be read raises, and see `check_stable`.
+    """
+
+
+def check_stable(data: Any) -> None:
+    """Refuse to go on where MuJoCo found the state diverged, which it answers by starting anew from the model's pose.
+
+    Args:
+        data: The state.
+
+    Raises:
+        SceneError: If positions, velocities, accelerations or controls were not finite or too large.
+    """
+    if any(data.warning[kind].number for kind in _DIVERGED):
+        raise SceneError(
+            "the simulated physics became unstable: forces too large for steps of 1 ms; lower the robot's [servo] "
+            "stiffness and damping, or what pushes it"
+        )
+
+
+def _compiled(spec: Any, robot: Robot) -> Any:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        text = " ".join(str(error).split())
+        raise RobotError(f"robot '{robot.name}': its model cannot be simulated: {text}") from None
+
+
 def build_leg_model(robot: Robot) -> LegModel:
-    """Kinematic model of the robot alone, which its controller uses."""
-    model = robot_spec(robot).compile()
+    """Kinematic model of the robot alone, which its controller uses.
+
+    Raises:
+        RobotError: If the model cannot be read or simulated.
+    """
+    model = _compiled(robot_spec(robot), robot)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     return LegModel(model, joints, {s: robot.legs[s].sole_site for s in _SIDES}, robot.torso_body)
 
@@ -168,6 +210,9 @@ def build_world(robot: Robot, ground: Ground) -> World:
 
     Returns:
         The world in its reference configuration; the runner puts the robot on its feet.
+
+    Raises:
+        RobotError: If the model cannot be read or simulated.
     """
     spec = robot_spec(robot)
     spec.option.timestep = PHYSICS_PERIOD
@@ -189,7 +234,7 @@ def build_world(robot: Robot, ground: Ground) -> World:
             geom.solref = [0.005, 1.0]
             geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
             geom.gap = 0.001  # corners that hover by micrometres stay in the contact list
-    model = spec.compile()
+    model = _compiled(spec, robot)
     data = mujoco.MjData(model)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     ids = [model.joint(name).id for name in joints]

@@ -2,7 +2,7 @@
 
 What walks is the same for every robot: a free base, six or more leg joints a side with position servos, a shoe on each
 foot whose contact box is the sole layout's rectangle, and an IMU. Everything else of the file (other joints, actuators,
-sensors, keyframes, contacts) does not take part.
+sensors, keyframes, contacts, gravity and switches of its own simulation) does not take part.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from gait.lip import GRAVITY
 from plantar.errors import RobotError
-from sim.robots.robot import Robot
+from sim.robots.robot import LegNames, Robot
 
 __all__ = ["spec_from_file"]
 
@@ -44,12 +45,19 @@ def spec_from_file(robot: Robot) -> Any:
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators"):
         for element in list(getattr(spec, part)):
             spec.delete(element)
+    # Settings of the file's own simulation: without gravity or contacts nothing would walk.
+    spec.option.gravity = [0.0, 0.0, -GRAVITY]
+    spec.option.density = spec.option.viscosity = 0.0
+    spec.option.disableflags = spec.option.enableflags = 0
+    for body in spec.bodies:
+        body.gravcomp = 0.0
     _free_base(spec, robot)
     _weld_upper_body(spec, robot)
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
     for light in list(spec.lights):
         spec.delete(light)
+    _make_room(spec, robot)
     for side in ("left", "right"):
         _put_on_shoe(spec, robot, side)
         _add_servos(spec, robot, side)
@@ -75,6 +83,8 @@ def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
 def _free_base(spec: Any, robot: Robot) -> None:
     """The root of the torso floats: a free joint is added where the model has none (URDF)."""
     root = _body(spec, robot, robot.torso_body, "[torso] body")
+    if root.parent is None:
+        raise RobotError(f"robot '{robot.name}': [torso] body is '{root.name}', which is no part of the robot")
     while root.parent.name != "world":
         root = root.parent
     if not any(j.type == mujoco.mjtJoint.mjJNT_FREE for j in root.joints):
@@ -96,9 +106,49 @@ def _weld_upper_body(spec: Any, robot: Robot) -> None:
     if missing:
         known = ", ".join(sorted(n for n in names if n))
         raise RobotError(f"robot '{robot.name}': the model has no joint {', '.join(missing)}; it has {known}")
+    for side, leg in robot.legs.items():
+        _check_leg(spec, robot, side, leg)
     for joint in list(spec.joints):
         if joint.name not in legs and joint.type != mujoco.mjtJoint.mjJNT_FREE:
             spec.delete(joint)
+
+
+def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
+    """Refuse joints that do not move the foot, joints that are no hinges, and a torso or IMU that hangs on the leg."""
+    where = f"robot '{robot.name}': [legs.{side}]"
+    foot = _body(spec, robot, leg.foot_body, f"[legs.{side}] foot_body")
+    chain = [j.name for body in reversed(_upwards(foot)) for j in body.joints if j.type != mujoco.mjtJoint.mjJNT_FREE]
+    for name in leg.joints:
+        if name not in chain:
+            raise RobotError(f"{where} joint '{name}' does not move {foot.name}; those that do: {', '.join(chain)}")
+        if spec.joint(name).type != mujoco.mjtJoint.mjJNT_HINGE:
+            raise RobotError(f"{where} joint '{name}' is no hinge; allowed: hinges")
+    site = spec.site(robot.imu_site)
+    for field, body in (("body", spec.body(robot.torso_body)), ("imu_site", None if site is None else site.parent)):
+        moved = [] if body is None else [j.name for b in _upwards(body) for j in b.joints if j.name in leg.joints]
+        if moved:
+            raise RobotError(f"robot '{robot.name}': [torso] {field} hangs on a leg: joint '{moved[0]}' moves it")
+
+
+def _upwards(body: Any) -> list[Any]:
+    """A body and all that it hangs on, without the world."""
+    chain = []
+    while body.parent is not None:
+        chain.append(body)
+        body = body.parent
+    return chain
+
+
+def _make_room(spec: Any, robot: Robot) -> None:
+    """Give another name to what the model calls as the shoes' parts are called."""
+    for side in ("left", "right"):
+        for element in (
+            spec.site(robot.legs[side].sole_site),
+            spec.site(f"{side}_truth_touch"),
+            spec.geom(f"{side}_sole_box"),
+        ):
+            if element is not None:
+                element.name = f"{element.name} of the model"
 
 
 def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
@@ -112,7 +162,7 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
         spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
     mirror = 1.0 if side == "left" else -1.0
     x, y, z = robot.sole_origin
-    shoe = foot.add_body(name=f"{side}_shoe", pos=[x, mirror * y, z])
+    shoe = foot.add_body(pos=[x, mirror * y, z])
     thickness = max(robot.shoe_thickness, 1e-3)
     mass = max(robot.shoe_mass, 1e-3)
     lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness

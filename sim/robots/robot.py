@@ -9,7 +9,7 @@ import json
 import math
 import os
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,28 @@ __all__ = ["FootShape", "LegNames", "Robot", "builtin_robots", "load_robot"]
 
 _FOLDER = Path(__file__).parent
 _SIDES: tuple[Side, ...] = ("left", "right")
+_LEAST_JOINTS = 6  # of a leg: a sole has six degrees of freedom
+_LARGEST_ANGLE = 360.0  # degrees, of a posture
+
+_KEYS: Mapping[str, tuple[str, ...]] = {
+    "model": ("kind", "file"),
+    "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
+    "shoe": ("layout", "origin", "thickness", "mass"),
+    "legs": _SIDES,
+    "torso": ("body", "imu_site"),
+    "posture": _SIDES,
+    "gait": (
+        "com_height",
+        "stance_width",
+        "largest_crouch",
+        "largest_crouch_partial",
+        "trunk_lean",
+        "single_support",
+        "double_support",
+    ),
+    "servo": ("stiffness", "damping", "effort_limits"),
+}
+"""What each table of a robot file may hold; `biped` and `balance` check their own."""
 
 
 @dataclass(frozen=True)
@@ -147,22 +169,25 @@ def _text(source: Mapping[str, Any], key: str, where: str) -> str:
     return value
 
 
-def _number(source: Mapping[str, Any], key: str, where: str, low: float = 0.0, high: float = math.inf) -> float:
+def _number(source: Mapping[str, Any], key: str, where: str, low: float, high: float) -> float:
     value = source.get(key)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:
         raise RobotError(f"{where}: '{key}' is {value!r}; allowed: a number from {low:g} to {high:g}")
     return float(value)
 
 
-def _numbers(source: Mapping[str, Any], key: str, count: int, where: str) -> tuple[float, ...]:
+def _numbers(source: Mapping[str, Any], key: str, count: int, where: str, low: float, high: float) -> tuple[float, ...]:
     value = source.get(key)
-    if (
-        not isinstance(value, list)
-        or len(value) != count
-        or not all(isinstance(v, (int, float)) and math.isfinite(v) for v in value)
-    ):
-        raise RobotError(f"{where}: '{key}' needs {count} finite numbers")
-    return tuple(float(v) for v in value)
+    if not isinstance(value, list) or len(value) != count:
+        raise RobotError(f"{where}: '{key}' is {value!r}; allowed: a list of {count} numbers")
+    return tuple(_number({key: v}, key, where, low, high) for v in value)
+
+
+def _only(source: Mapping[str, Any], allowed: Collection[str], where: str) -> None:
+    """Refuse keys that nobody reads: one that is misspelt would be ignored."""
+    for key in source:
+        if key not in allowed:
+            raise RobotError(f"{where} has an unknown key '{key}'; allowed: {', '.join(allowed)}")
 
 
 def load_robot(name: str | os.PathLike[str]) -> Robot:
@@ -190,7 +215,7 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
         if os.sep in str(name) or not path.is_file():
             raise RobotError(f"unknown robot '{name}'; allowed: {', '.join(builtin_robots())}, or a robot .toml file")
     try:
-        source = tomllib.loads(path.read_text(encoding="utf-8"))
+        source = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise RobotError(f"robot file {path} is not valid TOML: {error}") from None
     return _robot_from(source, path)
@@ -198,18 +223,52 @@ def load_robot(name: str | os.PathLike[str]) -> Robot:
 
 def _foot(table: Mapping[str, Any], where: str) -> FootShape:
     where = f"{where}: [foot]"
-    center = _numbers(table, "sole_center", 2, where)
+    center = _numbers(table, "sole_center", 2, where, -1.0, 1.0)
     return FootShape(
-        _number(table, "foot_length", where),
-        _number(table, "foot_width", where),
+        _number(table, "foot_length", where, 0.01, 1.0),
+        _number(table, "foot_width", where, 0.01, 1.0),
         (center[0], center[1]),
-        _number(table, "corner_radius", where),
-        int(_number(table, "taxels", where, 1)),
+        _number(table, "corner_radius", where, 0.0, 0.5),
+        int(_number(table, "taxels", where, 1, 100000)),
     )
+
+
+def _leg(table: Mapping[str, Any], side: Side, where: str) -> LegNames:
+    _only(table, ("joints", "foot_body", "sole_site"), where)
+    joints = table.get("joints")
+    if not isinstance(joints, list) or not all(isinstance(j, str) for j in joints):
+        raise RobotError(f"{where} joints is {joints!r}; allowed: a list of joint names")
+    if len(joints) < _LEAST_JOINTS:
+        raise RobotError(f"{where} joints names {len(joints)}; allowed: {_LEAST_JOINTS} or more from hip to foot")
+    if len(set(joints)) != len(joints):
+        twice = next(j for j in joints if joints.count(j) > 1)
+        raise RobotError(f"{where} joints names '{twice}' more than once")
+    site = _text({"sole_site": f"{side}_sole", **table}, "sole_site", where)
+    return LegNames(tuple(joints), _text(table, "foot_body", where), site)
+
+
+def _layout_file(shoe: Mapping[str, Any], side: Side, path: Path, where: str) -> Path:
+    return path.parent / _text(shoe, "layout", f"{where}: [shoe]").replace("{side}", side)
+
+
+def _layout(path: Path, side: Side, where: str) -> SoleLayout:
+    try:
+        layout = read_layout(path)
+    except LayoutError as error:
+        raise RobotError(f"{where}: {error}") from None
+    if layout.side != side:
+        raise RobotError(
+            f"{where}: [shoe] layout {path} is of the {layout.side} sole, not the {side} one; "
+            'allowed: a name with {side} in it, as "layout_{side}.json"'
+        )
+    return layout
 
 
 def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
     where = str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'"
+    for key, allowed in _KEYS.items():
+        if key in source:
+            _only(_table(source, key, where), allowed, f"{where}: [{key}]")
     model = _table(source, "model", where)
     kind = _text(model, "kind", where)
     if kind not in ("biped", "mjcf", "urdf"):
@@ -228,30 +287,33 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
     leg_names: dict[str, LegNames] = {}
     angles: dict[str, tuple[float, ...]] = {}
     for side in _SIDES:
-        leg = _table(legs, side, f"{where}: [legs]")
-        joints = leg.get("joints")
-        if not isinstance(joints, list) or not joints or not all(isinstance(j, str) for j in joints):
-            raise RobotError(f"{where}: [legs.{side}] joints is not a list of joint names")
-        leg_names[side] = LegNames(
-            tuple(joints), _text(leg, "foot_body", f"{where}: [legs.{side}]"), str(leg.get("sole_site", f"{side}_sole"))
+        leg_names[side] = _leg(_table(legs, side, f"{where}: [legs]"), side, f"{where}: [legs.{side}]")
+        turns = _numbers(
+            posture, side, len(leg_names[side].joints), f"{where}: [posture]", -_LARGEST_ANGLE, _LARGEST_ANGLE
         )
-        angles[side] = tuple(math.radians(v) for v in _numbers(posture, side, len(joints), f"{where}: [posture]"))
-        try:
-            layouts[side] = read_layout(path.parent / _text(shoe, "layout", f"{where}: [shoe]").format(side=side))
-        except LayoutError as error:
-            raise RobotError(f"{where}: {error}") from None
-    exported = _exported_shoe(path.parent / _text(shoe, "layout", f"{where}: [shoe]").format(side="left"))
+        angles[side] = tuple(math.radians(v) for v in turns)
+        layouts[side] = _layout(_layout_file(shoe, side, path, where), side, where)
+    exported = _exported_shoe(_layout_file(shoe, "left", path, where))
     torso = _table(source, "torso", where)
     servo = _table(source, "servo", where)
     gait = _table(source, "gait", where)
+    shared = set(leg_names["left"].joints) & set(leg_names["right"].joints)
+    if shared:
+        raise RobotError(f"{where}: [legs] both legs name joint '{min(shared)}'; each joint is of one leg")
+    imu_site = _text(torso, "imu_site", f"{where}: [torso]")
+    sites = [imu_site, *(leg.sole_site for leg in leg_names.values())]
+    if len(set(sites)) != len(sites):
+        raise RobotError(f"{where}: the IMU's site and the soles' need different names, not {', '.join(sites)}")
     joints_of_leg = len(leg_names["left"].joints)
     if len(leg_names["right"].joints) != joints_of_leg:
         raise RobotError(f"{where}: [legs] the left leg has {joints_of_leg} joints, the right another number")
-    origin = (0.0, 0.0, 0.0) if biped is not None else _numbers(shoe, "origin", 3, f"{where}: [shoe]")
+    origin = (0.0, 0.0, 0.0) if biped is not None else _numbers(shoe, "origin", 3, f"{where}: [shoe]", -1.0, 1.0)
     efforts: tuple[float, ...] = ()
     if "effort_limits" in servo:
-        efforts = _numbers(servo, "effort_limits", joints_of_leg, f"{where}: [servo]")
+        efforts = _numbers(servo, "effort_limits", joints_of_leg, f"{where}: [servo]", 1e-3, 1e5)
     crouch = _number({"largest_crouch": 0.15, **gait}, "largest_crouch", f"{where}: [gait]", 0.0, 0.5)
+    balance = dict(_table(source, "balance", where))
+    _only(source, ("name", "description", "biped", "balance", *_KEYS), where)
     return Robot(
         name=_text(source, "name", where),
         description=str(source.get("description", "")),
@@ -266,7 +328,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         layouts=layouts,
         legs=leg_names,
         torso_body=_text(torso, "body", f"{where}: [torso]"),
-        imu_site=_text(torso, "imu_site", f"{where}: [torso]"),
+        imu_site=imu_site,
         posture=angles,
         com_height=_number(gait, "com_height", f"{where}: [gait]", 0.05, 5.0),
         stance_width=_number(gait, "stance_width", f"{where}: [gait]", 0.01, 2.0),
@@ -277,9 +339,9 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         trunk_lean=_number({"trunk_lean": 0.0, **gait}, "trunk_lean", f"{where}: [gait]", 0.0, 5.0),
         single_support=_number({"single_support": 0.9, **gait}, "single_support", f"{where}: [gait]", 0.2, 10.0),
         double_support=_number({"double_support": 0.3, **gait}, "double_support", f"{where}: [gait]", 0.02, 10.0),
-        stiffness=_number(servo, "stiffness", f"{where}: [servo]"),
-        damping=_number(servo, "damping", f"{where}: [servo]"),
-        balance=dict(_table(source, "balance", where)),
+        stiffness=_number(servo, "stiffness", f"{where}: [servo]", 1.0, 1e6),
+        damping=_number(servo, "damping", f"{where}: [servo]", 0.0, 1e5),
+        balance=balance,
         path=path,
     )
 
@@ -287,5 +349,5 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
 def _exported_shoe(layout: Path) -> dict[str, Any]:
     """What `plantar shoe` wrote of a shoe beside its layout: mass in kg and thickness in m; a robot's file may say
     otherwise."""
-    found = json.loads(layout.read_text(encoding="utf-8")).get("shoe", {})
+    found = json.loads(layout.read_text(encoding="utf-8-sig")).get("shoe", {})
     return {k: found[k] for k in ("mass", "thickness") if k in found} if isinstance(found, dict) else {}

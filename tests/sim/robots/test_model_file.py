@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.errors import RobotError
+from plantar.errors import RobotError, SceneError
 from shoes import build_shoe, export_shoe, foot_from_mesh
 from sim.robots import load_robot
 from sim.runner import run_scene
@@ -109,6 +110,25 @@ def test_it_walks(own: Path) -> None:
         ('foot_body = "left_foot"', 'foot_body = "left_hoof"', ("left_hoof", "left_foot")),
         ('body = "base"', 'body = "trunk"', ("trunk", "base")),
         ("origin = [0.0, 0.0, -0.129]\n", "", ("origin", "3")),
+        ('"left_knee", ', "", ("[legs.left]", "names 5", "6 or more")),
+        ('"left_knee"', '"left_hip_yaw"', ("[legs.left]", "left_hip_yaw", "more than once")),
+        ('"right_knee"', '"left_knee"', ("both legs", "left_knee")),
+        ('"left_knee"', '"shoulder"', ("[legs.left]", "shoulder", "left_foot", "left_knee")),
+        ('foot_body = "right_foot"', 'foot_body = "left_foot"', ("[legs.right]", "right_hip_yaw", "left_foot")),
+        ('body = "base"', 'body = "world"', ("[torso] body", "world")),
+        ('body = "base"', 'body = "left_shank"', ("[torso] body", "left_knee")),
+        ('imu_site = "imu"', 'imu_site = "left_ankle_force_torque"', ("imu_site", "left_ankle_roll")),
+        ('imu_site = "imu"', 'imu_site = "left_sole"', ("IMU", "left_sole")),
+        ("layout_{side}.json", "layout_left.json", ("layout_left.json", "{side}", "right")),
+        ("layout_{side}.json", "layout_{foot}.json", ("layout_{foot}.json", "cannot be read")),
+        ("stiffness = 8000.0", "stiffness = 0", ("stiffness", "1 to 1e+06")),
+        ("stiffness = 8000.0", "stiffness = inf", ("stiffness", "inf")),
+        ("left = [0.0", "left = [1e9", ("[posture]", "left", "360")),
+        ("left = [0.0", "left = [true", ("[posture]", "left", "True")),
+        ("effort_limits = [51.0", "effort_limits = [-51.0", ("effort_limits", "-51")),
+        ("com_height = 0.80", "com_height = 0.80\nsingle_suport = 0.5", ("[gait]", "single_suport", "single_support")),
+        ('name = "own"', 'name = "own"\nservos = 1', ("servos", "servo")),
+        ("dcm_gain", "dcm_gian", ("[balance]", "dcm_gian", "dcm_gain")),
         ("effort_limits = [51.0, ", "effort_limits = [", ("effort_limits", "6")),
         ("com_height = 0.80", "com_height = 1.20", ("CoM at 1.200",)),
     ],
@@ -128,6 +148,50 @@ def test_a_file_that_is_no_model_is_one_line(own: Path) -> None:
     with pytest.raises(RobotError, match=r"own\.xml") as caught:
         build_world(load_robot(own), Ground((), 0.0, 0.8))
     assert "\n" not in str(caught.value)
+
+
+def test_left_and_right_are_not_mixed_up(own: Path) -> None:
+    swapped = own.read_text().replace('"left_', '"LEFT_').replace('"right_', '"left_').replace('"LEFT_', '"right_')
+    own.write_text(swapped)
+    with pytest.raises(RobotError, match=r"\[legs\.left\] is to the right"):
+        run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
+
+
+def test_unstable_physics_is_an_error_that_leaves_no_log(
+    own: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    own.write_text(own.read_text().replace("dcm_gain = 3.0", "dcm_gain = 1e300"))  # stands, and diverges as it walks
+    with pytest.raises(SceneError, match="unstable"):
+        run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
+    assert capfd.readouterr().err == ""
+    assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
+
+
+def test_a_model_s_own_settings_names_and_unlimited_joints_do_not_matter(own: Path) -> None:
+    model = own.parent / "own.xml"
+    text = model.read_text()
+    plain = build_world(load_robot(own), Ground((), 0.0, 0.8)).model
+    text = text.replace("<worldbody>", '<option gravity="0 0 0"><flag contact="disable"/></option><worldbody>', 1)
+    text = text.replace('name="left_foot"', 'name="left_foot" gravcomp="1"', 1)
+    text = text.replace('<site name="left_ankle_force_torque"', '<site name="left_sole"/>\n\\g', 1).replace(
+        "\\g", '<site name="left_ankle_force_torque"'
+    )
+    model.write_text(re.sub(r' range="[^"]*"', "", text))
+    odd = build_world(load_robot(own), Ground((), 0.0, 0.8)).model
+    assert not odd.jnt_limited.any()
+    assert np.array_equal(odd.opt.gravity, plain.opt.gravity)
+    assert not odd.opt.disableflags
+    assert not odd.body_gravcomp.any()
+    assert odd.site("left_sole").pos == pytest.approx(plain.site("left_sole").pos)
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0"], robot=str(own)))
+    assert summary["completed"], summary
+
+
+def test_a_byte_order_mark_is_no_error(own: Path) -> None:
+    for path in (own, own.parent / "layout_left.json"):
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert load_robot(own).name == "own"
 
 
 def h1_urdf() -> str:
