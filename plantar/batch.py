@@ -153,9 +153,9 @@ def wrenches(
     array = _forces(layout, force)
     if out is None:
         out = np.empty((len(array), 6))
-    elif out.shape != (len(array), 6) or out.dtype != np.float64 or not out.flags.c_contiguous:
+    elif out.shape != (len(array), 6) or out.dtype != np.float64 or not out.flags.carray:
         raise ReadingError(
-            f"out has shape {out.shape}, type {out.dtype}; expected ({len(array)}, 6) contiguous float64"
+            f"out has shape {out.shape}, type {out.dtype}; expected ({len(array)}, 6) contiguous, writeable float64"
         )
     low, high = _limits(layout, threshold)
     for rows, part in _pieces(array):

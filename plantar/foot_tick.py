@@ -66,7 +66,7 @@ def walking_tick(
         What the foot feels.
 
     Raises:
-        ReadingError: If the number of forces is not that of the taxels.
+        ReadingError: If the forces are not numeric, or their number is not that of the taxels.
         InputError: If the offset is below 0 or not a number.
 
     Example:
@@ -78,7 +78,10 @@ def walking_tick(
     """
     if not offset >= 0.0:
         raise InputError(f"offset of the safe polygon is {offset} m; allowed: 0 or more")
-    readings = np.asarray(force, dtype=np.float64)
+    try:
+        readings = np.asarray(force, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ReadingError("forces are not numeric") from None
     if readings.shape != (len(layout.corners),):
         raise ReadingError(f"forces have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
     level = layout.force_threshold if threshold is None else threshold

@@ -187,6 +187,10 @@ def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArra
     if len(forward):  # the mean of the usual steps: times may be rounded to ms, and frames may be lost
         usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
         measured = 1.0 / float(usual.mean())
+    in_order = bool(np.isfinite(time).all() and (steps >= 0.0).all())
+    tied = in_order and measured is not None and float(np.mean(steps == 0.0)) > 0.1
+    if tied and measured:  # a clock that is coarser than the frames: several share a time
+        measured *= len(time) / (len(forward) + 1)
     stated = stated_hz if stated_hz is not None and 0.0 < stated_hz < 1e6 else None
     rate = measured or stated
     if rate is None or not np.isfinite(rate):
@@ -198,6 +202,9 @@ def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArra
     index = np.arange(len(time))
     start = float(np.nanmedian(time - index / rate)) if np.isfinite(time).any() else 0.0
     grid = start + index / rate
+    if tied:
+        warnings.append(f"frames share their times: taken from the rate of {rate:g} Hz")
+        return grid, rate, tuple(warnings)
     off = ~(np.abs(time - grid) <= 0.5 / rate)
     if not off.any() or off.mean() <= 0.01:
         if off.any():

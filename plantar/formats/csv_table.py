@@ -20,7 +20,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.text import number, number_in, open_text, row_of_numbers
+from plantar.formats.text import encoding_of, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.layout import Side
 from plantar.pressure_recording import FootRecording, PressureRecording, sampling
@@ -38,9 +38,10 @@ _BLOCK = 2048
 
 def _recognises(head: bytes) -> bool:
     """Printable lines of which the last whole ones are rows of three numbers or more."""
-    if b"\0" in head.replace(b"\xff\xfe", b"")[:64]:
+    encoding = encoding_of(head)
+    if encoding != "utf-16" and b"\0" in head[:64]:
         return False
-    text = head.decode("latin-1")
+    text = head.decode(encoding, errors="replace")
     lines = [x for x in text.splitlines() if x.strip() and not x.startswith("#")]
     lines = lines[1:-1] if len(lines) > 3 else lines[1:]
     if not lines:
@@ -212,6 +213,12 @@ def _times(
     return sampling(time - (known[0] if len(known) and abs(known[0]) > 1e5 else 0.0), stated)
 
 
+def _name_and_unit(text: str) -> tuple[str, str | None]:
+    """The name of a column without its unit, and that unit, as in "left 12 [kPa]" or "R_3_N"."""
+    unit = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]\s*$", text) or re.search(r"_(kPa|N|Pa|mmHg|psi|raw)$", text)
+    return (text, None) if unit is None else (text[: unit.start()], unit[1])
+
+
 def _feet(
     table: NDArray[np.float64],
     names: list[str],
@@ -223,17 +230,17 @@ def _feet(
     stated = facts.get("unit", facts.get("units"))
     columns: dict[Side | None, list[tuple[int, int | None]]] = {}
     found: list[str] = []
-    for i in cells:
-        name = names[i] if names else ""
-        bracket = re.search(r"[\[(]\s*([^\])]+?)\s*[\])]\s*$", name) or re.search(r"_(kPa|N|Pa|mmHg|psi|raw)$", name)
-        if bracket:
-            found.append(bracket[1])
-            name = name[: bracket.start()]
+    parts = [_name_and_unit(names[i] if names else "") for i in cells]
+    measured = any(find_unit(u) is not None for _, u in parts if u)  # then what is in degrees or g0 is no load
+    for i, (name, unit_of_column) in zip(cells, parts, strict=True):
         last = re.findall(r"\d+", name)
-        if names and not last:
+        foreign = measured and unit_of_column is not None and find_unit(unit_of_column) is None
+        if names and (foreign or not last):
             if name.strip():
                 warnings.append(f"column {names[i]!r} is no cell: left out")
             continue
+        if unit_of_column:
+            found.append(unit_of_column)
         columns.setdefault(side_of(re.sub(r"\d+", " ", name)), []).append((i, int(last[-1]) if last else None))
     unit_text = stated or (max(set(found), key=found.count) if found else None)
     if len({find_unit(u) for u in found}) > 1:

@@ -160,6 +160,10 @@ def test_bad_forces_are_named(force, message):
 def test_other_bad_input_is_named():
     with pytest.raises(ReadingError, match="out has shape"):
         wrenches(SOLE, np.zeros((2, len(SOLE))), out=np.empty((3, 6)))
+    constant = np.empty((2, 6))
+    constant.flags.writeable = False
+    with pytest.raises(ReadingError, match="writeable"):
+        wrenches(SOLE, np.zeros((2, len(SOLE))), out=constant)
     with pytest.raises(ReadingError, match="a block has 0 frames"):
         next(blocks(np.zeros((2, 3)), 0))
     with pytest.raises(ReadingError, match="vertices=True"):

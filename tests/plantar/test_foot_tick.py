@@ -50,6 +50,8 @@ def test_bad_arguments_are_refused():
     layout = SOLES["flat"]
     with pytest.raises(ReadingError, match="forces have shape"):
         walking_tick(layout, [1.0], (0.0, 0.0))
+    with pytest.raises(ReadingError, match="not numeric"):
+        walking_tick(layout, ["much"] * len(layout), (0.0, 0.0))
     for offset in (-0.01, float("nan")):
         with pytest.raises(InputError, match="offset of the safe polygon"):
             walking_tick(layout, np.zeros(len(layout)), (0.0, 0.0), offset)

@@ -126,6 +126,48 @@ def test_missing_values_stay_missing(tmp_path: Path, layout: SoleLayout, values:
     assert "last row is cut short" in text
 
 
+def test_columns_in_other_units_are_no_cells(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "table.csv"
+    columns = both(layout, values) | {
+        "temperature [C]": np.full(50, 25.0),
+        "left acc 1 [m/s2]": np.full(50, 9.8),
+        "left total [N]": values.sum(axis=1),
+    }
+    write_csv(path, columns)
+    found = read_recording(path, options=ReadOptions(layout=layout))
+    assert found.feet["left"].force == pytest.approx(values * 1e3 * layout.areas)
+    assert sum("is no cell" in w for w in found.warnings) == 3
+
+
+def test_a_table_in_utf_16(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "table.csv"
+    write_csv(path, both(layout, values), delimiter="\t")
+    path.write_text(path.read_text(), encoding="utf-16")
+    assert detect_format(path).name == "csv"
+    assert read_recording(path, options=ReadOptions(layout=layout)).feet["left"].force == pytest.approx(
+        values * 1e3 * layout.areas
+    )
+
+
+@pytest.mark.parametrize("decimals", [2, 1])
+def test_times_that_frames_share_do_not_change_the_rate(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray, decimals: int
+) -> None:
+    path = tmp_path / "table.csv"
+    columns = both(layout, values)
+    columns["time [s]"] = np.floor(np.arange(50) / 500.0 * 10**decimals + 1e-9) / 10**decimals  # 500 Hz
+    write_csv(path, columns)
+    if decimals == 1:  # all 50 share one time
+        with pytest.raises(FormatError, match="no times that increase"):
+            read_recording(path, options=ReadOptions(layout=layout))
+        return
+    found = read_recording(path, options=ReadOptions(layout=layout))
+    assert found.rate_hz == pytest.approx(500.0)
+    assert (np.diff(found.time) > 0.0).all()
+    assert found.time[-1] - found.time[0] == pytest.approx(49 / 500.0)
+    assert any("share their times" in w for w in found.warnings)
+
+
 def test_a_table_that_fits_no_layout(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
     path = tmp_path / "walk.csv"
     write_csv(path, {"time": np.arange(50) * 0.01, **{f"left {i} [N]": values[:, i] for i in range(3)}})
