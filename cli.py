@@ -486,6 +486,8 @@ def sweep(
     for point in result["points"]:
         name = " ".join(f"{k}={v}" for k, v in point["settings"].items()) or scene
         print(f"{name}: {point['completed']} of {point['runs']} completed")
+        for error in dict.fromkeys(point["errors"]):
+            print(f"plantar: {name}: {point['errors'].count(error)} run(s) could not be: {error}", file=sys.stderr)
     for name in result["files"]:
         print(f"  {name}")
 

@@ -92,7 +92,8 @@ def foot_from_dimensions(
     low, high = FOOT_LENGTHS
     if not (low <= to_mm(length) <= high and 0.25 * low <= to_mm(width) <= high):
         raise FootError(
-            f"foot of {name} is {length:g} x {width:g} m; allowed: {low / MM_PER_M:g} to {high / MM_PER_M:g} m long"
+            f"foot of {name} is {length:g} x {width:g} m; allowed: {low / MM_PER_M:g} to {high / MM_PER_M:g} m long, "
+            f"{0.25 * low / MM_PER_M:g} to {high / MM_PER_M:g} m wide"
         )
     if not 0.0 <= corner_radius <= 0.5 * min(length, width):
         raise FootError(f"foot of {name}: corner_radius is {corner_radius:g} m; allowed: 0 to half the width")

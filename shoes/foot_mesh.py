@@ -224,7 +224,7 @@ def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: 
             continue
         size = extent * UNIT_SIZE[given]
         if not low <= size <= high:
-            raise FootError(f"{where}: the foot is {size:.4g} mm long (unit {given} {source}); {allowed}")
+            raise FootError(f"{where}: the foot is {size:.6g} mm long (unit {given} {source}); {allowed}")
         return UNIT_SIZE[given], f"unit {given} {source}"
     for guess in ("m", "mm"):
         if low <= extent * UNIT_SIZE[guess] <= high:

@@ -29,6 +29,8 @@ OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")
 _SIZE_MAX = 50_000_000  # bytes
 _DXF_UNITS: dict[int, tuple[Unit, float]] = {1: ("in", 1.0), 4: ("mm", 1.0), 5: ("cm", 1.0), 6: ("m", 1.0)}
 _SVG_UNITS: dict[str, tuple[Unit, float]] = {"mm": ("mm", 1.0), "cm": ("cm", 1.0), "in": ("in", 1.0)}
+_LOOP_MAX = 0.01  # of the enclosed area: a loop where a line's ends overlap, and no more
+_TURN_MAX, _LONG = 10.0, 1.3  # degrees off an axis at which a sole is pointed out that is so much longer than wide
 _FINE = 0.002  # of the drawing's size: how far a curve's chord may lie from it
 
 Lines = list[NDArray[np.float64]]
@@ -59,10 +61,11 @@ def foot_from_drawing(
         raise InputError(f"forward axis is {forward!r}; allowed: {', '.join(AXES[:4])}")
     lines, file_unit, factor = read_outline(path)
     outline = _closed_area(lines, str(path))
+    notes = _what_was_drawn(outline, lines)
     box = outline.bounds
     extent = max(box[2] - box[0], box[3] - box[1]) * factor
     scale, note = unit_scale(extent, unit, file_unit, str(path))
-    notes = [note]
+    notes = [note, *notes]
     axis: Axis = forward or ("y" if box[3] - box[1] > 1.05 * (box[2] - box[0]) else "x")
     if axis != "x":
         given = "as given" if forward else "its longer side"
@@ -131,6 +134,8 @@ def _closed_area(lines: Lines, where: str) -> Any:
     if extent <= 0.0:
         raise FootError(f"{where}: the drawing has no size")
     grid = 1e-4 * extent  # ends of lines that meet are drawn on the same point, about
+    for line in lines:
+        _refuse_crossing(line, grid, where)
     united = shapely.union_all(shapely.set_precision([shapely.LineString(line) for line in lines], grid))
     faces = shapely.polygonize([united])
     area = shapely.union_all([shapely.Polygon(f.exterior) for f in faces.geoms])
@@ -141,6 +146,40 @@ def _closed_area(lines: Lines, where: str) -> Any:
     large = shapely.affinity.scale(area, to_mm, to_mm, origin=(0.0, 0.0))
     one = single_outline(large, large.convex_hull) if large.geom_type != "Polygon" else shapely.Polygon(large.exterior)
     return shapely.affinity.scale(one, 1.0 / to_mm, 1.0 / to_mm, origin=(0.0, 0.0))
+
+
+def _refuse_crossing(line: NDArray[np.float64], grid: float, where: str) -> None:
+    """Refuse a line that crosses itself and encloses two areas or more, as an eight does: no sole is meant by it."""
+    import shapely
+
+    drawn = shapely.LineString(line)
+    if drawn.is_simple:
+        return
+    faces = shapely.polygonize([shapely.union_all(shapely.set_precision([drawn], grid))])
+    areas = sorted(f.area for f in faces.geoms)
+    if len(areas) > 1 and areas[-2] > _LOOP_MAX * sum(areas):
+        raise FootError(f"{where}: the outline crosses itself; draw the outline of the sole as one closed line")
+
+
+def _what_was_drawn(outline: Any, lines: Lines) -> list[str]:
+    """Notes on lines that are left out, and on a sole that lies askew on the sheet."""
+    import shapely
+
+    notes = []
+    extent = max(np.ptp(np.array(outline.exterior.coords), axis=0))
+    within = outline.buffer(-1e-3 * extent)
+    inner = sum(bool(within.contains(shapely.LineString(line))) for line in lines)
+    if inner:
+        notes.append(f"{inner} line(s) within the outline left out: a sole has no holes")
+    corners = np.array(outline.minimum_rotated_rectangle.exterior.coords)[:3]
+    short, long = sorted(np.diff(corners, axis=0), key=lambda side: float(np.hypot(*side)))
+    turn = math.degrees(math.atan2(long[1], long[0])) % 90.0
+    off = min(turn, 90.0 - turn)
+    if off > _TURN_MAX and np.hypot(*long) > _LONG * np.hypot(*short):
+        notes.append(
+            f"the sole lies {off:.0f} degrees askew on the sheet and stays so: turn the drawing if it should not"
+        )
+    return notes
 
 
 def _read_dxf(data: bytes) -> tuple[Lines, Unit | None, float]:
@@ -185,9 +224,9 @@ def _read_geojson(data: bytes) -> tuple[Lines, Unit | None, float]:
             for geometry in item["geometries"]:
                 yield from rings(geometry, depth + 1)
         elif kind == "Polygon":
-            yield [*item["coordinates"][0], item["coordinates"][0][0]]  # a ring that was left open too
+            yield from ([*ring, ring[0]] for ring in item["coordinates"])  # a ring that was left open too
         elif kind == "MultiPolygon":
-            yield from ([*polygon[0], polygon[0][0]] for polygon in item["coordinates"])
+            yield from ([*ring, ring[0]] for polygon in item["coordinates"] for ring in polygon)
         elif kind == "LineString":
             yield item["coordinates"]
         elif kind == "MultiLineString":

@@ -20,6 +20,7 @@ from typing import Any
 
 from plantar.errors import DependencyError, InputError, PlantarError
 from plantar.plotting import COLOURS, new_figure, save_figure
+from sim.robots import load_robot
 from sim.scene import load_scene
 
 __all__ = ["Sweep", "figures_of", "run_one", "run_sweep"]
@@ -73,8 +74,11 @@ class Sweep:
         names = [name for name, _ in self.grid]
         if len(set(names)) != len(names):
             raise InputError(f"a grid names the same key twice: {', '.join(names)}")
+        for name, values in self.grid:
+            if len(set(values)) != len(values):
+                raise InputError(f"a grid gives '{name}' the same value twice: {', '.join(values)}")
         for settings in self.points():  # every point is checked before the first run
-            load_scene(self.scene, [*self.settings, *settings], self.robot)
+            load_robot(load_scene(self.scene, [*self.settings, *settings], self.robot).robot)
 
     @classmethod
     def from_texts(
@@ -95,6 +99,7 @@ class Sweep:
         Raises:
             InputError: If a grid text is not of that form.
             SceneError: If a setting is unknown or not allowed.
+            RobotError: If the robot is unknown or its file not valid.
         """
         axes = []
         for text in grid:
@@ -205,7 +210,8 @@ def run_sweep(
         progress: Called with the fraction done and a text.
 
     Returns:
-        "points": for each grid point its settings, runs and completed; "runs", "resumed", "files".
+        "points": for each grid point its settings, runs, completed, and the errors of runs that could not be; "runs",
+        "resumed", "files".
 
     Raises:
         InputError: If the folder cannot be written, or holds the results of another sweep.
@@ -241,7 +247,8 @@ def run_sweep(
         values = dict(s.split("=", 1) for s in point)
         mine = [r for r in rows if all(r[a] == values[a] for a in axes) and int(r["seed"]) < sweep.seeds]
         completed = sum(r["completed"] == "True" for r in mine)
-        points.append({"settings": values, "runs": len(mine), "completed": completed})
+        errors = [r["error"] for r in mine if r["error"]]
+        points.append({"settings": values, "runs": len(mine), "completed": completed, "errors": errors})
     figure = save_figure(figures_of(points, sweep.scene), folder / "completed.png")
     return {"points": points, "runs": len(open_tasks), "resumed": resumed, "files": [str(path), str(figure)]}
 

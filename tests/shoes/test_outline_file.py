@@ -127,3 +127,40 @@ def test_bad_drawings_are_refused_in_one_line(tmp_path: Path) -> None:
         assert name in str(caught.value)
     with pytest.raises(FootError, match="cannot be read"):
         foot_from_drawing(tmp_path / "missing.svg")
+
+
+@pytest.mark.parametrize("kind", ["svg", "geojson"])
+def test_an_outline_that_crosses_itself_is_refused(tmp_path: Path, kind: str) -> None:
+    eight = [[0, 0], [240, 95], [240, 0], [0, 95]]
+    path = tmp_path / f"eight.{kind}"
+    if kind == "svg":
+        svg(path, f'<polygon points="{" ".join(f"{x},{y}" for x, y in eight)}"/>')
+    else:
+        path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*eight, eight[0]]]}))
+    with pytest.raises(FootError, match="crosses itself"):
+        foot_from_drawing(path)
+
+
+def test_ends_that_overlap_are_no_crossing(tmp_path: Path) -> None:
+    up = " ".join(f"{x},{-y}" for x, y in [*RING, [-60, -41], [-58, -38]])
+    foot = foot_from_drawing(svg(tmp_path / "a.svg", f'<path d="M {up}"/>'))
+    assert foot.sole.symmetric_difference(OUTLINE).area < 100.0
+
+
+def test_holes_are_left_out_aloud(tmp_path: Path) -> None:
+    hole = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    path = tmp_path / "hole.geojson"
+    path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*RING, RING[0]], [*hole, hole[0]]]}))
+    foot = foot_from_drawing(path)
+    assert foot.sole.symmetric_difference(OUTLINE).area < 15.0
+    assert any("1 line(s) within the outline left out" in note for note in foot.notes)
+    assert not any("left out" in note for note in foot_from_drawing(geojson(tmp_path / "a.geojson")).notes)
+
+
+@pytest.mark.parametrize(("turn", "said"), [(0.0, False), (5.0, False), (37.0, True), (90.0, False), (-30.0, True)])
+def test_a_sole_askew_on_the_sheet_is_pointed_out(tmp_path: Path, turn: float, said: bool) -> None:
+    c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    ring = (np.array([[-80, -35], [120, -35], [120, 35], [-80, 35]]) @ np.array([[c, s], [-s, c]])).tolist()
+    path = tmp_path / "turned.geojson"
+    path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*ring, ring[0]]]}))
+    assert any("askew" in note and f"{abs(turn):.0f} degrees" in note for note in foot_from_drawing(path).notes) == said

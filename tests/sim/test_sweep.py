@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from plantar.errors import InputError, SceneError
+from plantar.errors import InputError, RobotError, SceneError
 from sim.sweep import Sweep, run_one, run_sweep
 
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
@@ -53,10 +53,25 @@ def test_a_row_says_what_the_run_said() -> None:
     assert "2 steps" in bad["error"]
 
 
+def test_a_robot_that_is_none_is_refused_before_the_first_run(tmp_path: Path) -> None:
+    with pytest.raises(RobotError, match="unknown robot 'nobody'"):
+        Sweep("flat", (), 1, "nobody", STANDING)
+    with pytest.raises(RobotError, match="unknown robot 'nobody'"):
+        Sweep.from_texts("flat", ["robot=h1,nobody"], 1, None, STANDING)
+
+
+def test_runs_that_could_not_be_say_why(tmp_path: Path) -> None:
+    result = run_sweep(Sweep("push", (), 1, None, ("steps=2", "push.step=7")), tmp_path)
+    (point,) = result["points"]
+    assert (point["runs"], point["completed"]) == (1, 0)
+    assert "2 steps" in point["errors"][0]
+
+
 @pytest.mark.parametrize(
     ("grid", "seeds", "error"),
     [
         (["impulse"], 1, InputError),
+        (["impulse=20,30,20"], 1, InputError),
         (["impulse="], 1, InputError),
         (["nothing=1,2"], 1, SceneError),
         (["impulse=1,x"], 1, SceneError),
