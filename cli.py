@@ -430,6 +430,12 @@ def _print_run(summary: dict[str, Any]) -> None:
         f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan; "
         f"estimated CoM off by at most {1e3 * max(summary['estimate']['com_error_max_m']):.1f} mm"
     )
+    late = summary["out_of_reach_since_s"]
+    if late is not None:
+        print(
+            f"  from {late:.2f} s on the legs did not reach what was asked of them: walk lower (--set crouch=0.05) or "
+            "take shorter steps"
+        )
     balance = summary.get("balance", {})
     if balance.get("pushes"):
         print(

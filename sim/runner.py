@@ -293,6 +293,7 @@ class Simulation:
         balance = {} if self.recovery is None else self.recovery.summary()
         completed = completed and balance.get("recovered", 0) == len(balance.get("pushes", ()))
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
+        late = self.servos.out_of_reach_since
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in _SIDES}
         summary: dict[str, Any] = {
             "scene": self.scene.name,
@@ -313,6 +314,7 @@ class Simulation:
             "contact_area_ratio": [round(x.area / sole[x.side], 3) for x in judge.landings],
             "zmp_margins_m": [round(x.margin, 4) if math.isfinite(x.margin) else None for x in judge.landings],
             "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in judge.landings],
+            "out_of_reach_since_s": None if late is None else round(late, 3),
             "replans": self.controller.replans,
             "control_us": {
                 "p50": round(float(np.percentile(ticks, 50)), 1),

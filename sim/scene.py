@@ -254,7 +254,7 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type]:
     """The dataclass of a scene's terrain, as its section."""
     table = source.get("terrain", {})
     kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
-    if kind not in TERRAIN_KINDS:
+    if not isinstance(kind, str) or kind not in TERRAIN_KINDS:
         raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
     return {"terrain": TERRAIN_KINDS[kind]}
 

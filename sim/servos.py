@@ -13,6 +13,7 @@ from sim.world import PHYSICS_PERIOD, World
 __all__ = ["LegServos"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_REACH_ERROR = 0.02  # m or rad, of a joint solution; the motion of one control period leaves 8 mm
 
 
 class LegServos:
@@ -26,6 +27,9 @@ class LegServos:
         world: The world.
         legs: Kinematics of the robot.
         period: Control period in s.
+
+    Attributes:
+        out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
     """
 
     def __init__(self, world: World, legs: LegModel, period: float) -> None:
@@ -35,6 +39,7 @@ class LegServos:
         self._last: NDArray[np.float64] | None = None
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
+        self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
         """Hold a posture.
@@ -51,12 +56,14 @@ class LegServos:
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad."""
         feet = command.feet
-        joints, _ = self._legs.solve(
+        joints, missed = self._legs.solve(
             command.com,
             command.rotation_torso,
             {side: feet[side].position for side in _SIDES},
             {side: feet[side].rotation for side in _SIDES},
         )
+        if missed > _REACH_ERROR and self.out_of_reach_since is None:
+            self.out_of_reach_since = float(self._world.data.time)
         torques = self._legs.static_torques(
             {side: feet[side].force for side in _SIDES},
             {side: np.array([*feet[side].center_of_pressure, feet[side].position[2]]) for side in _SIDES},

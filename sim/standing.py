@@ -20,6 +20,7 @@ __all__ = ["stand"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _SETTLING = 0.5  # s
+_SINKING_MAX = 0.05  # m, of the base while it settles; soft servos yield by less
 
 
 def stand(
@@ -42,7 +43,8 @@ def stand(
 
     Raises:
         RobotError: If the left foot is to the right of the other.
-        SceneError: If the legs cannot reach that stance, or the physics becomes unstable in it.
+        SceneError: If the legs cannot reach that stance, it does not keep standing there, or the physics becomes
+            unstable.
     """
     posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
     stands = legs.posture(posture).positions
@@ -80,4 +82,11 @@ def stand(
     servos.start(joints, torques)
     mujoco.mj_step(world.model, data, round(_SETTLING / PHYSICS_PERIOD))
     check_stable(data)
+    sunk = float(legs.configuration[2] - data.qpos[2])
+    if abs(sunk) > _SINKING_MAX:
+        raise SceneError(
+            f"robot '{world.robot.name}' does not keep standing: it came to be {abs(sunk):.2f} m "
+            f"{'lower' if sunk > 0.0 else 'higher'} in its first {_SETTLING:g} s; allowed: ground at a height of "
+            f"{ground:g} m (terrain.height) under both feet, and servos that carry the robot"
+        )
     data.time = 0.0

@@ -49,7 +49,7 @@ def _solid(table: Mapping[str, Any], where: str) -> Solid:
     if unknown:
         raise SceneError(f"{where} has an unknown key '{min(unknown)}'; allowed: shape, size, position, angles")
     shape = table.get("shape", "box")
-    if shape not in _SHAPES:
+    if not isinstance(shape, str) or shape not in _SHAPES:
         raise SceneError(f"{where}: shape is {shape!r}; allowed: {', '.join(_SHAPES)}")
     size = _numbers(table.get("size"), _SHAPES[shape], f"{where}: size")
     if not all(0.0 < v <= 100.0 for v in size):
@@ -62,6 +62,6 @@ def _solid(table: Mapping[str, Any], where: str) -> Solid:
 
 def _numbers(value: Any, count: int, where: str) -> tuple[float, ...]:
     good = isinstance(value, list) and len(value) == count
-    if not good or not all(isinstance(v, int | float) and math.isfinite(v) for v in value):
+    if not good or not all(type(v) in (int, float) and math.isfinite(v) for v in value):
         raise SceneError(f"{where} is {value!r}; allowed: {count} finite numbers in [ ]")
     return tuple(float(v) for v in value)

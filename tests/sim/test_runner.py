@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from plantar.errors import SceneError
 from plantar.recording import read_mcap
 from sim.runner import Simulation, run_scene
 from sim.scene import Scene, load_scene
@@ -47,6 +48,7 @@ def test_the_summary_holds_what_the_contract_names(short_run: tuple[dict[str, An
         "impacts_N",
         "contact_area_ratio",
         "replans",
+        "out_of_reach_since_s",
         "control_us",
         "skipped",
     }
@@ -151,3 +153,18 @@ def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace() -> None:
     quicker = run_scene(load_scene("flat", ["steps=2", "settle=0.5", "t_ss=1.0", "t_ds=0.4"], "hrp2kai"), 0)
     assert quicker["completed"]
     assert quicker["landings_s"][1] - quicker["landings_s"][0] == pytest.approx(1.4, abs=0.15)
+
+
+def test_steps_beyond_the_legs_reach_are_pointed_out(short_run: tuple[dict[str, Any], Path]) -> None:
+    assert short_run[0]["out_of_reach_since_s"] is None
+    wide = ["steps=2", "sideways=0.1", "settle=0.5"]
+    late = run_scene(load_scene("flat", wide))["out_of_reach_since_s"]
+    assert 2.2 < late < 4.0  # in the first step, whose foot leads by 0.2 m forward and 0.1 m to the side
+    assert run_scene(load_scene("flat", [*wide, "crouch=0.05"]))["out_of_reach_since_s"] is None
+
+
+@pytest.mark.parametrize(("floor", "words"), [(-2.0, "lower"), (0.5, "higher")])
+def test_ground_that_is_not_under_the_feet_is_an_error(floor: float, words: str) -> None:
+    with pytest.raises(SceneError, match=rf"does not keep standing.* {words} .*height of 0 m") as caught:
+        run_scene(load_scene("flat", ["kind=course", f"floor={floor}", "steps=0"]))
+    assert "\n" not in str(caught.value)

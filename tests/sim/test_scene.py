@@ -66,3 +66,10 @@ def test_a_key_of_two_sections_has_to_say_which() -> None:
     with pytest.raises(SceneError, match=r"allowed: terrain\.step, push\.step"):
         load_scene("partial-rear", ["step=1"])
     assert load_scene("partial-rear", ["push.step=1"]).push.step == 1
+
+
+def test_a_kind_of_ground_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + b'[terrain]\nkind = ["flat"]\n')  # a byte order mark is no error
+    with pytest.raises(SceneError, match=r"terrain\.kind is \['flat'\]; allowed: flat"):
+        load_scene(path)

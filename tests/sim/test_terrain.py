@@ -160,6 +160,8 @@ def test_a_course_is_spelled_out() -> None:
     ("solid", "words"),
     [
         ({"shape": "cone", "size": [1], "position": [0, 0, 0]}, "cone"),
+        ({"shape": ["box"], "size": [1, 1, 1], "position": [0, 0, 0]}, "shape is"),
+        ({"shape": "box", "size": [True, 1, 1], "position": [0, 0, 0]}, "size"),
         ({"shape": "box", "size": [1, 1], "position": [0, 0, 0]}, "size"),
         ({"shape": "box", "size": [1, 1, -1], "position": [0, 0, 0]}, "above 0"),
         ({"shape": "sphere", "size": [1], "position": [0, 0, math.nan]}, "position"),
