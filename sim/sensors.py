@@ -42,6 +42,7 @@ class SensorSuite:
         self._world = world
         self._sensing = sensing
         streams = np.random.SeedSequence([seed, 0x5E]).spawn(7)
+        self._imu_to_base = _imu_to_base(world)
         self._body_noise = np.random.default_rng(streams[2])
         self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
         self.proximity: dict[Side, ProximitySensor] = {}
@@ -103,12 +104,15 @@ class SensorSuite:
         k = len(w.joint_qpos)
         noise = rng.standard_normal(k + 6)
         data = w.data
+        gyro = data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3]
+        specific = data.sensordata[w.accelerometer : w.accelerometer + 3] + s.accelerometer_noise * noise[k + 3 :]
+        if self._imu_to_base is not None:
+            gyro, specific = self._imu_to_base @ gyro, self._imu_to_base @ specific
         return Sensors(
             time=float(data.time),
             joint_positions=data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k],
-            gyro=data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3],
-            accelerometer=data.sensordata[w.accelerometer : w.accelerometer + 3]
-            + s.accelerometer_noise * noise[k + 3 :],
+            gyro=gyro,
+            accelerometer=specific,
             readings=dict(self.readings),
             ankles=self._sample_ankles(),
         )
@@ -127,6 +131,16 @@ class SensorSuite:
             row[3:] -= data[torque : torque + 3]
             wrenches[side] = row
         return wrenches
+
+
+def _imu_to_base(world: World) -> NDArray[np.float64] | None:
+    """Rotation (3, 3) from the frame that the IMU is mounted in to that of the base; None where they are the same."""
+    model = world.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    base = data.xmat[model.body_rootid[world.torso]].reshape(3, 3)
+    rotation = base.T @ data.site(world.robot.imu_site).xmat.reshape(3, 3)
+    return None if np.allclose(rotation, np.eye(3), atol=1e-9) else rotation
 
 
 def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:

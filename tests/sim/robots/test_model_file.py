@@ -188,6 +188,16 @@ def test_a_model_s_own_settings_names_and_unlimited_joints_do_not_matter(own: Pa
     assert summary["completed"], summary
 
 
+def test_an_imu_may_be_mounted_any_way_round(own: Path) -> None:
+    model = own.parent / "own.xml"
+    text = model.read_text()
+    assert '<site name="imu"' in text
+    model.write_text(text.replace('<site name="imu"', '<site name="imu" quat="0 0.6 0.8 0"'))
+    summary = run_scene(load_scene("flat", ["steps=2", "settle=1.0"], robot=str(own)))
+    assert summary["completed"], summary
+    assert summary["tilt_max_deg"] < 1.5
+
+
 def test_a_byte_order_mark_is_no_error(own: Path) -> None:
     for path in (own, own.parent / "layout_left.json"):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
