@@ -30,8 +30,8 @@ def extensions() -> list[Extension]:
         Extension(f"plantar.kernels.{p.stem}", [str(p.with_suffix(".py"))], extra_compile_args=FLAGS, optional=True)
         for p in KERNELS
     ]
-    # Kernels that use each other's types do so by relative cimports, which Cython does not follow when it looks for what
-    # has changed.
+    # Kernels that use each other's types do so by relative cimports, which Cython does not follow when it looks for
+    # what has changed.
     types = max(p.stat().st_mtime for p in KERNELS)
     stale = any(c.stat().st_mtime < types for c in Path(BUILD, "plantar/kernels").glob("*.c"))
     found: list[Extension] = cythonize(
