@@ -1,84 +1,64 @@
-"""Count what preemptive foot compliance and step feasibility are worth: `python benchmarks/unknown_ground.py`.
+"""Count what preemptive foot compliance and step feasibility are worth: `python benchmarks/unknown_ground.py [WORKERS]`.
 
-Runs every case over its seeds, appends a row a run to benchmarks/unknown_ground.csv and writes the table
-unknown_ground.md and the bars unknown_ground.png beside it. A run that is there already is not repeated, so a benchmark
-that was stopped goes on where it was; rows of other code than today's are dropped first.
+Runs every case over its seeds, appends a row a run to benchmarks/unknown_ground.csv (a run that is there already is not
+repeated) and writes the table unknown_ground.md and the bars unknown_ground.png beside it.
 """
 
 from __future__ import annotations
 
-import csv
-import hashlib
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from statistics import median
+from typing import Any
 
 import numpy as np
+from resumable import Case, rows_of, run_missing, write_table
 
 FOLDER = Path(__file__).parent
-COLUMNS = ("code", "case", "seed", "completed", "fell", "steps", "impact_mean", "impact_max", "here", "angle_deg")
-COLUMNS += ("feasible", "area_ratio", "moment_Nm", "tilt_deg", "time_s", "rays_skipped", "p99_us")
+COLUMNS = ("completed", "fell", "steps", "impact_mean", "impact_max", "here", "angle_deg", "feasible", "area_ratio")
+COLUMNS += ("moment_Nm", "tilt_deg", "time_s", "rays_skipped", "p99_us")
 IN_PLACE = "walk.length=0"
+ROBOTS = ("h1", "hrp2kai")
 
 # name, scene, settings, seeds
 _ON_BOTH: list[tuple[str, str, tuple[str, ...], int]] = [
-    ("feasibility-1, skin", "feasibility-1", (), 20),
-    ("feasibility-2, skin", "feasibility-2", (), 20),
-    ("feasibility-3, skin", "feasibility-3", (), 20),
-    ("feasibility-4, skin", "feasibility-4", (), 20),
-    ("obstacle 3 cm, on", "obstacle", (), 20),
-    ("obstacle 3 cm, off", "obstacle", ("pfc=false",), 6),
     ("uneven forward, on", "uneven", (), 20),
-    ("uneven forward, off", "uneven", ("pfc=false",), 6),
+    ("uneven forward, off", "uneven", ("pfc=false",), 3),
     ("uneven in place, on", "uneven", (IN_PLACE,), 20),
-    ("uneven in place, off", "uneven", (IN_PLACE, "pfc=false"), 6),
-    ("tilt pitch +10", "tilt", ("pitch=10",), 20),
-    ("tilt pitch -10", "tilt", ("pitch=-10",), 20),
-    ("tilt roll +10", "tilt", ("pitch=0", "roll=10"), 20),
-    ("tilt roll -10", "tilt", ("pitch=0", "roll=-10"), 20),
-    ("tilt pitch +5", "tilt", ("pitch=5",), 3),
-    ("tilt pitch -5", "tilt", ("pitch=-5",), 3),
-    ("tilt roll +5", "tilt", ("pitch=0", "roll=5"), 3),
-    ("tilt roll -5", "tilt", ("pitch=0", "roll=-5"), 3),
-    *[
-        (f"slid in, {way} {sign}{size}", "tilt", (IN_PLACE, "pitch=0", f"{way}={sign}{size}", "slide=0.3"), 3)
+    ("uneven in place, off", "uneven", (IN_PLACE, "pfc=false"), 3),
+    ("obstacle 3 cm, on", "obstacle", (), 20),
+    ("obstacle 3 cm, off", "obstacle", ("pfc=false",), 3),
+    *((f"feasibility-{k}, skin", f"feasibility-{k}", (), 20) for k in range(1, 5)),
+    *((f"tilt pitch {v:+d}", "tilt", (f"pitch={v}",), 20) for v in (10, -10)),
+    *((f"tilt roll {v:+d}", "tilt", ("pitch=0", f"roll={v}"), 20) for v in (10, -10)),
+]
+_ON_ONE: list[tuple[str, str, tuple[str, ...], int]] = [
+    *((f"tilt pitch {v:+d}", "tilt", (f"pitch={v}",), 3) for v in (5, -5)),
+    *((f"tilt roll {v:+d}", "tilt", ("pitch=0", f"roll={v}"), 3) for v in (5, -5)),
+    *(
+        (f"slid in, {way} {v:+d}", "tilt", (IN_PLACE, "pitch=0", f"{way}={v}", "slide=0.3"), 3)
         for way in ("pitch", "roll")
-        for sign in ("+", "-")
-        for size in (5, 10)
-    ],
-    ("obstacle 4 cm, on", "obstacle", ("top=0.04", "crouch=0.05"), 4),
-    ("obstacle 5 cm, on", "obstacle", ("top=0.05", "crouch=0.05"), 4),
-    *[(f"dead taxels {s}", "uneven", ("steps=20", f"dead_taxels={s}"), 3) for s in (0.1, 0.3, 0.5)],
-    *[(f"bias {s} mm", "uneven", ("steps=20", f"proximity_bias={s / 1000}"), 3) for s in (-10, -5, 5, 10)],
-    *[(f"delay {4 * s} ms", "uneven", ("steps=20", f"delay_periods={s}"), 3) for s in (3, 5, 8)],
-    *[(f"noise {s} mm", "uneven", ("steps=20", f"proximity_noise={s / 1000}"), 3) for s in (5, 10)],
+        for v in (5, -5, 10, -10)
+    ),
+    *((f"feasibility-{k}, force-torque", f"feasibility-{k}", ("feasibility=force_torque",), 3) for k in range(1, 5)),
+    *((f"obstacle {v} cm, on", "obstacle", (f"top={v / 100}", "crouch=0.05"), 3) for v in (4, 5)),
+    *((f"dead taxels {v}", "uneven", ("steps=20", f"dead_taxels={v}"), 2) for v in (0.1, 0.3, 0.5)),
+    *((f"bias {v} mm", "uneven", ("steps=20", f"proximity_bias={v / 1000}"), 2) for v in (-10, -5, 5, 10)),
+    *((f"delay {4 * v} ms", "uneven", ("steps=20", f"delay_periods={v}"), 2) for v in (3, 5, 8)),
+    *((f"noise {v} mm", "uneven", ("steps=20", f"proximity_noise={v / 1000}"), 2) for v in (5, 10)),
 ]
-_FORCE_TORQUE: list[tuple[str, str, tuple[str, ...], int]] = [
-    (f"feasibility-{k}, force-torque", f"feasibility-{k}", ("feasibility=force_torque",), 3) for k in range(1, 5)
+CASES = [
+    *(Case(name, scene, robot, settings, seeds) for robot in ROBOTS for name, scene, settings, seeds in _ON_BOTH),
+    *(Case(name, scene, "h1", settings, seeds) for name, scene, settings, seeds in _ON_ONE),
 ]
-ROBOTS = ("h1", "hrp2kai")
-CASES = [*_ON_BOTH, *_FORCE_TORQUE, *[(f"{n}, hrp2kai", s, o, k) for n, s, o, k in _ON_BOTH]]
 
 
-def code() -> str:
-    """Short hash of the code that a row comes from: whatever walks, senses and simulates, and the scenes and robots."""
-    digest = hashlib.sha1(usedforsecurity=False)
-    for folder in ("gait", "plantar", "sim"):
-        for path in sorted((FOLDER.parent / folder).rglob("*")):
-            if path.suffix in (".py", ".pyx", ".c", ".h", ".toml", ".json"):
-                digest.update(path.read_bytes())
-    return digest.hexdigest()[:10]
-
-
-def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
+def run(case: Case, seed: int) -> dict[str, Any]:
     """One run as a row."""
     from sim.runner import Simulation
     from sim.scene import load_scene
 
-    name, scene, settings, seed = job
-    robot = ROBOTS[name.endswith(ROBOTS[1])]
-    simulation = Simulation(load_scene(scene, settings, robot), seed)
+    simulation = Simulation(load_scene(case.scene, case.settings, case.robot), seed)
     out = simulation.run()
     weight = simulation.legs.mass * 9.81
     impact = np.array(out["impacts_N"] or [np.nan]) / weight
@@ -90,9 +70,6 @@ def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
         here = int(near[0]) if len(near) else None
     checks = out.get("feasibility") or [{}]
     return {
-        "code": code(),
-        "case": name,
-        "seed": seed,
         "completed": int(out["completed"]),
         "fell": int(out["fell"]),
         "steps": out["steps_taken"],
@@ -110,45 +87,18 @@ def run(job: tuple[str, str, tuple[str, ...], int]) -> dict[str, object]:
     }
 
 
-def rows_of(path: Path) -> list[dict[str, str]]:
-    """Rows that are there already."""
-    if not path.exists():
-        return []
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def main(workers: int = 2) -> None:
-    """Run what is missing and write the table."""
-    path = FOLDER / "unknown_ground.csv"
-    today = code()
-    kept = [r for r in rows_of(path) if r.get("code") == today]
-    done = {(r["case"], int(r["seed"])) for r in kept}
-    jobs = [(n, s, o, k) for n, s, o, seeds in CASES for k in range(seeds) if (n, k) not in done]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(kept)
-        file.flush()
-        with ProcessPoolExecutor(workers) as pool:
-            for row in pool.map(run, jobs):
-                writer.writerow(row)
-                file.flush()
-                print(row["case"], row["seed"], "walked on" if row["completed"] else "did not", file=sys.stderr)
-    report(rows_of(path))
-
-
 def report(rows: list[dict[str, str]]) -> None:
     """Write the table between its markers in unknown_ground.md, and the bars."""
     from plantar.plotting import COLOURS, new_figure, save_figure
 
     lines = [
-        "| case | walked on | mean impact [BW] | largest impact [BW] | fifth landing [BW] | angle [deg] | stepped on |",
-        "|---|---|---|---|---|---|---|",
+        "| case | robot | walked on | mean impact [BW] | largest impact [BW] | fifth landing [BW] | angle [deg] "
+        "| stepped on |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     bars: dict[str, tuple[float, float, float]] = {}
-    for name, *_ in CASES:
-        mine = [r for r in rows if r["case"] == name]
+    for case in CASES:
+        mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
         if not mine:
             continue
         mean, top = ([float(r[k]) for r in mine] for k in ("impact_mean", "impact_max"))
@@ -156,16 +106,12 @@ def report(rows: list[dict[str, str]]) -> None:
         angle = [float(r["angle_deg"]) for r in mine if r["angle_deg"]]
         stepped = [r["feasible"] == "True" for r in mine if r["feasible"]]
         count = f"{sum(stepped)}/{len(stepped)}" if stepped else ""
-        bars[name] = (min(mean), float(np.mean(mean)), max(top))
+        bars[f"{case.name}, {case.robot}"] = (min(mean), float(np.mean(mean)), max(top))
         lines.append(
-            f"| {name} | {sum(int(r['completed']) for r in mine)}/{len(mine)} | {_range(mean)} | {_range(top)} | "
+            f"| {case.name} | {case.robot} | {sum(int(r['completed']) for r in mine)}/{len(mine)} | {_range(mean)} | {_range(top)} | "
             f"{_range(here)} | {_range(angle)} | {count} |"
         )
-    path = FOLDER / "unknown_ground.md"
-    text = path.read_text(encoding="utf-8") if path.exists() else "<!-- table -->\n<!-- end -->\n"
-    before, _, rest = text.partition("<!-- table -->\n")
-    after = rest.partition("<!-- end -->\n")[2]
-    path.write_text(f"{before}<!-- table -->\n" + "\n".join(lines) + f"\n<!-- end -->\n{after}", encoding="utf-8")
+    write_table(FOLDER / "unknown_ground.md", lines)
     figure, axis = new_figure(7.0, 3.2)
     shown = [n for n in bars if n.startswith(("uneven", "obstacle 3"))]
     for i, name in enumerate(shown):
@@ -200,8 +146,8 @@ def forces() -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["report"]:
-        report(rows_of(FOLDER / "unknown_ground.csv"))
-    else:
-        main()
+    path = FOLDER / "unknown_ground.csv"
+    if sys.argv[1:] != ["report"]:
+        run_missing(path, COLUMNS, CASES, run, int(sys.argv[1]) if len(sys.argv) > 1 else 2)
         forces()
+    report(rows_of(path))
