@@ -1,4 +1,4 @@
-"""Count what preemptive foot compliance and step feasibility are worth: `python benchmarks/unknown_ground.py [WORKERS]`.
+"""Count what preemptive foot compliance and step feasibility are worth: `benchmarks/unknown_ground.py [WORKERS]`.
 
 Runs every case over its seeds, appends a row a run to benchmarks/unknown_ground.csv (a run that is there already is not
 repeated) and writes the table unknown_ground.md and the bars unknown_ground.png beside it.
@@ -107,8 +107,9 @@ def report(rows: list[dict[str, str]]) -> None:
         stepped = [r["feasible"] == "True" for r in mine if r["feasible"]]
         count = f"{sum(stepped)}/{len(stepped)}" if stepped else ""
         bars[f"{case.name}, {case.robot}"] = (min(mean), float(np.mean(mean)), max(top))
+        walked = sum(int(r["completed"]) for r in mine)
         lines.append(
-            f"| {case.name} | {case.robot} | {sum(int(r['completed']) for r in mine)}/{len(mine)} | {_range(mean)} | {_range(top)} | "
+            f"| {case.name} | {case.robot} | {walked}/{len(mine)} | {_range(mean)} | {_range(top)} | "
             f"{_range(here)} | {_range(angle)} | {count} |"
         )
     write_table(FOLDER / "unknown_ground.md", lines)
