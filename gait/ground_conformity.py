@@ -124,7 +124,16 @@ class FootTurn:
     def stance(
         self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """One control tick of the foot that carries the body; arguments and result as of `incoming`."""
+        """One control tick of the foot that carries the body.
+
+        Args:
+            load: Vertical force on it in N.
+            center_of_pressure: Where that acts (2,) in the sole frame in m.
+            target: Where it shall act (2,) in the sole frame in m: the desired ZMP.
+
+        Returns:
+            Turn (2,) about the sole's x and y axes in rad.
+        """
         g = self.gains
         rate = g.stance * min(1.0, load / g.stance_load)
         if self._rolls(center_of_pressure, target):
