@@ -90,15 +90,18 @@ class Uneven(Terrain):
     Attributes:
         height_range: Largest difference in m to the ground that the plan expects.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
+        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts by some 20 mm in 100
+            steps, and a foot that is so far off shall not stand on two heights.
         depth: How deep in m the floor lies below.
     """
 
     height_range: float = field(default=0.015, metadata=limits(0.0, 0.1))
     slope_range: float = field(default=0.0, metadata=limits(0.0, 20.0))
+    gap: float = field(default=0.03, metadata=limits(0.0, 0.2))
     depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth)] for side in _SIDES}
+        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in _SIDES}
         place, height = dict(feet.standing), dict.fromkeys(_SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
@@ -114,7 +117,7 @@ class Uneven(Terrain):
                 solids[foot.side][-1] = replace(stone, motions=(*stone.motions, Motion(middle, 0.0, now)))
             else:
                 solids[foot.side].append(
-                    _stone(foot, feet, self.height + rise, self.depth + rise, pitch=pitch, roll=roll)
+                    _stone(foot, feet, self.height + rise, self.depth + rise, pitch=pitch, roll=roll, gap=self.gap)
                 )
             place[foot.side] = foot
         return Ground((*solids["left"], *solids["right"]), self.height - self.depth, self.friction)
@@ -195,7 +198,7 @@ def _distinct(feet: PlannedFeet) -> list[Footprint]:
     return found
 
 
-def _lane(foot: Footprint, feet: PlannedFeet) -> float:
+def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
     """Distance in m from a footprint's centre, inward, to the edge of its lane: half way to the other foot's."""
     inward = -1.0 if foot.side == "left" else 1.0
     gaps = []
@@ -206,7 +209,7 @@ def _lane(foot: Footprint, feet: PlannedFeet) -> float:
             dx, dy = (other.center - foot.center).tolist()
             if abs(c * dx + s * dy) < foot.half[0] + other.half[0] + 2.0 * _MARGIN:
                 gaps.append(inward * (-s * dx + c * dy))
-    return 0.5 * min(gaps) - 0.5 * _GAP if gaps else foot.half[1] + _MARGIN
+    return 0.5 * min(gaps) - 0.5 * gap if gaps else foot.half[1] + _MARGIN
 
 
 def _stone(
@@ -219,12 +222,13 @@ def _stone(
     *,
     pitch: float = 0.0,
     roll: float = 0.0,
+    gap: float = _GAP,
 ) -> Solid:
     """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part."""
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half
     rear, front = -half_length - _MARGIN, half_length + _MARGIN
-    inner, outer = -min(_lane(foot, feet), half_width + _MARGIN), half_width + _MARGIN
+    inner, outer = -min(_lane(foot, feet, gap), half_width + _MARGIN), half_width + _MARGIN
     if share < 1.0:
         if part == "rear":
             front = -half_length + 2.0 * half_length * share
