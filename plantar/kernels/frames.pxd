@@ -8,7 +8,8 @@ cdef double _NONE
 @cython.locals(
     frames=Py_ssize_t, n=Py_ssize_t, columns="const double[:, ::1]", k=Py_ssize_t, i=Py_ssize_t,
     lever_x="const double[::1]", lever_y="const double[::1]", kept="double[::1]", f=double, az=double, ax=double,
-    ay=double, bz=double, bx=double, by=double, fx=double, fy=double, fz=double, tx=double, ty=double, tz=double
+    ay=double, bz=double, bx=double, by=double, cz=double, cx=double, cy=double, dz=double,
+    dx=double, dy=double, fx=double, fy=double, fz=double, tx=double, ty=double, tz=double
 )
 cpdef void wrenches(
     SoleKernel sole, const double[:, ::1] force, double threshold, double saturation, double[:, ::1] out
