@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
+from plantar.lazy import lazy
 from plantar.percept import Percept
 from plantar.polygon import area
 from plantar.sole_pose import SolePose, wrench_of_feet
@@ -45,17 +45,17 @@ class FeetPercept:
         self.poses = tuple(poses)
         self.ground_height = ground_height
 
-    @cached_property
+    @lazy
     def wrench_in_world(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) of all soles about the world's origin in N and N m."""
         return wrench_of_feet([p.wrench_in_sole for p in self.percepts], self.poses)
 
-    @cached_property
+    @lazy
     def position_zmp_in_world(self) -> NDArray[np.float64] | None:
         """Composite ZMP (2,) in the plane of the ground in m, or None without load (T 4.7-4.8)."""
         return zmp_in_plane(self.wrench_in_world, self.ground_height, minimum_force=0.0)
 
-    @cached_property
+    @lazy
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
         """CoP (3,) of each sole in the world in m, None for a sole without load (T 4.21)."""
         return tuple(
@@ -63,25 +63,25 @@ class FeetPercept:
             for p, pose in zip(self.percepts, self.poses, strict=True)
         )
 
-    @cached_property
+    @lazy
     def support_polygon_in_world(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) of all soles seen from above in m; empty without contact (T 4.25)."""
         polygons = [p.support_polygon_in_sole for p in self.percepts]
         return feet_support_polygon([pose.polygon_to_world(q) for q, pose in zip(polygons, self.poses, strict=True)])
 
-    @cached_property
+    @lazy
     def preemptive_polygon_in_world(self) -> NDArray[np.float64] | None:
         """Convex polygon (k, 2) of all near cells in m (T 4.2.7, Fig. 37-g); None where no sole has proximity."""
         polygons = [(p.preemptive_polygon_in_sole, pose) for p, pose in zip(self.percepts, self.poses, strict=True)]
         known = [pose.polygon_to_world(q) for q, pose in polygons if q is not None]
         return feet_support_polygon(known) if known else None
 
-    @cached_property
+    @lazy
     def support_area(self) -> float:
         """Area in m^2 of the support polygon of all soles, seen from above."""
         return area(self.support_polygon_in_world)
 
-    @cached_property
+    @lazy
     def contact_area(self) -> float:
         """Area in m^2 of the active cells of all soles (T 4.22)."""
         return sum(p.contact_area for p in self.percepts)

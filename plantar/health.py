@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError, ReadingError
 from plantar.layout import SoleLayout
+from plantar.lazy import lazy
 
 __all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours", "saturated_taxels", "stuck_taxels"]
 
@@ -34,7 +34,7 @@ class TaxelHealth:
     saturated: NDArray[np.bool_]
     stuck: NDArray[np.bool_]
 
-    @cached_property
+    @lazy
     def faulty(self) -> NDArray[np.bool_]:
         """Taxels (n,) with any of the three faults."""
         return self.dead | self.saturated | self.stuck

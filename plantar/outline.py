@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +13,7 @@ from plantar.cell_edges import EdgeTable, edge_table
 from plantar.errors import ReadingError
 from plantar.kernels.outline import Rings, area_and_centroid
 from plantar.layout import SoleLayout
+from plantar.lazy import lazy
 
 __all__ = ["Outline", "concave_outline", "feet_outline"]
 
@@ -77,7 +77,7 @@ class Outline(Rings):
         """Vertices (k, 2) of each ring in m."""
         return tuple(self.points[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True))
 
-    @cached_property
+    @lazy
     def centroid(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the area in m, holes left out; None for an empty outline."""
         if not len(self):
@@ -85,7 +85,7 @@ class Outline(Rings):
         _, x, y = area_and_centroid(self.points, self.starts)
         return np.array([x, y])
 
-    @cached_property
+    @lazy
     def islands(self) -> tuple[tuple[NDArray[np.float64], ...], ...]:
         """Each island: its rim (k, 2) in m, then the rims of its holes."""
         rings = self.rings

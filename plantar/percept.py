@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +11,7 @@ from plantar.activation import active_taxels
 from plantar.errors import ReadingError
 from plantar.health import TaxelHealth, dead_taxels, fill_from_neighbours, saturated_taxels
 from plantar.layout import SoleLayout
+from plantar.lazy import lazy
 from plantar.percept_shapes import ShapeMembers
 from plantar.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
 from plantar.pressure_wrench import scaled_by_area
@@ -19,20 +19,6 @@ from plantar.reading import Reading
 from plantar.zmp import zero_moment_wrench
 
 __all__ = ["Percept"]
-
-if TYPE_CHECKING:
-    lazy = cached_property
-else:
-
-    class lazy(cached_property):
-        """`cached_property` without the lock that Python 3.11 takes at each first use, half of a cheap member."""
-
-        def __get__(self, instance: Any, owner: Any = None) -> Any:
-            """Compute the member and keep it in the instance, which is where Python looks first from then on."""
-            if instance is None:
-                return self
-            value = instance.__dict__[self.attrname] = self.func(instance)
-            return value
 
 
 class Percept(ShapeMembers, VirtualMembers):

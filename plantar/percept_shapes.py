@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from plantar import inscribed as _inscribed
 from plantar.contact_rectangle import safe_rectangle
 from plantar.inscribed import Circle
 from plantar.layout import SoleLayout
+from plantar.lazy import lazy
 from plantar.outline import Outline, concave_outline
 
 __all__ = ["ShapeMembers"]
@@ -39,57 +39,57 @@ class ShapeMembers:
         @property
         def support_polygon_in_sole(self) -> NDArray[np.float64]: ...
 
-    @cached_property
+    @lazy
     def concave_outline_in_sole(self) -> Outline:
         """Exact outline of the contact with islands and holes (T 4.2.5)."""
         return concave_outline(self.layout, self.active)
 
-    @cached_property
+    @lazy
     def bounding_box_in_sole(self) -> NDArray[np.float64]:
         """Axis-aligned box (4, 2) of the support polygon (T 4.4.4)."""
         return _enclosing.bounding_box(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def oriented_box_in_sole(self) -> NDArray[np.float64]:
         """Rectangle (4, 2) of least area around the support polygon."""
         return _enclosing.oriented_box(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def enclosing_parallelogram_in_sole(self) -> NDArray[np.float64]:
         """Parallelogram (4, 2) of least area around the support polygon (T 4.2.5)."""
         return _enclosing.enclosing_parallelogram(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def inscribed_triangle_in_sole(self) -> NDArray[np.float64]:
         """Largest triangle (3, 2) in the support polygon (T 4.2.5)."""
         return _inscribed.inscribed_triangle(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def inscribed_parallelogram_in_sole(self) -> NDArray[np.float64]:
         """Largest parallelogram (4, 2) in the support polygon (T 4.2.5)."""
         return _inscribed.inscribed_parallelogram(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def inscribed_circle_in_sole(self) -> Circle | None:
         """Largest circle in the support polygon, or None without contact."""
         return _inscribed.inscribed_circle(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def inscribed_rectangle_in_sole(self) -> NDArray[np.float64]:
         """Largest axis-aligned rectangle (4, 2) in the support polygon (T 4.4.4)."""
         return _inscribed.inscribed_rectangle(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def inscribed_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
         """Largest rectangle (4, 2) in the support polygon, at any angle."""
         return _inscribed.inscribed_rectangle_any_angle(self.support_polygon_in_sole)
 
-    @cached_property
+    @lazy
     def outline_rectangle_in_sole(self) -> NDArray[np.float64]:
         """Largest axis-aligned rectangle (4, 2) in the concave outline: all of it is contact."""
         return _inscribed.rectangle_in_outline(self.concave_outline_in_sole)
 
-    @cached_property
+    @lazy
     def outline_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
         """Largest rectangle (4, 2) in the concave outline, at any angle."""
         return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
+from plantar.lazy import lazy
 from plantar.support import polygon_in_world
 from plantar.zmp import zmp_in_plane
 
@@ -83,7 +83,7 @@ class SolePose:
         force, moment = given[..., :3], given[..., 3:]
         return np.concatenate([force @ turn, moment @ turn + force @ lever], axis=-1)
 
-    @cached_property
+    @lazy
     def _wrench_maps(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """What a force (3,) from the left is multiplied by to be turned, and to give its moment about the origin."""
         turn = self.rotation_sole_to_world.T
