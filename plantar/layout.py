@@ -216,6 +216,11 @@ class SoleLayout:
         return 0.5 * abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
     @cached_property
+    def is_flat(self) -> bool:
+        """Whether every taxel's axes are those of the sole frame."""
+        return bool((self.rotations == np.eye(3)).all())
+
+    @cached_property
     def corner_start(self) -> NDArray[np.int64]:
         """Offsets (n + 1,) of each taxel's corners in `corner_vertex`."""
         return np.concatenate([[0], np.cumsum([len(c) for c in self.corners])]).astype(np.int64)

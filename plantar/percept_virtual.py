@@ -89,4 +89,6 @@ class VirtualMembers:
         """Acceleration (n, 3) of each taxel in the sole frame in m/s^2; NaN where a taxel is dead."""
         if self.reading.acceleration is None:
             return None
+        if self.layout.is_flat:
+            return self.reading.acceleration.copy()
         return np.asarray(np.einsum("nij,nj->ni", self.layout.rotations, self.reading.acceleration))

@@ -29,9 +29,8 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
         [0.0, 0.0, 2.5, 29.0, 0.0]
     """
     readings = np.asarray(temperature, dtype=np.float64)
-    usable = np.isfinite(readings) & (readings >= threshold)
-    excess = np.minimum(np.where(usable, readings, threshold), highest) - threshold
-    return np.asarray(np.maximum(excess, 0.0))
+    excess = np.fmax(readings, threshold) - threshold  # fmax drops NaN
+    return np.asarray(np.where(excess < math.inf, np.minimum(excess, max(highest - threshold, 0.0)), 0.0))
 
 
 def temperature_wrench(

@@ -51,9 +51,9 @@ def virtual_ground_reaction_wrench(
     """
     reach = layout.proximity_range if sensing_range is None else sensing_range
     readings = np.asarray(distance, dtype=np.float64)
-    into_wrench = gain * layout.wrench_map.T
     if readings.ndim < 2:
-        return np.asarray(proximity_measure(readings, reach) @ into_wrench)
+        return np.asarray(gain * (layout.wrench_map @ proximity_measure(readings, reach)))
+    into_wrench = gain * layout.wrench_map.T
     out = np.empty((*readings.shape[:-1], 6))
     for start in range(0, len(readings), _CHUNK):  # what is measured stays in the cache until it is summed
         part = slice(start, start + _CHUNK)
