@@ -90,14 +90,14 @@ class Uneven(Terrain):
     Attributes:
         height_range: Largest difference in m to the ground that the plan expects.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
-        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts by some 20 mm in 100
+        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts by up to 35 mm in 100
             steps, and a foot that is so far off shall not stand on two heights.
         depth: How deep in m the floor lies below.
     """
 
     height_range: float = field(default=0.015, metadata=limits(0.0, 0.1))
     slope_range: float = field(default=0.0, metadata=limits(0.0, 20.0))
-    gap: float = field(default=0.03, metadata=limits(0.0, 0.2))
+    gap: float = field(default=0.05, metadata=limits(0.0, 0.2))
     depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
