@@ -109,7 +109,7 @@ def report(rows: list[dict[str, str]]) -> None:
                 _count(mine),
                 _count(blind),
                 f"{min(shares):.2f}" if shares else "",
-                f"{median(margins):.0f}" if margins else "",
+                f"{round(median(margins))}" if margins else "",
                 f"{median(errors):.1f}" if errors else "",
             )
             lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
