@@ -113,14 +113,14 @@ def report(rows: list[dict[str, str]]) -> None:
             f"{_range(here)} | {_range(angle)} | {count} |"
         )
     write_table(FOLDER / "unknown_ground.md", lines)
-    figure, axis = new_figure(7.0, 3.2)
+    figure, axis = new_figure(8.5, 3.6)
     shown = [n for n in bars if n.startswith(("uneven", "obstacle 3"))]
     for i, name in enumerate(shown):
         low, mean, high = bars[name]
         colour = COLOURS["left"] if ", on" in name else COLOURS["right"]
         axis.bar(i, high - low, bottom=low, color=colour, alpha=0.35)
         axis.plot([i - 0.4, i + 0.4], [mean, mean], color=colour, lw=2.5)
-    axis.set_xticks(range(len(shown)), [n.replace(", ", "\n") for n in shown], fontsize=8)
+    axis.set_xticks(range(len(shown)), [n.replace(", ", "\n").replace(" ", "\n", 1) for n in shown], fontsize=8)
     axis.set_ylabel("impact [body weights]")
     axis.set_yscale("log")
     axis.grid(axis="y", alpha=0.3)
