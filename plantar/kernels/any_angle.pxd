@@ -52,7 +52,6 @@ cdef class AnyAngle:
 
     cdef void _march(self, double[::1] out) except *
     cdef bint _is_skipped(self, double angle, double skip, double[::1] out) except -1
-    cdef double _lean(self, double[::1] corners) noexcept
 
     @cython.locals(
         outline=concave.OutlineRectangles, stack="double[::1]", turn="double[::1]", k=Py_ssize_t,

@@ -182,7 +182,7 @@ class AnyAngle:
             if area > self.best:
                 self._climb(angle, area, out)
                 area = self._largest(angle, 0.0, out)
-            lean = self._lean(out)
+            lean = rectangle.lean(out)
             curve = 2.0 / math.sin(2.0 * lean)
             curve *= curve
             gap = math.log(self.best * (1.0 + _CLOSE) / area)
@@ -212,18 +212,12 @@ class AnyAngle:
         ahead = self._largest(angle + skip, 0.0, out)
         if ahead <= 0.0:
             return False
-        lean = self._lean(out) - skip
+        lean = rectangle.lean(out) - skip
         if lean <= 0.0:
             return False
         bend = skip * 2.0 / math.sin(2.0 * lean)
         rise = math.log(ahead / max(1e-300, after)) + bend * bend
         return math.log(self.best * (1.0 + _CLOSE) / ahead) >= max(0.0, rise)
-
-    def _lean(self, corners):
-        """Angle between the diagonal and the longer side of a rectangle in rad."""
-        along = math.hypot(corners[2] - corners[0], corners[3] - corners[1])
-        across = math.hypot(corners[4] - corners[2], corners[5] - corners[3])
-        return math.atan2(min(along, across), max(along, across))
 
     def _search(self, out):
         """Search all angles of a quarter turn in an outline for more than the best so far."""

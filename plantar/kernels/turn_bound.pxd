@@ -31,9 +31,6 @@ cdef class TurnBound:
         double target, double[::1] reach
     ) noexcept
 
-    @cython.locals(along=double, across=double)
-    cdef double lean(self, double[::1] corner) noexcept
-
     @cython.locals(
         line="double[::1]", r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t, low=Py_ssize_t, high=Py_ssize_t, dx=double,
         dy=double, qx=double, qy=double

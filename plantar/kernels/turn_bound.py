@@ -105,7 +105,7 @@ class TurnBound:
         middle = self._room(xs, ys, m, box, half, 0.0)
         if not 0.0 < middle < target:
             return
-        lean = self.lean(self.corner) - half
+        lean = rectangle.lean(self.corner) - half
         if lean <= 0.0:
             return
         bend = 2.0 / math.sin(2.0 * lean)
@@ -119,12 +119,6 @@ class TurnBound:
             root = math.sqrt(slope * slope + 2.0 * bend * gap)
             far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
             reach[side] = max(reach[side], min(half, far))
-
-    def lean(self, corner):
-        """Angle between the diagonal and the longer side of a rectangle whose sides are along x and y."""
-        along = corner[4] - corner[0]
-        across = corner[5] - corner[1]
-        return math.atan2(min(along, across), max(along, across))
 
     def _find_lines(self, xs, ys, start, rings, box, lean):
         """Find the edges that hold a corner, alone or in a convex chain, at every angle of the interval."""
