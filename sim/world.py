@@ -25,10 +25,10 @@ PHYSICS_PERIOD = 0.001
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _DIVERGED = (
-    mujoco.mjtWarning.mjWARN_BADQPOS,
-    mujoco.mjtWarning.mjWARN_BADQVEL,
-    mujoco.mjtWarning.mjWARN_BADQACC,
-    mujoco.mjtWarning.mjWARN_BADCTRL,
+    int(mujoco.mjtWarning.mjWARN_BADQPOS),
+    int(mujoco.mjtWarning.mjWARN_BADQVEL),
+    int(mujoco.mjtWarning.mjWARN_BADQACC),
+    int(mujoco.mjtWarning.mjWARN_BADCTRL),
 )
 
 
@@ -75,7 +75,8 @@ def check_stable(data: Any) -> None:
     Raises:
         SceneError: If positions, velocities, accelerations or controls were not finite or too large.
     """
-    if any(data.warning[kind].number for kind in _DIVERGED):
+    counts = data.warning.number.tolist()
+    if any(counts[kind] for kind in _DIVERGED):
         raise SceneError(
             "the simulated physics became unstable: forces too large for steps of 1 ms; lower the robot's [servo] "
             "stiffness and damping, or what pushes it"
