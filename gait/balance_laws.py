@@ -11,7 +11,7 @@ from plantar.errors import InputError
 if TYPE_CHECKING:
     from gait.wrench_balance import WrenchBalanceGains
 
-    Gains: TypeAlias = BalanceGains | WrenchBalanceGains
+    LawGains: TypeAlias = BalanceGains | WrenchBalanceGains
 
 __all__ = ["LAWS", "balance_gains", "balance_law"]
 
@@ -19,7 +19,7 @@ LAWS = ("com_admittance", "wrench_distribution")
 """Names of the balance laws."""
 
 
-def balance_gains(table: Mapping[str, Any]) -> Gains:
+def balance_gains(table: Mapping[str, Any]) -> LawGains:
     """Gains of the law that a robot's `[balance]` table names.
 
     Args:
@@ -50,7 +50,7 @@ def balance_gains(table: Mapping[str, Any]) -> Gains:
     return kind.from_table(table)
 
 
-def balance_law(gains: Gains, omega: float, mass: float, period: float) -> BalanceLaw:
+def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
     """The law that the gains belong to.
 
     Args:

@@ -233,6 +233,7 @@ class WalkingController:
         self.footholds = Footholds(
             settings.contact,
             layouts,
+            vrp_in_sole,
             self.plan,
             self.motion,
             self._frame,

@@ -73,6 +73,7 @@ class Footholds:
     Args:
         settings: How a foothold is found from the taxels.
         layouts: Sole layout of each side.
+        middles: Middle (2,) of each sole in its frame in m, see `middle_of_sole`.
         plan: Plan of the walk, which it moves together with its schedule.
         motion: Motion of the feet.
         frame: Frame of the commanded footholds.
@@ -86,6 +87,7 @@ class Footholds:
         self,
         settings: ContactSettings,
         layouts: Mapping[Side, SoleLayout],
+        middles: Mapping[Side, NDArray[np.float64]],
         plan: WalkPlan,
         motion: FootMotion,
         frame: CommandFrame,
@@ -105,7 +107,7 @@ class Footholds:
         self._strip = strip
         self._minimum_load = minimum_load
         self._zmp_offset = zmp_offset
-        self._middle = {side: middle_of_sole(layouts[side]) for side in _SIDES}
+        self._middle = middles
         self._outline = {side: layouts[side].outline for side in _SIDES}
         self._feet = {
             side: _Foot(StanceContact(layouts[side], settings), LandingCompliance(period), self._middle[side])

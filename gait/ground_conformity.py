@@ -144,7 +144,7 @@ class FootTurn:
         """Whether the turns of the last ticks have not moved the centre of pressure."""
         g, past = self.gains, self._past
         away = math.dist(center_of_pressure, target)
-        if len(past) < max(1, int(g.watch)) or away <= g.nearly:
+        if len(past) != past.maxlen or away <= g.nearly:
             return False
         turned = sum(turn for _, turn in past)
         moved = float((past[0][0] - center_of_pressure) @ (center_of_pressure - target)) / away
@@ -154,8 +154,8 @@ class FootTurn:
         self, rate: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         dx, dy = (center_of_pressure - target).tolist()
-        speed = min(self.gains.largest_rate, rate * math.hypot(dx, dy))
         away = math.hypot(dx, dy)
+        speed = min(self.gains.largest_rate, rate * away)
         self._past.append((center_of_pressure.copy(), self.period * speed))
         if away == 0.0:
             return np.zeros(2)

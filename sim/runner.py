@@ -19,6 +19,7 @@ from gait.controller import Command, ControllerSettings, WalkingController
 from gait.estimator import EstimatorGains
 from gait.feasibility import FeasibilityRules
 from gait.foot_motion import Landing
+from gait.footholds import middle_of_sole
 from gait.footsteps import Footstep, straight_plan
 from gait.ground_conformity import ConformityGains
 from gait.phases import Timing
@@ -27,7 +28,6 @@ from gait.walk_plan import vrp_of_step
 from plantar.errors import SceneError
 from plantar.layout import Side, SoleLayout
 from plantar.percept import Percept
-from plantar.polygon import centroid
 from sim.foothold_truth import FootholdTruth
 from sim.judge import Judge
 from sim.log import RunLog
@@ -145,9 +145,7 @@ class Simulation:
             self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, CONTROL_PERIOD)
         centers = {}
         for side in _SIDES:
-            middle = centroid(robot.layouts[side].outline)
-            assert middle is not None
-            centers[side] = vrp_of_step(self.feet[side], middle)
+            centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side]))
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
         self.foothold_truth = FootholdTruth(self.world, ground)
         self.judge = Judge(self.world, self.settings.com_height)
