@@ -20,6 +20,9 @@ _APPROACH_SHARE = 0.44
 _ARRIVED_SHARE = 0.61
 """Share of such a swing after which the foot moves only downwards."""
 
+_LIFT_SHARE = 0.28
+"""Largest share of such a swing spent rising: the next stone may be 30 mm higher, and the toe is soon above it."""
+
 _SKEW = 0.8
 """Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
 
@@ -71,7 +74,7 @@ class SwingTrajectory:
     @property
     def lifted(self) -> float:
         """Time in s since lift-off at which the foot is highest."""
-        return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, 0.34))
+        return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, _LIFT_SHARE))
 
     @property
     def arrived(self) -> float:

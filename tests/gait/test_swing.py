@@ -68,3 +68,10 @@ def test_a_slow_approach_is_even_and_goes_below_the_expected_ground() -> None:
 def test_too_slow_an_approach_is_made_fast_enough_to_reach_the_ground() -> None:
     _, track = slow(approach_height=0.03, approach_speed=0.005)
     assert track[-1, 2] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_toe_is_above_the_next_stone_when_it_comes_to_it() -> None:
+    track = slow(approach_height=0.015)[1]  # 0.4 m from heel to heel
+    ahead = 0.109  # m from the toe of a sole of 0.241 m to a stone 0.4 m further on, 50 mm larger at each end
+    height = track[np.searchsorted(track[:, 0], ahead), 2]
+    assert height > 0.035  # the stones of `uneven` differ by up to 30 mm
