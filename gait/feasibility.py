@@ -16,14 +16,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
 from plantar.layout import Side, SoleLayout
 from plantar.polygon import area
 from plantar.proximity import cells_polygon
 
-__all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "way_around"]
+__all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class FeasibilityRules:
     inward: float = 0.015
     forward: float = 0.08
     sideways_cost: float = 2.0
-    backward: float = 0.22
+    backward: float = 0.24
     attempts: int = 2
 
     def __post_init__(self) -> None:
@@ -187,3 +187,33 @@ def way_around(
         return None
     _, x, y = min(allowed)
     return np.array([x, y])
+
+
+def room_ahead(
+    obstacle: NDArray[np.float64], outline: NDArray[np.float64], ahead: ArrayLike, rules: FeasibilityRules
+) -> float:
+    """How much further ahead a later foothold of the same foot has to be to clear an obstacle that stays behind it.
+
+    Args:
+        obstacle: Points (k, 2) of the obstacle in the sole frame of the foothold that was refused, in m.
+        outline: Outline (m, 2) of the sole in its frame in m.
+        ahead: Where (2,) the later foothold is planned, in the same frame in m.
+        rules: Clearance, and how far forward a foothold may be moved.
+
+    Returns:
+        Distance in m along the sole's x axis; 0 where the sole clears the obstacle, or would have to go too far.
+
+    Example:
+        >>> sole = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+        >>> rules = FeasibilityRules(clearance=0.02)
+        >>> round(room_ahead(np.array([[-0.09, -0.03], [0.09, 0.03]]), sole, [0.18, 0.0], rules), 3)
+        0.03
+    """
+    moved = outline + np.asarray(ahead, dtype=float)
+    low, high = obstacle.min(axis=0), obstacle.max(axis=0)
+    first, last = moved.min(axis=0), moved.max(axis=0)
+    gap = rules.clearance
+    if first[1] >= high[1] + gap or last[1] <= low[1] - gap or last[0] <= low[0] - gap:
+        return 0.0
+    missing = float(high[0] + gap - first[0])
+    return missing if 0.0 < missing <= rules.forward else 0.0

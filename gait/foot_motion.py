@@ -74,7 +74,7 @@ class FootMotion:
         footholds: Position (3,) in m and heading in rad of each sole in the command frame.
         landed: Whether the foot that swung last has touched the ground.
         press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
-        surprise: How much higher in m than expected the ground is that a swing sees where it will land.
+        surprise: How much higher in m than expected the ground is that a swing sees where it will land, or has met.
 
     Args:
         feet: Where the feet stand at the start.
@@ -258,6 +258,7 @@ class FootMotion:
             if elapsed > 0.5 * swing.duration and compliance.feel(load) and self._may_touch(view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
+                self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)
                 compliance.touched()
         if not self.landed:
             if elapsed < swing.lifted:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.command_frame import CommandFrame
-from gait.feasibility import FeasibilityRules, Foothold, FootholdProbe, way_around
+from gait.feasibility import FeasibilityRules, Foothold, FootholdProbe, room_ahead, way_around
 from gait.foot_motion import FootMotion
 from gait.footsteps import Footstep, other_side
 from gait.phases import Phase
@@ -192,7 +192,8 @@ class StepGuard:
             self.checked.append(CheckedStep(phase.step, found, None))
             return False
         self._tries += 1
-        shift = way_around(found.polygon_in_sole, self._compliance[side].layout.outline, side, self.rules)
+        outline = self._compliance[side].layout.outline
+        shift = way_around(found.polygon_in_sole, outline, side, self.rules)
         if self._tries > self.rules.attempts:
             shift = None
         self.checked.append(CheckedStep(phase.step, found, shift))
@@ -205,8 +206,14 @@ class StepGuard:
         else:
             x, y = (step.rotation_sole_to_world[:2, :2] @ shift).tolist()
             target = replace(step, x=step.x + x, y=step.y + y)
-            # A shorter or longer step shifts those to come; one to the side is made up for by the next.
-            later = step.rotation_sole_to_world[:2, 0] * float(shift[0])
+            # A shorter or longer step shifts those to come; one to the side is made up for by the next. What was not
+            # stepped on must not be met again by the same foot's next step.
+            longer = float(shift[0])
+            if phase.step + 2 < len(self._schedule.steps):
+                ahead = self._schedule.steps[phase.step + 2].position - step.position
+                place = step.rotation_sole_to_world[:, :2].T @ ahead + [longer, 0.0]
+                longer += room_ahead(found.polygon_in_sole, outline, place, self.rules)
+            later = step.rotation_sole_to_world[:2, 0] * longer
             self._schedule.shift_steps(phase.step + 1, later)
         self._schedule.move_step(phase.step, target)
         duration = self.rules.return_time if self.stopped else self.rules.swing_time

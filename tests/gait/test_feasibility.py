@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.feasibility import FeasibilityRules, FootholdProbe, way_around
+from gait.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
 from plantar import InputError, hex_layout
 from plantar.polygon import area
 
@@ -94,6 +94,26 @@ def test_a_foot_does_not_go_where_the_other_one_stands_and_gives_up_where_nothin
     assert way_around(obstacle, OUTLINE, "right", rules) is not None  # its outward is to the right
     assert way_around(np.array([[-0.3, -0.3], [0.3, 0.3]]), OUTLINE, "left", rules) is None
     assert way_around(np.empty((0, 2)), OUTLINE, "left", rules) is None
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_next_step_of_a_foot_clears_what_it_did_not_step_on(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    middle, half = rng.uniform(-0.06, 0.06, 2), rng.uniform(0.01, 0.04, 2)
+    obstacle = np.array([middle - half, middle + half])
+    ahead = np.array([rng.uniform(0.1, 0.4), rng.uniform(-0.02, 0.02)])
+    more = room_ahead(obstacle, OUTLINE, ahead, RULES)
+    heel = OUTLINE[:, 0].min() + ahead[0]
+    missing = obstacle[1, 0] + RULES.clearance - heel
+    assert more == pytest.approx(missing if 0.0 < missing <= RULES.forward else 0.0)
+
+
+def test_a_foot_beside_an_obstacle_or_behind_it_goes_no_further_than_planned() -> None:
+    obstacle = np.array([[-0.03, -0.03], [0.03, 0.03]])
+    assert room_ahead(obstacle, OUTLINE, [0.1, 0.0], RULES) > 0.0
+    assert room_ahead(obstacle, OUTLINE, [0.1, 0.2], RULES) == 0.0
+    assert room_ahead(obstacle, OUTLINE, [0.1, -0.2], RULES) == 0.0
+    assert room_ahead(obstacle, OUTLINE, [-0.3, 0.0], RULES) == 0.0
 
 
 def test_an_unknown_rule_is_refused() -> None:

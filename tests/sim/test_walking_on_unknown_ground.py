@@ -58,6 +58,27 @@ def test_footholds_are_judged_before_weight_is_put_on_them(scene: str, feasible:
     assert not summary["emergency_stop"]
 
 
+def test_a_long_way_back_is_followed_by_a_step_past_what_was_refused() -> None:
+    simulation = Simulation(load_scene("feasibility-4", ["settle=0.5"], "hrp2kai"), 0)
+    summary = simulation.run()
+    assert summary["completed"]
+    (check,) = summary["feasibility"]
+    assert check["shift_m"][0] < -0.2
+    block = simulation.ground.solids
+    steps = simulation.controller.schedule.steps
+    heel = steps[6].x + simulation.robot.layouts["left"].outline[:, 0].min()
+    assert heel > max(solid.position[0] + solid.size[0] for solid in block) + 0.02
+
+
+@pytest.mark.long
+def test_heading_does_not_drift_in_a_long_walk() -> None:
+    simulation = Simulation(load_scene("uneven"), 1)
+    assert simulation.run()["completed"]
+    world = simulation.world
+    for side, y in (("left", 0.085), ("right", -0.085)):
+        assert abs(world.data.site_xpos[world.sole_sites[side]][1] - y) < 0.03
+
+
 def test_where_there_is_no_way_the_robot_stops() -> None:
     simulation = Simulation(load_scene("feasibility-3", ["settle=0.5"]), 0)
     guard = simulation.controller.guard
