@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 __all__ = ["Rings"]
 
 Array = NDArray[np.float64]
-
 
 class Rings:
     """Polygons (k, 2) padded to one array with their first vertex, so that what is padded closes them.
@@ -27,24 +27,27 @@ class Rings:
     """
 
     def __init__(self, polygons: Sequence[Array]) -> None:
-        self.size = np.array([len(p) for p in polygons])
+        self.size = np.fromiter(map(len, polygons), dtype=np.intp, count=len(polygons))
         most = max(1, int(self.size.max(initial=1)))
         flat = np.concatenate([np.zeros((1, 2)), *polygons])
         start = 1 + np.cumsum(self.size) - self.size
         column = np.where(np.arange(most) < self.size[:, None], np.arange(most), 0)
-        self.points: Array = flat[np.where(self.size[:, None] > 0, start[:, None] + column, 0)]
-        self.extent: Array = np.ptp(self.points, axis=1).max(axis=1)
-        self.ulp: Array = 2.3e-16 * np.abs(self.points).max(axis=(1, 2))
-        following = np.roll(self.points, -1, axis=1)
-        self.edge: Array = following - self.points
-        self.length: Array = np.hypot(self.edge[..., 0], self.edge[..., 1])
+        # Polygon beside polygon (2, most, count), which numpy adds and compares fastest; seen as (count, most, 2).
+        place = np.ascontiguousarray(flat.T)[:, np.where(self.size[:, None] > 0, start[:, None] + column, 0).T]
+        low, high = place.min(axis=1), place.max(axis=1)
+        edge = np.concatenate([place[:, 1:], place[:, :1]], axis=1) - place
+        self.points: Array = place.T
+        self.edge: Array = edge.T
+        self.length: Array = np.hypot(*edge).T
+        self.extent: Array = (high - low).max(axis=0)
+        self.ulp: Array = 2.3e-16 * np.maximum(np.abs(low), np.abs(high)).max(axis=0)
 
-    @property
+    @cached_property
     def area(self) -> Array:
         """Signed areas (count,) in m^2, in extended precision where the machine has it."""
-        local = (self.points - self.points[:, :1]).astype(np.longdouble)
-        following = np.roll(local, -1, axis=1)
-        cross = local[..., 0] * following[..., 1] - local[..., 1] * following[..., 0]
+        local = (self.points - self.points[:, :1]).astype(np.longdouble, order="C")
+        x, y = local[..., 0], local[..., 1]  # the last edge ends at the first vertex, which is 0 here
+        cross = x[:, :-1] * y[:, 1:] - y[:, :-1] * x[:, 1:]
         return np.asarray(0.5 * cross.sum(axis=1), dtype=float)
 
     def not_convex(self) -> Array:
@@ -73,15 +76,28 @@ class Rings:
         Returns:
             Depths (count, m), negative outside, inf for a polygon without edges.
         """
-        least = np.full(points.shape[:2], np.inf)
-        for k in range(self.points.shape[1]):
-            length = self.length[:, k]
-            usable = length > 0.0
-            ex, ey = (self.edge[:, k] / np.where(usable, length, 1.0)[:, None]).T
-            away = points - self.points[:, k : k + 1]
-            across = ex[:, None] * away[..., 1] - ey[:, None] * away[..., 0]
-            least = np.where(usable[:, None], np.minimum(least, across), least)
-        return least
+        ex, ey, x, y, blocked, order, real = self._edges
+        px, py = (np.ascontiguousarray(points[order, :, axis].T) for axis in (0, 1))
+        least = np.full(px.shape, np.inf)
+        for k, n in enumerate(real):
+            across = ex[k, :n] * (py[:, :n] - y[k, :n]) - ey[k, :n] * (px[:, :n] - x[k, :n]) + blocked[k, :n]
+            np.minimum(least[:, :n], across, out=least[:, :n])
+        back = np.empty(points.shape[:2])
+        back[order] = least.T
+        return back
+
+    @cached_property
+    def _edges(self) -> tuple[Array, Array, Array, Array, Array, NDArray[np.intp], list[int]]:
+        """Edge by edge, the polygons with most of them first: direction, start, inf where it has no length; which
+        polygon stands where, and how many have so many edges."""
+        order = np.argsort(-self.size, kind="stable")
+        length, edge, points = self.length[order].T, self.edge[order].T, self.points[order].T
+        usable = length > 0.0
+        direction = edge / np.where(usable, length, 1.0)
+        blocked = np.where(usable, 0.0, np.inf)
+        real = (self.size > np.arange(len(length))[:, None]).sum(axis=1).tolist()
+        ex, ey, x, y, blocked = (np.ascontiguousarray(a) for a in (*direction, *points, blocked))
+        return ex, ey, x, y, blocked, order, real
 
     def distance(self, points: Array) -> Array:
         """Distance (count,) in m of points (count, 2) to the boundary of each polygon: all edges, clamped."""

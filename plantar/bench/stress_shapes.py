@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +21,13 @@ __all__ = ["SHAPE_CHECKS"]
 
 Array = NDArray[np.float64]
 _EXACT = 1e-12
+_MAPS: dict[int, Array] = {
+    5: np.array([[1.0, 0.5], [0.0, 0.0]]),
+    7: 1e-9 * np.eye(2),
+    8: 1e6 * np.eye(2),
+    10: np.diag([1.0, 1e-9]),
+}
+"""Of `_variant`: what puts points on a line, makes them tiny or huge, and makes a needle of them."""
 
 
 def _relative(one: Array, other: Array, scale: Array) -> Array:
@@ -36,13 +42,13 @@ def _slack(rings: Rings) -> Array:
 
 def _shapes(corners: Sequence[Array], count: int) -> Array:
     """Corners of shapes (readings, count, 2); of those of empty polygons NaN-free zeros."""
-    return np.stack([c if len(c) else np.zeros((count, 2)) for c in corners])
+    none = np.zeros((count, 2))
+    return np.concatenate([c if len(c) else none for c in corners]).reshape(-1, count, 2)
 
 
 def _areas(corners: Array) -> Array:
-    local = corners - corners[:, :1]
-    following = np.roll(local, -1, axis=1)
-    return np.asarray(0.5 * (local[..., 0] * following[..., 1] - local[..., 1] * following[..., 0]).sum(axis=1))
+    x, y = (corners - corners[:, :1]).T  # the last edge ends at the first corner, which is 0 here
+    return np.asarray(0.5 * (x[:-1] * y[1:] - y[:-1] * x[1:]).sum(axis=0))
 
 
 def _percept_support(block: Block, tally: Tally) -> None:
@@ -126,7 +132,7 @@ def _percept_outline(block: Block, tally: Tally) -> None:
 def _percept_shapes(block: Block, tally: Tally) -> None:
     """The members that are shapes, on the sole as it is."""
     percepts = block.percepts
-    hulls = [p.support_polygon_in_sole for p in percepts]
+    hulls = Rings([p.support_polygon_in_sole for p in percepts])
     _inside(
         block, tally, "Percept.inscribed_triangle_in_sole", hulls, [p.inscribed_triangle_in_sole for p in percepts], 3
     )
@@ -186,10 +192,9 @@ def _in_outline(block: Block, tally: Tally, name: str, corners: Sequence[Array],
 
 
 def _inside(
-    block: Block, tally: Tally, name: str, hulls: Sequence[Array], corners: Sequence[Array], count: int
+    block: Block, tally: Tally, name: str, rings: Rings, corners: Sequence[Array], count: int
 ) -> None:
     """A shape inside convex polygons: corners within, area within the bounds that theorems give."""
-    rings = Rings(hulls)
     shape = _shapes(corners, count)
     filled = rings.size > 0
     tally.add(
@@ -214,19 +219,20 @@ def _inside(
 
 def _largest_triangles(rings: Rings) -> Array:
     """Area of the largest triangle on vertices, all of them tried (readings,)."""
-    i, j, k = np.array(list(combinations(range(rings.points.shape[1]), 3))).reshape(-1, 3).T
-    x, y = rings.points[..., 0], rings.points[..., 1]
-    best = np.zeros(len(x))
-    for part in range(0, len(i), 512):  # in parts that the cache holds
-        a, b, c = (index[part : part + 512] for index in (i, j, k))
-        twice = (x[:, b] - x[:, a]) * (y[:, c] - y[:, a]) - (x[:, c] - x[:, a]) * (y[:, b] - y[:, a])
-        best = np.maximum(best, 0.5 * np.abs(twice).max(axis=1))
+    best = np.zeros(len(rings.size))
+    for size in np.unique(rings.size).tolist():
+        rows = np.flatnonzero(rings.size == size)
+        x, y = rings.points[rows, :size].T
+        for a in range(size - 2):
+            dx, dy = x[a + 1 :] - x[a], y[a + 1 :] - y[a]
+            for b in range(size - a - 2):
+                twice = dx[b] * dy[b + 1 :] - dx[b + 1 :] * dy[b]
+                best[rows] = np.maximum(best[rows], 0.5 * np.abs(twice).max(axis=0))
     return best
 
 
-def _around(block: Block, tally: Tally, name: str, hulls: Sequence[Array], corners: Sequence[Array]) -> None:
+def _around(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequence[Array]) -> None:
     """A shape around convex polygons: holds every vertex, area within the bounds that theorems give."""
-    rings = Rings(hulls)
     filled = rings.size > 0
     tally.add(
         f"{name}: none for an empty polygon", block, [bool(len(c)) != f for c, f in zip(corners, filled, strict=True)]
@@ -246,10 +252,9 @@ def _around(block: Block, tally: Tally, name: str, hulls: Sequence[Array], corne
 
 
 def _circles(
-    block: Block, tally: Tally, name: str, hulls: Sequence[Array], circles: Sequence[inscribed.Circle | None]
+    block: Block, tally: Tally, name: str, rings: Rings, circles: Sequence[inscribed.Circle | None]
 ) -> None:
     """Largest circles: as deep as their radius, and between area / perimeter and twice that."""
-    rings = Rings(hulls)
     tally.add(
         f"{name}: None for an empty polygon",
         block,
@@ -268,16 +273,12 @@ def _circles(
 
 def _variant(points: Array, kind: int, rng: np.random.Generator) -> Array:
     """Points as no sole would give them: far away, clockwise, repeated, on a line, at one place, tiny, huge."""
-    turn = float(rng.uniform(0.0, 6.3))
-    maps: dict[int, Array] = {
-        5: np.array([[1.0, 0.5], [0.0, 0.0]]),  # on a line
-        7: 1e-9 * np.eye(2),
-        8: 1e6 * np.eye(2),
-        10: np.diag([1.0, 1e-9]),  # a needle
-        11: np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]]),
-    }
-    if kind in maps:
-        return np.asarray(points @ maps[kind])
+    turn = 6.3 * rng.random()
+    if kind in _MAPS:
+        return np.asarray(points @ _MAPS[kind])
+    if kind == 11:
+        c, s = math.cos(turn), math.sin(turn)
+        return np.asarray(points @ np.array([[c, s], [-s, c]]))
     if kind == 1:
         return np.asarray(points + np.array([1e6, -1e6]))
     if kind == 2:
@@ -327,7 +328,7 @@ def _plane_polygons(block: Block, tally: Tally) -> None:
     )
     _points(block, tally, cloud, rings, middle)
     _offsets(block, tally, cloud, rings)
-    _inside(block, tally, "safe_rectangle", hulls, [safe_rectangle(c, 0.01) for c in cloud], 4)
+    _inside(block, tally, "safe_rectangle", rings, [safe_rectangle(c, 0.01) for c in cloud], 4)
     some = slice(block.number % 4, None, 4)  # the percepts call the same functions with every reading
     _all_shapes(block, tally, cloud[some], hulls[some])
 
@@ -388,30 +389,31 @@ def _offsets(block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings) -
 
 def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Sequence[Array]) -> None:
     """The inscribed and enclosing shapes of odd polygons."""
+    rings = Rings(hulls)
     functions: tuple[tuple[str, Callable[[Array], Array], int], ...] = (
         ("inscribed_triangle", inscribed.inscribed_triangle, 3),
         ("inscribed_parallelogram", inscribed.inscribed_parallelogram, 4),
         ("inscribed_rectangle", inscribed.inscribed_rectangle, 4),
     )
     for name, function, count in functions:
-        _inside(block, tally, name, hulls, [function(c) for c in cloud], count)
+        _inside(block, tally, name, rings, [function(c) for c in cloud], count)
     turned = [inscribed.inscribed_rectangle(c, 0.7 + 0.01 * i) for i, c in enumerate(cloud)]
-    _inside(block, tally, "inscribed_rectangle, turned", hulls, turned, 4)
+    _inside(block, tally, "inscribed_rectangle, turned", rings, turned, 4)
     _inside(
         block,
         tally,
         "inscribed_rectangle_any_angle",
-        hulls,
+        rings,
         [inscribed.inscribed_rectangle_any_angle(c) for c in cloud],
         4,
     )
-    _circles(block, tally, "inscribed_circle", hulls, [inscribed.inscribed_circle(c) for c in cloud])
+    _circles(block, tally, "inscribed_circle", rings, [inscribed.inscribed_circle(c) for c in cloud])
     for name, around in (
         ("bounding_box", enclosing.bounding_box),
         ("oriented_box", enclosing.oriented_box),
         ("enclosing_parallelogram", enclosing.enclosing_parallelogram),
     ):
-        _around(block, tally, name, hulls, [around(c) for c in cloud])
+        _around(block, tally, name, rings, [around(c) for c in cloud])
     shifted = [c + np.array([0.5, 0.0]) for c in cloud]
     both = Rings([feet_support_polygon([a, b]) for a, b in zip(cloud, shifted, strict=True)])
     tally.add("feet_support_polygon: convex", block, both.not_convex())
@@ -428,8 +430,7 @@ def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Seque
         ]
     )
     got = _areas(_shapes(corners, 4))
-    rings = Rings(hulls[::8])
-    size = np.maximum(1e-9 * rings.extent**2 + 64.0 * rings.ulp * rings.extent, 1e-300)
+    size = np.maximum(1e-9 * rings.extent**2 + 64.0 * rings.ulp * rings.extent, 1e-300)[::8]
     tally.add("rectangle_in_outline: as in the polygon", block, np.abs(got - right) / size, 1.0, len(whole))
 
 
