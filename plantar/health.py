@@ -201,18 +201,20 @@ def fill_from_neighbours(
     if out.ndim not in (1, 2) or out.shape[-1] != len(layout):
         raise ReadingError(f"readings have shape {out.shape}; layout '{layout.name}' has {len(layout)} taxels")
     bad = np.broadcast_to(np.asarray(faulty, dtype=bool), out.shape)
-    # A neighbour that is not flagged may still read NaN: it is no source either.
-    sound = ~bad & np.isfinite(out)
-    scale = layout.areas if per_area else np.ones(len(layout))
-    source = np.where(sound, out, 0.0) / scale
+    *frame, taxel = bad.nonzero()
+    if not len(taxel):
+        return out
     near, known = _neighbour_table(layout)
-    count = np.zeros(out.shape)
-    total = np.zeros(out.shape)
-    for column, there in zip(near.T, known.T, strict=True):  # first neighbour of every taxel, then the second, ...
-        count += sound[..., column] & there
-        total += source[..., column] * there
-    mean = np.divide(total, count, out=np.full(out.shape, np.nan), where=count > 0.0) * scale
-    np.copyto(out, mean, where=bad)
+    beside = near[taxel].T  # (most, faulty): first neighbour of every faulty taxel, then the second, ...
+    at = (*frame, beside)
+    # A neighbour that is not flagged may still read NaN: it is no source either.
+    sound = known[taxel].T & ~bad[at] & np.isfinite(out[at])
+    source = np.where(sound, out[at], 0.0)
+    if per_area:
+        source /= layout.areas[beside]
+    count = sound.sum(axis=0)
+    mean = np.where(count > 0, source.sum(axis=0), np.nan) / np.maximum(count, 1)
+    out[bad] = mean * layout.areas[taxel] if per_area else mean
     return out
 
 

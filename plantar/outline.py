@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import accumulate, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.cell_edges import EdgeTable, edge_table
 from plantar.errors import ReadingError
-from plantar.kernels.outline import Rings, area_and_centroid
+from plantar.kernels.outline import Rings, area_and_centroid, ring_areas
 from plantar.layout import SoleLayout
 from plantar.lazy import lazy
 
@@ -59,15 +60,20 @@ class Outline(Rings):
         Returns:
             The outline; rings without area are left out.
         """
-        kept, areas, starts = [], [], [0]
-        for ring in rings:
-            points = np.asarray(ring, dtype=float).reshape(-1, 2)
-            area = _ring_area(points)
-            if len(points) >= 3 and area != 0.0 and math.isfinite(area):
-                kept.append(points)
-                areas.append(area)
-                starts.append(starts[-1] + len(points))
-        return cls(np.concatenate(kept) if kept else np.empty((0, 2)), starts, areas, apart)
+        parts = [np.asarray(ring, dtype=float).reshape(-1, 2) for ring in rings]
+        return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))], apart)
+
+    @classmethod
+    def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int], apart: bool) -> Outline:
+        """Outline of rings one after another; those without area are left out."""
+        areas = ring_areas(points, starts)
+        if any(area == 0.0 or not math.isfinite(area) for area in areas):
+            pairs = zip(starts[:-1], starts[1:], areas, strict=True)
+            kept = [(points[a:b], area) for a, b, area in pairs if area != 0.0 and math.isfinite(area)]
+            points = np.concatenate([np.empty((0, 2)), *(ring for ring, _ in kept)])
+            starts = [0, *accumulate(len(ring) for ring, _ in kept)]
+            areas = [area for _, area in kept]
+        return cls(points, starts, areas, apart)
 
     def __len__(self) -> int:
         return len(self.ring_areas)
@@ -75,7 +81,7 @@ class Outline(Rings):
     @property
     def rings(self) -> tuple[NDArray[np.float64], ...]:
         """Vertices (k, 2) of each ring in m."""
-        return tuple(self.points[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True))
+        return tuple(self.points[a:b] for a, b in pairwise(self.starts))
 
     @lazy
     def centroid(self) -> NDArray[np.float64] | None:
@@ -111,11 +117,10 @@ class Outline(Rings):
         """
         turn = np.asarray(rotation, dtype=float)[:2, :2]
         shift = np.asarray(translation, dtype=float)[:2]
-        scale = float(np.linalg.det(turn))
-        rings = [ring @ turn.T + shift for ring in self.rings]
-        if scale < 0.0:  # seen from below
-            rings = [ring[::-1] for ring in rings]
-        return Outline.of_rings(rings, self.apart)
+        points = self.points @ turn.T + shift
+        if turn[0, 0] * turn[1, 1] < turn[0, 1] * turn[1, 0]:  # seen from below
+            points = np.concatenate([points, *(points[a:b][::-1] for a, b in pairwise(self.starts))])[len(points) :]
+        return Outline._with_area(points, self.starts, self.apart)
 
 
 def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
@@ -180,7 +185,13 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
     for i, (low, high) in enumerate(boxes):
         if any((low <= b).all() and (a <= high).all() for a, b in boxes[:i]):
             return _union([island for o in parts for island in o.islands])
-    return Outline.of_rings([ring for o in parts for ring in o.rings], all(o.apart for o in parts))
+    sizes = (b - a for o in parts for a, b in pairwise(o.starts))
+    return Outline(
+        np.concatenate([np.empty((0, 2)), *(o.points for o in parts)]),
+        [0, *accumulate(sizes)],
+        [area for o in parts for area in o.ring_areas],
+        all(o.apart for o in parts),
+    )
 
 
 def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]]) -> Outline:
@@ -195,14 +206,6 @@ def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]
             part = shapely.geometry.polygon.orient(part)
             rings += [np.array(r.coords)[:-1] for r in (part.exterior, *part.interiors)]
     return Outline.of_rings(rings, True)
-
-
-def _ring_area(points: NDArray[np.float64]) -> float:
-    """Signed area of a ring (k, 2) in m^2."""
-    if len(points) < 3:
-        return 0.0
-    x, y = (points - points[0]).T
-    return 0.5 * float(np.dot(x[:-1], y[1:]) - np.dot(x[1:], y[:-1]))
 
 
 def _is_around(shell: NDArray[np.float64], hole: NDArray[np.float64]) -> bool:

@@ -157,13 +157,14 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         >>> [int(contour.taxels.sum()) for contour in stack]
         [5, 11, 20]
     """
-    if any(math.isnan(h) for h in heights):
+    levels = sorted(map(float, heights))
+    if any(map(math.isnan, levels)):
         raise InputError("heights of contours hold NaN")
     readings = np.asarray(distance, dtype=np.float64)
     stack: list[HeightContour] = []
     before = b""
-    for height in sorted(float(h) for h in heights):
-        taxels = near_taxels(readings, height)
+    for height in levels:
+        taxels = np.asarray(readings < height)
         cells = taxels.tobytes()  # the quickest way to compare two masks
         polygon = stack[-1].polygon_in_sole if stack and cells == before else cells_polygon(layout, taxels)
         stack.append(HeightContour(height, taxels, polygon))

@@ -162,5 +162,7 @@ class SoleWrenchSwitch:
 
 def _finite(wrench: ArrayLike) -> NDArray[np.float64]:
     given = np.array(wrench, dtype=np.float64)
-    given[~np.isfinite(given).all(axis=-1)] = 0.0
+    fine = np.isfinite(given)
+    if not fine.all():
+        given[~fine.all(axis=-1)] = 0.0
     return given

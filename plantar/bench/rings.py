@@ -13,6 +13,7 @@ __all__ = ["Rings"]
 
 Array = NDArray[np.float64]
 
+
 class Rings:
     """Polygons (k, 2) padded to one array with their first vertex, so that what is padded closes them.
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar import body_skin, ground_plane, proximity, temperature, virtual_wrench
+from plantar.bench.results import differing
 from plantar.bench.rings import Rings
 from plantar.bench.stress_soles import Block
 from plantar.bench.tally import Tally
@@ -27,7 +27,7 @@ def _near_ground(block: Block, tally: Tally) -> None:
     near = known < layout.proximity_threshold
     tally.add("near_taxels", block, (proximity.near_taxels(distance, layout.proximity_threshold) != near).any(axis=1))
     seen = [i for i, p in enumerate(percepts) if p.near is not None]
-    wrong = [bool((percepts[i].near != near[i]).any()) for i in seen]
+    wrong = (np.array([percepts[i].near for i in seen]) != near[seen]).any(axis=1)
     tally.add("Percept.near", block, wrong, 0.0, len(block))
     hulls = [percepts[i].preemptive_polygon_in_sole for i in seen]
     rings = Rings([h if h is not None else np.empty((0, 2)) for h in hulls])
@@ -35,14 +35,12 @@ def _near_ground(block: Block, tally: Tally) -> None:
     empty = (rings.size > 0) != near[seen].any(axis=1)
     tally.add("Percept.preemptive_polygon_in_sole: empty", block, empty, 0.0, len(block))
     direct = [proximity.preemptive_polygon(layout, distance[i], layout.proximity_threshold) for i in seen]
-    same = [h is not None and np.array_equal(a, h) for a, h in zip(direct, hulls, strict=True)]
-    tally.add("preemptive_polygon", block, ~np.array(same), 0.0, len(seen))
-    broken = []
-    for i in seen:
-        stack = percepts[i].height_contours_in_sole
-        assert stack is not None
-        masks = [c.taxels for c in stack]
-        broken.append(any(bool((a & ~b).any()) for a, b in pairwise(masks)))
+    tally.add("preemptive_polygon", block, differing(direct, hulls), 0.0, len(seen))
+    stacks = [percepts[i].height_contours_in_sole for i in seen]
+    heights = [[] if s is None else [c.height for c in s] for s in stacks]
+    assert all(h == heights[0] for h in heights)
+    masks = np.array([c.taxels for s in stacks if s for c in s]).reshape(len(seen), -1, len(layout))
+    broken = (masks[:, :-1] & ~masks[:, 1:]).any(axis=(1, 2))
     tally.add("Percept.height_contours_in_sole: nest", block, broken, 0.0, len(block))
     measure = proximity.proximity_measure(distance, reach)
     right = np.clip(reach - known, 0.0, reach)
@@ -71,7 +69,7 @@ def _plane_of_ground(block: Block, tally: Tally) -> None:
         plane = p.ground_plane_in_sole
         if plane is not None:
             values = [plane.height, *plane.slope, plane.residual]
-            wrong.append(not all(math.isfinite(v) for v in values) or not plane.inliers.any())
+            wrong.append(not all(map(math.isfinite, values)) or not plane.inliers.any())
     tally.add("Percept.ground_plane_in_sole: finite", block, wrong, 0.0, len(block))
     height, slope = 0.02, block.rng.uniform(-0.1, 0.1, 2)
     if np.abs(layout.positions[:, 2]).max() == 0.0 and len(layout) > 3:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar import activation, batch, force, health, pressure_wrench, sole_pose, zmp
 from plantar.bench import references as exact
+from plantar.bench.results import differing, not_finite
 from plantar.bench.stress_soles import Block
 from plantar.bench.tally import Tally
 from plantar.feet import FeetPercept
@@ -45,11 +45,10 @@ def _error(got: Array, wanted: Array, scale: Array) -> Array:
     return np.asarray((np.abs(got - wanted) / np.where(scale > 0.0, scale, 1.0)).max(axis=-1))
 
 
-def _same(one: Any, other: Any) -> bool:
-    """Whether two results are the same to the last bit, NaN being NaN."""
-    if one is None or other is None:
-        return one is None and other is None
-    return np.array_equal(np.asarray(one), np.asarray(other), equal_nan=np.asarray(one).dtype.kind == "f")
+def _points(rows: Array) -> list[Array | None]:
+    """The rows (n, 2) as the percepts give them: None for one that is NaN."""
+    missing = np.isnan(rows).all(axis=1)
+    return [None if none else row for row, none in zip(rows, missing, strict=True)]
 
 
 def _percept_loads(block: Block, tally: Tally) -> None:
@@ -60,8 +59,8 @@ def _percept_loads(block: Block, tally: Tally) -> None:
     wanted, scale = _sums(block)
     got = np.array([p.wrench_in_sole for p in percepts])
     tally.add("Percept.wrench_in_sole", block, _error(got, wanted, scale), _SUM)
-    rows = range(0, len(block), 100)
-    right = np.array([exact.wrench_exact(_columns(block), np.where(active[i], block.force[i], 0.0)) for i in rows])
+    rows, columns = range(0, len(block), 100), _columns(block)
+    right = np.array([exact.wrench_exact(columns, np.where(active[i], block.force[i], 0.0)) for i in rows])
     tally.add("Percept.wrench_in_sole: math.fsum", block, _error(got[::100], right, scale[::100]), _SUM, len(right))
     vertical = np.array([p.vertical_force for p in percepts])
     tally.add("Percept.vertical_force", block, _error(vertical[:, None], wanted[:, 2:3], scale[:, 2:3]), _SUM)
@@ -135,9 +134,12 @@ def _percept_faults(block: Block, tally: Tally) -> None:
         block,
         bad.any(axis=1) | (high_fill > np.where(finite < 0.0, finite * (1.0 - 1e-12), finite * (1.0 + 1e-12))),
     )
-    rows = np.arange(0, len(block), 25)
-    one = [_same(health.fill_from_neighbours(layout, given[i], wanted[i], per_area=True), filled[i]) for i in rows]
-    tally.add("fill_from_neighbours: batch as scalar", block, ~np.array(one), 0.0, len(rows))
+    one = [
+        health.fill_from_neighbours(layout, *pair, per_area=True)
+        for pair in zip(given[::25], wanted[::25], strict=True)
+    ]
+    wrong = differing(one, list(filled[::25]), equal_nan=True)
+    tally.add("fill_from_neighbours: batch as scalar", block, wrong, 0.0, len(wrong))
     sums = np.array([Percept(layout, reading, fill=True).wrench_in_sole for reading in block.readings])
     tally.add("Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1))
 
@@ -153,23 +155,23 @@ def _batch_functions(block: Block, tally: Tally) -> None:
     tally.add("batch.loads: wrench", block, _error(sums.wrench, wanted, scale), _SUM)
     area = np.array([p.contact_area for p in percepts])
     tally.add("batch.loads: area", block, sums.contact_area != area)
-    cops = [
-        _same(None if np.isnan(c).all() else c, p.position_cop_in_sole)
-        for c, p in zip(sums.center_of_pressure, percepts, strict=True)
-    ]
-    tally.add("batch.loads: CoP", block, ~np.array(cops))
+    tally.add(
+        "batch.loads: CoP",
+        block,
+        differing(_points(sums.center_of_pressure), [p.position_cop_in_sole for p in percepts], equal_nan=True),
+    )
     hulls = batch.support_polygons(layout, block.force, vertices=True)
     tally.add("batch.support_polygons: area", block, hulls.area != np.array([p.support_area for p in percepts]))
-    middle = [
-        _same(None if np.isnan(c).all() else c, p.centroid_in_sole)
-        for c, p in zip(hulls.centroid, percepts, strict=True)
-    ]
-    tally.add("batch.support_polygons: centroid", block, ~np.array(middle))
+    tally.add(
+        "batch.support_polygons: centroid",
+        block,
+        differing(_points(hulls.centroid), [p.centroid_in_sole for p in percepts], equal_nan=True),
+    )
     assert hulls.vertices is not None
     ends = np.cumsum(hulls.size)
     parts = np.split(hulls.vertices, ends[:-1])
-    same = [np.array_equal(a, p.support_polygon_in_sole) for a, p in zip(parts, percepts, strict=True)]
-    tally.add("batch.support_polygons: vertices", block, ~np.array(same))
+    wrong = differing(parts, [p.support_polygon_in_sole for p in percepts])
+    tally.add("batch.support_polygons: vertices", block, wrong)
     ground = batch.ground_planes(layout, block.proximity)
     planes = [p.ground_plane_in_sole for p in percepts]
     wrong = [
@@ -191,25 +193,24 @@ def _walking_tick(block: Block, tally: Tally) -> None:
     layout = block.layout
     offsets = block.rng.choice([0.0, 1e-6, 0.005, 0.02, 1.0], len(block)).tolist()
     middle = layout.positions[:, :2].mean(axis=0)
-    wrong, lost = [], []
-    for p, row, offset in zip(block.percepts, block.force, offsets, strict=True):
-        tick = walking_tick(layout, row, middle, offset)
-        wrong.append(
-            not (
-                np.array_equal(tick.support_polygon, p.support_polygon_in_sole)
-                and np.array_equal(tick.wrench, p.wrench_in_sole)
-                and np.array_equal(tick.active, p.active)
-                and (tick.contact_area, tick.support_area) == (p.contact_area, p.support_area)
-                and _same(tick.position_cop, p.position_cop_in_sole)
-                and _same(tick.centroid, p.centroid_in_sole)
-            )
-        )
-        none = tick.clamped is None
-        lost.append(
-            none != (len(p.support_polygon_in_sole) == 0)
-            or not all(np.isfinite(n).all() for n in _numbers([tick.safe_polygon, tick.clamped]))
-        )
+    ticks = [walking_tick(layout, row, middle, offset) for row, offset in zip(block.force, offsets, strict=True)]
+    percepts = block.percepts
+    wrong = np.array(
+        [
+            (t.contact_area, t.support_area) != (p.contact_area, p.support_area)
+            for t, p in zip(ticks, percepts, strict=True)
+        ]
+    )
+    wrong |= differing([t.support_polygon for t in ticks], [p.support_polygon_in_sole for p in percepts])
+    wrong |= differing([t.wrench for t in ticks], [p.wrench_in_sole for p in percepts])
+    wrong |= differing([t.active for t in ticks], [p.active for p in percepts])
+    wrong |= differing([t.position_cop for t in ticks], [p.position_cop_in_sole for p in percepts], equal_nan=True)
+    wrong |= differing([t.centroid for t in ticks], [p.centroid_in_sole for p in percepts], equal_nan=True)
     tally.add("walking_tick", block, wrong)
+    lost = np.array(
+        [(t.clamped is None) != (len(p.support_polygon_in_sole) == 0) for t, p in zip(ticks, percepts, strict=True)]
+    )
+    lost |= not_finite([(t.safe_polygon, t.clamped) for t in ticks])
     tally.add("walking_tick: no NaN", block, lost)
 
 
@@ -295,11 +296,8 @@ def _two_feet(block: Block, tally: Tally) -> None:
     poses = [block.pose, SolePose.flat(at[0], at[1] + 0.3, at[2])]
     members = [n for n in dir(FeetPercept) if not n.startswith("_")]
     rows = range(0, len(block), 2)  # a reading each foot
-    wrong = []
-    for i in rows:
-        feet = FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2]))
-        values = [getattr(feet, m) for m in members]
-        wrong.append(not all(np.isfinite(part).all() for part in _numbers(values)))
+    feet = [FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2])) for i in rows]
+    wrong = not_finite([[getattr(f, m) for m in members] for f in feet])
     tally.add("FeetPercept: every member", block, wrong, 0.0, len(block))
 
 
@@ -308,24 +306,8 @@ def _every_member(block: Block, tally: Tally) -> None:
     spared = {"acceleration_in_sole", "sound_force", "outline_rectangle_any_angle_in_sole", "health", "active", "near"}
     for member in Percept.members():
         if member not in spared:
-            values = [getattr(p, member) for p in block.percepts]
-            finite = np.isfinite(np.concatenate([np.zeros(1), *_numbers(values)])).all()
-            # Reading by reading only where something is wrong.
-            wrong = (
-                [False] * len(values) if finite else [any(~np.isfinite(n).all() for n in _numbers(v)) for v in values]
-            )
+            wrong = not_finite([getattr(p, member) for p in block.percepts])
             tally.add(f"Percept.{member}: no NaN", block, wrong)
-
-
-def _numbers(value: Any) -> list[Array]:
-    """The floating point numbers in a result, flat."""
-    if isinstance(value, np.ndarray):
-        return [value.reshape(-1)] if value.dtype.kind == "f" else []
-    if isinstance(value, float):
-        return [np.array([value])]
-    if isinstance(value, tuple | list):
-        return [part for v in value for part in _numbers(v)]
-    return _numbers(value.points) if hasattr(value, "points") else []
 
 
 FORCE_CHECKS: tuple[Callable[[Block, Tally], None], ...] = (

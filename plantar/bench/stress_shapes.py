@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar import enclosing, inscribed, polygon
 from plantar.bench import references as exact
+from plantar.bench.results import not_finite
 from plantar.bench.rings import Rings
 from plantar.bench.stress_soles import Block
 from plantar.bench.tally import Tally
@@ -103,23 +104,20 @@ def _percept_outline(block: Block, tally: Tally) -> None:
     hull = np.array([p.support_area for p in block.percepts])
     over = np.maximum(got - hull, 0.0) / np.maximum(hull, 1e-300)
     tally.add("Percept.concave_outline_in_sole: within the hull", block, over, _EXACT)
-    some = range(len(block))
-    for i in some:
-        outline = outlines[i]
-        middle = outline.centroid
-        if len(outline) and (middle is None or not np.isfinite(middle).all()):
+    middles = [math.nan if (m := o.centroid) is None and len(o) else m for o in outlines]
+    for outline, middle, wrong in zip(outlines, middles, not_finite(middles), strict=True):
+        if wrong and len(outline):
             raise ValueError(f"an outline of area {outline.area} has the centroid {middle}")
-    islands = [sum(len(part) for part in outlines[i].islands) for i in some]
-    tally.add(
-        "Outline.islands", block, [a != len(outlines[i]) for a, i in zip(islands, some, strict=True)], 0.0, len(some)
-    )
+    islands = [sum(map(len, o.islands)) for o in outlines]
+    tally.add("Outline.islands", block, [a != len(o) for a, o in zip(islands, outlines, strict=True)])
     turn, shift = block.pose.rotation_sole_to_world, block.pose.position_in_world
-    moved = [outlines[i].moved(turn, shift) for i in some]
+    moved = [o.moved(turn, shift) for o in outlines]
     reach = float(np.abs(shift).max()) + 1.0
-    size = np.array([np.ptp(outlines[i].points, axis=0).max() if len(outlines[i]) else 1.0 for i in some])
-    allowed = 1e-12 * wanted + 64.0 * 2.3e-16 * reach * size * np.array([len(outlines[i].points) + 1 for i in some])
+    rings = Rings([o.points for o in outlines])
+    size = np.where(rings.size > 0, rings.extent, 1.0)
+    allowed = 1e-12 * wanted + 64.0 * 2.3e-16 * reach * size * (rings.size + 1)
     lost = np.abs(np.array([m.area for m in moved]) - wanted) / np.maximum(allowed, 1e-300)
-    tally.add("Outline.moved", block, np.where(wanted > 0.0, lost, 0.0), 1.0, len(some))
+    tally.add("Outline.moved", block, np.where(wanted > 0.0, lost, 0.0), 1.0)
     pairs = range(0, len(block) - 1, 2)  # a reading each foot
     apart = [feet_outline([outlines[i], outlines[i + 1].moved(np.eye(2), [3.0, 0.0])]) for i in pairs]
     both = np.array([o.area for o in apart])
@@ -191,9 +189,7 @@ def _in_outline(block: Block, tally: Tally, name: str, corners: Sequence[Array],
     tally.add(name, block, lost, 1e-9, len(lost))
 
 
-def _inside(
-    block: Block, tally: Tally, name: str, rings: Rings, corners: Sequence[Array], count: int
-) -> None:
+def _inside(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequence[Array], count: int) -> None:
     """A shape inside convex polygons: corners within, area within the bounds that theorems give."""
     shape = _shapes(corners, count)
     filled = rings.size > 0
@@ -225,9 +221,8 @@ def _largest_triangles(rings: Rings) -> Array:
         x, y = rings.points[rows, :size].T
         for a in range(size - 2):
             dx, dy = x[a + 1 :] - x[a], y[a + 1 :] - y[a]
-            for b in range(size - a - 2):
-                twice = dx[b] * dy[b + 1 :] - dx[b + 1 :] * dy[b]
-                best[rows] = np.maximum(best[rows], 0.5 * np.abs(twice).max(axis=0))
+            twice = dx[:, None] * dy - dx * dy[:, None]  # each triangle with both signs
+            best[rows] = np.maximum(best[rows], 0.5 * twice.max(axis=(0, 1)))
     return best
 
 
@@ -251,9 +246,7 @@ def _around(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequen
     tally.add(f"{name}: area", block, error, 1.0)
 
 
-def _circles(
-    block: Block, tally: Tally, name: str, rings: Rings, circles: Sequence[inscribed.Circle | None]
-) -> None:
+def _circles(block: Block, tally: Tally, name: str, rings: Rings, circles: Sequence[inscribed.Circle | None]) -> None:
     """Largest circles: as deep as their radius, and between area / perimeter and twice that."""
     tally.add(
         f"{name}: None for an empty polygon",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
 import time
@@ -77,11 +78,12 @@ class Tally:
         tested.readings += len(values) if readings is None else readings
         bad = ~(values <= bound)
         if len(values):
-            worst = float(np.where(np.isnan(values), np.inf, values).max())
-            tested.worst = max(tested.worst, worst)
-        tested.failures += int(bad.sum())
-        for i in np.flatnonzero(bad)[: max(0, _KEPT - len(tested.examples))].tolist():
-            self._example(tested, block, f"value {i} of {len(values)}: error {values[i]:.3g}, allowed {bound:.3g}")
+            worst = float(values.max())
+            tested.worst = max(tested.worst, math.inf if math.isnan(worst) else worst)
+        if bad.any():
+            tested.failures += int(bad.sum())
+            for i in np.flatnonzero(bad)[: max(0, _KEPT - len(tested.examples))].tolist():
+                self._example(tested, block, f"value {i} of {len(values)}: error {values[i]:.3g}, allowed {bound:.3g}")
         now = time.perf_counter()
         tested.seconds += now - self._since
         self._since = now

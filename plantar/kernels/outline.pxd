@@ -9,6 +9,12 @@ cdef Py_ssize_t _SHORT
 )
 cpdef (double, double, double) area_and_centroid(const double[:, :] points, object starts)
 
+@cython.locals(
+    areas=list, twice=double, ax=double, ay=double, bx=double, by=double, r=Py_ssize_t, first=Py_ssize_t,
+    last=Py_ssize_t, i=Py_ssize_t
+)
+cpdef list ring_areas(const double[:, :] points, object starts)
+
 cdef class Rings:
     cdef public object points
     cdef public object starts

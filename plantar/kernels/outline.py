@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-__all__ = ["EdgeTable", "Rings", "area_and_centroid"]
+__all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 _SHORT = 256  # points of an outline for which there is a view at hand
 
@@ -48,6 +48,33 @@ def area_and_centroid(points, starts):
     if twice == 0.0:
         return 0.0, x0, y0
     return 0.5 * twice, x0 + sx / (3.0 * twice), y0 + sy / (3.0 * twice)
+
+
+def ring_areas(points, starts):
+    """Signed area of each ring, about its first vertex.
+
+    Args:
+        points: Vertices (k, 2) in m.
+        starts: Offsets (r + 1) of the rings.
+
+    Returns:
+        Areas (r) in m^2, a list: 0 for a ring of fewer than 3 vertices.
+    """
+    areas = []
+    for r in range(len(starts) - 1):
+        first = starts[r]
+        last = starts[r + 1]
+        twice = 0.0
+        ax = 0.0
+        ay = 0.0
+        for i in range(first + 1, last):
+            bx = points[i, 0] - points[first, 0]
+            by = points[i, 1] - points[first, 1]
+            twice += ax * by - bx * ay
+            ax = bx
+            ay = by
+        areas.append(0.5 * float(twice))
+    return areas
 
 
 class Rings:
