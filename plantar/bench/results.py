@@ -38,9 +38,10 @@ def _gather(value: Any, floats: list[float], arrays: list[Array]) -> None:
             arrays.append(value)
     elif isinstance(value, float):
         floats.append(value)
-    elif isinstance(value, tuple | list):
+    elif isinstance(value, (tuple, list)):
         for part in value:
-            _gather(part, floats, arrays)
+            if part is not None:
+                _gather(part, floats, arrays)
     elif hasattr(value, "points"):
         _gather(value.points, floats, arrays)
 

@@ -47,7 +47,7 @@ def _error(got: Array, wanted: Array, scale: Array) -> Array:
 
 def _points(rows: Array) -> list[Array | None]:
     """The rows (n, 2) as the percepts give them: None for one that is NaN."""
-    missing = np.isnan(rows).all(axis=1)
+    missing: list[bool] = np.asarray(np.isnan(rows).all(axis=1)).tolist()
     return [None if none else row for row, none in zip(rows, missing, strict=True)]
 
 

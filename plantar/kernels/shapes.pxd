@@ -4,6 +4,8 @@ from libc cimport math
 from . cimport any_angle, concave, enclosing, inscribed, rectangle
 
 cdef double _LARGEST
+cdef double _INF
+cdef double _QUARTER
 
 cdef class ConvexShapes:
     cdef bint lists

@@ -17,6 +17,8 @@ from . import any_angle, enclosing, inscribed, rectangle
 __all__ = ["ConvexShapes"]
 
 _LARGEST = 1e100
+_INF = math.inf
+_QUARTER = 0.5 * math.pi
 
 
 class ConvexShapes:
@@ -119,7 +121,7 @@ class ConvexShapes:
         if size <= 0.0:
             return self._middle(4)
         if self._leans(angle):  # an edge almost upright: better conditioned with x and y exchanged
-            after = rectangle.largest_rectangle(self.ring, self.n, angle + 0.5 * math.pi, size, self.work, self.out)
+            after = rectangle.largest_rectangle(self.ring, self.n, angle + _QUARTER, size, self.work, self.out)
             if after > size:  # the first corner of the turned rectangle is the lower right one
                 x = self.out[6]
                 y = self.out[7]
@@ -189,10 +191,10 @@ class ConvexShapes:
 
     def bounding_box(self, points):
         """Corners of the axis-aligned box around the finite ones of some points."""
-        low_x = math.inf
-        low_y = math.inf
-        high_x = -math.inf
-        high_y = -math.inf
+        low_x = _INF
+        low_y = _INF
+        high_x = -_INF
+        high_y = -_INF
         for i in range(points.shape[0]):
             x = float(points[i, 0])
             y = float(points[i, 1])

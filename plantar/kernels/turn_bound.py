@@ -17,6 +17,7 @@ __all__ = ["TurnBound"]
 
 _LINES = 12  # slanted edges that are taken account of; others are left out, which only weakens the bound
 _CHAIN = 6  # edges of a chain that are walked along
+_INF = math.inf  # typed: an attribute of the module is looked up at each use
 _BEND = 2.0  # second derivative of the bound's logarithm, in (w / h + h / w)^2
 
 
@@ -49,9 +50,18 @@ class TurnBound:
         self.cut = self._numbers(64)
         self.work = self._numbers(320)
         self.corner = self._numbers(8)
+        self.bearings = 0
+        self.bearing = self._places(64)
+        self.side = self._places(64)
+        self.foremost = self._places(8)
+        self.most = self._numbers(8)
+        self.level = self._numbers(4)
 
     def _numbers(self, size):
         return [0.0] * size if self.lists else np.zeros(size)
+
+    def _places(self, size):
+        return [0] * size if self.lists else np.zeros(size, dtype=np.intp)
 
     def narrow(self, ring, n, corner, least, box):
         """Find a box that all rectangles of more than some area in a convex ring enclose, at angle 0.
@@ -100,9 +110,9 @@ class TurnBound:
         """
         if box[0] >= box[1] or box[2] >= box[3]:
             return
+        self._find_bearing(xs, ys, start[rings], box, half)
         self._find_lines(xs, ys, start, rings, box, math.tan(half) * (1.0 - 1e-9))
-        m = start[rings]
-        middle = self._room(xs, ys, m, box, half, 0.0)
+        middle = self._room(xs, ys, box, 0.0)
         if not 0.0 < middle < target:
             return
         lean = rectangle.lean(self.corner) - half
@@ -114,11 +124,76 @@ class TurnBound:
         beside = 0.125 * half
         for side in range(2):
             # The slope is at most what the areas rose by from the other side, and a bit for the bend in between.
-            before = self._room(xs, ys, m, box, half, beside if side == 0 else -beside)
+            before = self._room(xs, ys, box, beside if side == 0 else -beside)
             slope = math.log(middle / max(1e-300, before)) / beside + 0.5 * bend * beside
             root = math.sqrt(slope * slope + 2.0 * bend * gap)
             far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
             reach[side] = max(reach[side], min(half, far))
+
+    def _find_bearing(self, xs, ys, m, box, half):
+        """Find the vertices that bear on a side at every angle, and those of each side that do so most at either end.
+
+        Sides count as left, right, bottom, top; `level` is where they stand at the middle angle.
+        """
+        if m > len(self.bearing):
+            self.bearing = self._places(2 * m)
+            self.side = self._places(2 * m)
+        cosine = math.cos(half)
+        sine = math.sin(half)
+        lean = math.tan(half)
+        middle_x = 0.5 * (box[0] + box[1])
+        middle_y = 0.5 * (box[2] + box[3])
+        most = self.most
+        level = self.level
+        for k in range(8):
+            most[k] = -_INF
+        for k in range(4):
+            level[k] = _INF if k == 1 or k == 3 else -_INF
+        count = 0
+        for v in range(m):
+            x = xs[v]
+            y = ys[v]
+            side = -1
+            gap = lean * max(0.0, max(box[2] - y, y - box[3]))
+            if box[0] + gap < x < box[1] - gap:
+                side = 2 if y < middle_y else 3
+                along = y
+                across = x
+            else:
+                gap = lean * max(0.0, max(box[0] - x, x - box[1]))
+                if box[2] + gap < y < box[3] - gap:
+                    side = 0 if x < middle_x else 1
+                    along = x
+                    across = y
+            if side < 0:
+                continue
+            self.bearing[count] = v
+            self.side[count] = side
+            count += 1
+            if side == 1 or side == 3:
+                level[side] = min(level[side], along)
+                along = -along
+            else:
+                level[side] = max(level[side], along)
+            for end in range(2):
+                reached = cosine * along + (sine if end else -sine) * across
+                if reached > most[2 * side + end]:
+                    most[2 * side + end] = reached
+                    self.foremost[2 * side + end] = v
+        self.bearings = count
+
+    def _is_behind(self, xs, ys, side, x, y, lean):
+        """Whether a point stands beyond a vertex that bears on a side, at every angle."""
+        for k in range(2 * side, 2 * side + 2):
+            if self.most[k] > -_INF:
+                dx = xs[self.foremost[k]] - x
+                dy = ys[self.foremost[k]] - y
+                if side == 1 or side == 3:
+                    dx = -dx
+                    dy = -dy
+                if (dx >= lean * abs(dy)) if side < 2 else (dy >= lean * abs(dx)):
+                    return True
+        return False
 
     def _find_lines(self, xs, ys, start, rings, box, lean):
         """Find the edges that hold a corner, alone or in a convex chain, at every angle of the interval."""
@@ -135,8 +210,12 @@ class TurnBound:
                     # The corner of Q that it would hold, on its left or it is none of these.
                     qx = box[0] if dy < 0.0 else box[1]
                     qy = box[2] if dx > 0.0 else box[3]
+                    # Where the sides that vertices bear on meet, if both do: beyond the line, or it says nothing.
+                    lx = self.level[0 if dy < 0.0 else 1]
+                    ly = self.level[2 if dx > 0.0 else 3]
                     if (
                         dx * (qy - ys[a]) - dy * (qx - xs[a]) > 0.0
+                        and not dx * (ly - ys[a]) - dy * (lx - xs[a]) >= 0.0
                         and self._is_anchored(xs, ys, low, high, a, b, -1, box, lean)
                         and self._is_anchored(xs, ys, low, high, b, a, 1, box, lean)
                     ):
@@ -150,80 +229,88 @@ class TurnBound:
     def _is_anchored(self, xs, ys, low, high, end, other, step, box, lean):
         """Whether no rectangle passes an edge beyond one end, or that of the convex chain that goes on from there.
 
+        One that does has the end above its top, say, and right of its left side. So none does where the end is below
+        the top of Q, or left of a vertex that bears on the left. The chain may turn once from one corner of a side to
+        the other: an edge that holds that one runs across such a rectangle.
+
         Args:
             low: First vertex of the ring; high the one behind its last.
             end: The end; other the edge's other one.
             step: 1 where the edge runs to the end, else -1.
         """
+        turned = False
         for _ in range(_CHAIN):
             x = xs[end]
             y = ys[end]
             dx = step * (x - xs[other])
             dy = step * (y - ys[other])
-            if (dx > 0.0) == ((dy < 0.0) == (step < 0)):  # the end beside Q: not above, or below, any rectangle
+            beside = (dx > 0.0) == ((dy < 0.0) == (step < 0))
+            if beside:  # the end beside Q: not above, or below, any rectangle
                 gap = lean * max(0.0, max(box[0] - x, x - box[1]))
                 if (y > box[2] + gap) if dx > 0.0 else (y < box[3] - gap):
+                    return True
+                if self._is_behind(xs, ys, 0 if dy < 0.0 else 1, x, y, lean):
                     return True
             else:
                 gap = lean * max(0.0, max(box[2] - y, y - box[3]))
                 if (x > box[0] + gap) if dy < 0.0 else (x < box[1] - gap):
                     return True
+                if self._is_behind(xs, ys, 2 if dx > 0.0 else 3, x, y, lean):
+                    return True
             following = end + step
             following = low if following >= high else high - 1 if following < low else following
             ex = step * (xs[following] - x)
             ey = step * (ys[following] - y)
-            if (
-                (ex > 0.0) != (dx > 0.0)
-                or (ey > 0.0) != (dy > 0.0)
-                or abs(ex) < lean * abs(ey)
-                or abs(ey) < lean * abs(ex)
-                or step * (dx * ey - dy * ex) < 0.0
-            ):
+            if (ex > 0.0) != (dx > 0.0) or (ey > 0.0) != (dy > 0.0):
+                if turned or ((ey > 0.0) != (dy > 0.0) if beside else (ex > 0.0) != (dx > 0.0)):
+                    return False
+                turned = True
+            if abs(ex) < lean * abs(ey) or abs(ey) < lean * abs(ex) or step * (dx * ey - dy * ex) < 0.0:
                 return False
+            if turned:
+                qx = box[0] if ey < 0.0 else box[1]
+                qy = box[2] if ex > 0.0 else box[3]
+                if ex * (qy - y) - ey * (qx - x) <= 0.0:
+                    return False
             other = end
             end = following
         return False
 
-    def _room(self, xs, ys, m, box, half, turn):
+    def _room(self, xs, ys, box, turn):
         """Area that vertices and lines leave at one angle, infinite where it is open; rectangle in `corner`."""
         cosine = math.cos(turn)
         sine = math.sin(turn)
-        lean = math.tan(half)
         middle_x = 0.5 * (box[0] + box[1])
         middle_y = 0.5 * (box[2] + box[3])
-        left = -math.inf
-        right = math.inf
-        bottom = -math.inf
-        top = math.inf
-        for v in range(m):
-            x = xs[v]
-            y = ys[v]
-            gap = lean * max(0.0, max(box[2] - y, y - box[3]))
-            if box[0] + gap < x < box[1] - gap:
-                if y < middle_y:
-                    bottom = max(bottom, cosine * y - sine * x)
-                else:
-                    top = min(top, cosine * y - sine * x)
-                continue
-            gap = lean * max(0.0, max(box[0] - x, x - box[1]))
-            if box[2] + gap < y < box[3] - gap:
-                if x < middle_x:
-                    left = max(left, cosine * x + sine * y)
-                else:
-                    right = min(right, cosine * x + sine * y)
+        left = -_INF
+        right = _INF
+        bottom = -_INF
+        top = _INF
+        for k in range(self.bearings):
+            x = xs[self.bearing[k]]
+            y = ys[self.bearing[k]]
+            side = self.side[k]
+            if side == 0:
+                left = max(left, cosine * x + sine * y)
+            elif side == 1:
+                right = min(right, cosine * x + sine * y)
+            elif side == 2:
+                bottom = max(bottom, cosine * y - sine * x)
+            else:
+                top = min(top, cosine * y - sine * x)
         # A side that only lines bear on: a bound that cuts nothing off them.
         open_sides = 0
         reach = 4.0 * (box[1] - box[0] + box[3] - box[2])
-        if left == -math.inf:
+        if left == -_INF:
             left = middle_x - reach
             open_sides = 1
-        if right == math.inf:
+        if right == _INF:
             right = middle_x + reach
             open_sides = 1
-        if bottom == -math.inf:
+        if bottom == -_INF:
             bottom = middle_y - reach
             open_sides = 1
-        if top == math.inf:
+        if top == _INF:
             top = middle_y + reach
             open_sides = 1
         if right <= left or top <= bottom:
@@ -256,7 +343,7 @@ class TurnBound:
             or self.corner[1] < middle_y - 0.99 * reach
             or self.corner[5] > middle_y + 0.99 * reach
         ):
-            return math.inf
+            return _INF
         return area
 
 
