@@ -28,22 +28,23 @@ def numbers(value: Any) -> Array:
     """
     floats: list[float] = []
     arrays: list[Array] = []
-    _gather(value, floats, arrays)
+    _gather((value,), floats, arrays)
     return np.concatenate([np.array(floats), *arrays], axis=None)
 
 
-def _gather(value: Any, floats: list[float], arrays: list[Array]) -> None:
-    if isinstance(value, np.ndarray):
-        if value.dtype.kind == "f":
-            arrays.append(value)
-    elif isinstance(value, float):
-        floats.append(value)
-    elif isinstance(value, (tuple, list)):
-        for part in value:
-            if part is not None:
-                _gather(part, floats, arrays)
-    elif hasattr(value, "points"):
-        _gather(value.points, floats, arrays)
+def _gather(values: Sequence[Any], floats: list[float], arrays: list[Array]) -> None:
+    for value in values:
+        if value is None:
+            continue
+        if isinstance(value, np.ndarray):
+            if value.dtype.kind == "f":
+                arrays.append(value)
+        elif isinstance(value, float):
+            floats.append(value)
+        elif isinstance(value, (tuple, list)):
+            _gather(value, floats, arrays)
+        elif hasattr(value, "points"):
+            arrays.append(value.points)
 
 
 def not_finite(values: Sequence[Any]) -> list[bool]:
@@ -81,7 +82,7 @@ def differing(
         >>> differing([np.zeros(2), None, np.zeros(1)], [np.zeros(2), None, np.zeros((1, 1))])
         [False, False, True]
     """
-    shapes = [[None if v is None else np.shape(v) for v in values] for values in (one, other)]
+    shapes = [[getattr(v, "shape", None) for v in values] for values in (one, other)]
     if shapes[0] == shapes[1]:
         a, b = (
             np.concatenate([np.empty(0), *(v for v in values if v is not None)], axis=None) for values in (one, other)
