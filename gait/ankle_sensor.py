@@ -70,13 +70,13 @@ class AnkleSensor:
         Returns:
             The wrench that the foot passes on, less its own weight.
         """
-        force = self.rotation @ measured[:3]
+        force = self.rotation.dot(measured[:3])
         lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame
         fx, fy, fz = force.tolist()
         gx, gy, gz = lift.tolist()
         px, py, pz = self.position.tolist()
         cx, cy, cz = self.com.tolist()
-        tx, ty, tz = (self.rotation @ measured[3:]).tolist()
+        tx, ty, tz = self.rotation.dot(measured[3:]).tolist()
         return SoleWrench(
             np.array(
                 [

@@ -389,13 +389,13 @@ class WalkingController:
         shift, turn = self._compensation.update(
             phase.swing == side,
             foot.position,
-            state.com + aligned @ (place - state.com),
+            state.com + aligned.dot(place - state.com),
             com,
             state.com,
             posture,
-            back @ state.rotation_base_to_world,
+            back.dot(state.rotation_base_to_world),
         )
-        rotation = rotation_from_vector(turn) @ foot.rotation
+        rotation = rotation_from_vector(turn).dot(foot.rotation)
         feet[side] = replace(foot, position=foot.position + shift, rotation=rotation)
 
     def _posture(self, com: NDArray[np.float64], torso: float) -> NDArray[np.float64]:
@@ -471,14 +471,14 @@ class WalkingController:
             level = rotation = self.motion.rotation(side)
             center, (x, y) = self.footholds.center(side), self.footholds.turn(side).tolist()
             if action.roll or action.pitch or action.shift or x or y:
-                rotation = level @ rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0]))
+                rotation = level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
                 # About the centre: it stays at its height, to first order.
                 rise = action.shift + action.pitch * center[0] - action.roll * center[1]
                 position = position + np.array([0.0, 0.0, rise])
             fx, fy, fz, tx, ty, _ = action.wrench.tolist()
             cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else center
-            place = self.motion.footholds[side][0][:2] + level[:2, :2] @ cop
-            targets[side] = FootTarget(position, rotation, level @ np.array([fx, fy, fz]), place)
+            place = self.motion.footholds[side][0][:2] + level[:2, :2].dot(cop)
+            targets[side] = FootTarget(position, rotation, level.dot(np.array([fx, fy, fz])), place)
         return targets
 
     def _com_height(self, phase: Phase) -> float:
@@ -498,8 +498,8 @@ class WalkingController:
         for side in _SIDES:
             position = self.motion.footholds[side][0]
             turn = self.footholds.turn(side)
-            rotations[side] = self.motion.rotation(side) @ rotation_from_vector(np.array([turn[0], turn[1], 0.0]))
-            centers[side] = position[:2] + rotations[side][:2, :2] @ self.footholds.center(side)
+            rotations[side] = self.motion.rotation(side).dot(rotation_from_vector(np.array([turn[0], turn[1], 0.0])))
+            centers[side] = position[:2] + rotations[side][:2, :2].dot(self.footholds.center(side))
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
         else:

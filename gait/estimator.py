@@ -144,7 +144,7 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _orthonormal(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """First-order re-orthonormalisation, enough for a rotation that is updated at every tick."""
-    return np.asarray(rotation @ (_THREE_HALVES - 0.5 * (rotation.T @ rotation)))
+    return np.asarray(rotation.dot(_THREE_HALVES - 0.5 * rotation.T.dot(rotation)))
 
 
 def heading(rotation: NDArray[np.float64]) -> float:
@@ -217,14 +217,14 @@ class FloatingBaseEstimator:
         rotation = self._rotation
         assert rotation is not None
         self._last, self._last_rotation = posture, rotation
-        positions = {s: self._position + rotation @ posture.positions[s] for s in _SIDES}
-        rotations = {s: rotation @ posture.rotations[s] for s in _SIDES}
+        positions = {s: self._position + rotation.dot(posture.positions[s]) for s in _SIDES}
+        rotations = {s: rotation.dot(posture.rotations[s]) for s in _SIDES}
         points: list[NDArray[np.float64] | None] = []
         for s in _SIDES:
             cop = cops[s]
-            points.append(None if cop is None else (positions[s] + rotations[s][:, :2] @ cop)[:2])
+            points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
         zmp = zmp_of_feet(points, [loads[s] for s in _SIDES])
-        self._observe(self._position + rotation @ posture.com, zmp)
+        self._observe(self._position + rotation.dot(posture.com), zmp)
         return BaseState(
             rotation,
             self._position.copy(),
@@ -267,10 +267,10 @@ class FloatingBaseEstimator:
         rotation = self._rotation
         rate = gyro.copy()
         # Gravity: the specific force minus the body's acceleration points up.
-        specific = rotation @ accelerometer
+        specific = rotation.dot(accelerometer)
         if planned_acceleration is not None:
             specific[:2] -= planned_acceleration
-        size = math.sqrt(float(specific @ specific))
+        size = math.sqrt(float(specific.dot(specific)))
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
             tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
             # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
@@ -278,14 +278,14 @@ class FloatingBaseEstimator:
             self._samples += 1
             since = self.period * (self._samples + 1)
             gain = 1.0 / since if since < self.gains.averaging else self.gains.gravity
-            rate += gain * (rotation.T @ tilt)
+            rate += gain * rotation.T.dot(tilt)
         total = 0.0
         error = 0.0
         for side in _SIDES:
-            yaw = heading(rotation @ posture.rotations[side])
             if loads[side] <= self.gains.minimum_load:
                 self._heading[side] = None
                 continue
+            yaw = heading(rotation.dot(posture.rotations[side]))
             held = self._heading[side]
             if held is None:
                 self._heading[side] = held = yaw
@@ -294,7 +294,7 @@ class FloatingBaseEstimator:
             total += weight
         if total > 0.0:
             rate += (self.gains.yaw * error / total) * rotation[2]
-        self._rotation = _orthonormal(rotation @ rotation_from_vector(rate * self.period))
+        self._rotation = _orthonormal(rotation.dot(rotation_from_vector(rate * self.period)))
 
     def _move(
         self,
@@ -311,9 +311,9 @@ class FloatingBaseEstimator:
             weight = loads[side] - self.gains.minimum_load
             if cop is None or weight <= 0.0:
                 continue
-            before = self._last.positions[side] + self._last.rotations[side][:, :2] @ cop
-            now = posture.positions[side] + posture.rotations[side][:, :2] @ cop
-            shift += weight * (self._last_rotation @ before - self._rotation @ now)
+            before = self._last.positions[side] + self._last.rotations[side][:, :2].dot(cop)
+            now = posture.positions[side] + posture.rotations[side][:, :2].dot(cop)
+            shift += weight * (self._last_rotation.dot(before) - self._rotation.dot(now))
             total += weight
         if total > 0.0:
             self._position = self._position + shift / total

@@ -137,7 +137,7 @@ class FootMotion:
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
         level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
-        return level if self._compliance is None else np.asarray(level @ self._tilts[side])
+        return level if self._compliance is None else np.asarray(level.dot(self._tilts[side]))
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
         """Turn the sole of a foot that stands a little further.

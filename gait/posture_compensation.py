@@ -72,8 +72,8 @@ class PostureCompensation:
         """
         step = self.period / self.fade
         self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
-        lean = rotation_command @ rotation_estimated.T
-        shift = com_command + lean @ (position_in_world - com_estimated) - position
+        lean = rotation_command.dot(rotation_estimated.T)
+        shift = com_command + lean.dot(position_in_world - com_estimated) - position
         turn = 0.5 * np.array([lean[2, 1] - lean[1, 2], lean[0, 2] - lean[2, 0], lean[1, 0] - lean[0, 1]])
         share = min(1.0, self.period / self.time_constant)
         self.shift = self.shift + share * (self._weight * _limited(shift, self.largest_shift) - self.shift)
@@ -82,5 +82,5 @@ class PostureCompensation:
 
 
 def _limited(vector: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
-    size = math.sqrt(float(vector @ vector))
+    size = math.sqrt(float(vector.dot(vector)))
     return vector if size <= largest else vector * (largest / size)

@@ -217,7 +217,7 @@ class SwingCompliance:
         view = self._view()
         if not self._rising:
             return view
-        return self._lifted_off(view, float(position[2] + rotation[2, :2] @ self._centre[:2]))
+        return self._lifted_off(view, float(position[2] + rotation[2, :2].dot(self._centre[:2])))
 
     def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
         """The ground that the sole has just left is as far away as its middle rose to a height in m, but for a bias."""
@@ -312,8 +312,8 @@ class SwingCompliance:
         rotation: NDArray[np.float64],
     ) -> NDArray[np.float64]:
         """How far (n,) each taxel rose in m from one pose of the sole to another: its distance grows by that."""
-        up = rotation.T @ (position - before)
-        turn = turned.T @ rotation
+        up = rotation.T.dot(position - before)
+        turn = turned.T.dot(rotation)
         return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
 
     def _risen_since(self, time: float) -> NDArray[np.float64]:
@@ -355,7 +355,7 @@ class SwingCompliance:
             slope = None  # too little to stand on, or too steep: the sole stays level
             nearest = middle = float(np.sort(used)[: max(1, len(used) // 3)].mean())
         else:
-            nearest = level - float((self._corners @ np.array([sx, sy])).max())
+            nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
             if g.orientation == "moment":
                 slope = self._slope_of_moment(len(seen))
@@ -386,11 +386,11 @@ def _highest_plane(
         n = len(x)
         mx, my, md = x.mean(), y.mean(), d.mean()
         u, v, w = x - mx, y - my, d - md
-        xx, xy, yy = float(u @ u), float(u @ v), float(v @ v)
+        xx, xy, yy = float(u.dot(u)), float(u.dot(v)), float(v.dot(v))
         determinant = xx * yy - xy * xy
         if n < 6 or determinant < 0.02 * xx * yy + 1e-12 or min(xx, yy) < n * 2e-4:
             return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0, d
-        xw, yw = float(u @ w), float(v @ w)
+        xw, yw = float(u.dot(w)), float(v.dot(w))
         sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
         above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
         if float(above.max()) < tolerance:
@@ -418,7 +418,7 @@ def turned_to_ground(
     size = math.hypot(float(turn[0]), float(turn[1]))
     if size > largest:
         turn *= largest / size
-    return np.asarray(rotation @ rotation_from_vector(turn))
+    return np.asarray(rotation.dot(rotation_from_vector(turn)))
 
 
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -433,7 +433,7 @@ def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     axis = 0.5 * np.array(
         [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
     )
-    sine = math.sqrt(float(axis @ axis))
+    sine = math.sqrt(float(axis.dot(axis)))
     if sine < 1e-9:
         return axis
     return np.asarray(axis * (math.atan2(sine, 0.5 * (float(np.trace(rotation)) - 1.0)) / sine))

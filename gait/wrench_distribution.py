@@ -199,7 +199,7 @@ class WrenchDistribution:
         scaled, _, flag, _ = solver.solve()
         if flag < 1:
             scaled = self._least_violating(work)
-        error = work.jacobian @ scaled - wanted
+        error = work.jacobian.dot(scaled) - wanted
         largest = max(map(abs, error.tolist()))
         if not math.isfinite(largest):
             work.forget()

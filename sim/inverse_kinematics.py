@@ -123,7 +123,7 @@ class LegModel:
             square = jac[:, self._columns]
             normal = square.T @ square
             normal.ravel()[:: len(normal) + 1] += 1e-8
-            _, step, _ = dposv(normal, square.T @ error)
+            _, step, _ = dposv(normal, square.T.dot(error))
             self._velocity[self._columns] = np.minimum(np.maximum(step, -0.5), 0.5)
             mujoco.mj_integratePos(model, data.qpos, self._velocity, 1.0)
             joints = np.minimum(np.maximum(data.qpos[self._qpos], self._lower), self._upper)
@@ -153,12 +153,12 @@ class LegModel:
             if forces[side][2] <= 0.0:
                 continue
             mujoco.mj_jac(model, data, jac, None, points[side], model.site_bodyid[self._sites[side]])
-            result -= jac.T @ forces[side]
+            result -= jac.T.dot(forces[side])
         torques: NDArray[np.float64] = result[self._dof]
         return torques
 
 
 def _rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotation vector (3,) in the world frame that turns `actual` into `wanted`, exact to first order."""
-    (_, xy, xz), (yx, _, yz), (zx, zy, _) = (wanted @ actual.T).tolist()
+    (_, xy, xz), (yx, _, yz), (zx, zy, _) = wanted.dot(actual.T).tolist()
     return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])

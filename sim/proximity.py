@@ -78,8 +78,8 @@ class SoleProximity:
         if not self.within_range(data):
             return out
         rotation = data.site_xmat[self._site].reshape(3, 3)
-        starts = self._start @ rotation.T + data.site_xpos[self._site]
-        ways = self._way @ rotation.T
+        starts = self._start.dot(rotation.T) + data.site_xpos[self._site]
+        ways = self._way.dot(rotation.T)
         cast, model, farthest = mujoco.mj_ray, self._model, self.range
         geom = np.empty(1, dtype=np.int32)
         for i, (start, way) in enumerate(zip(starts, ways, strict=True)):

@@ -107,7 +107,7 @@ class SensorSuite:
         gyro = data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3]
         specific = data.sensordata[w.accelerometer : w.accelerometer + 3] + s.accelerometer_noise * noise[k + 3 :]
         if self._imu_to_base is not None:
-            gyro, specific = self._imu_to_base @ gyro, self._imu_to_base @ specific
+            gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
         return Sensors(
             time=float(data.time),
             joint_positions=data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k],

@@ -79,9 +79,9 @@ class SoleSkin:
         if not contacts.size:
             return np.zeros(len(self.layout))
         rotation = data.site_xmat[self.site_id].reshape(3, 3)
-        points = ((contacts.positions - data.site_xpos[self.site_id]) @ rotation).tolist()
-        forces = (contacts.forces @ rotation).tolist()
-        torques = (contacts.torques @ rotation).tolist()
+        points = (contacts.positions - data.site_xpos[self.site_id]).dot(rotation).tolist()
+        forces = contacts.forces.dot(rotation).tolist()
+        torques = contacts.torques.dot(rotation).tolist()
         pairs: dict[tuple[int, int], list[Any]] = {}
         for own, other, (x, y, z), (fx, fy, fz), (tx, ty, _), gap in zip(
             contacts.own_geoms.tolist(),
