@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import mujoco
@@ -17,6 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.contact_rows import contact_rows
+from plantar.kernels.contact_sums import ground_sums
+from plantar.kernels.few_points import small_hull
 
 __all__ = [
     "REACH",
@@ -27,7 +30,6 @@ __all__ = [
     "feet_contacts",
     "foot_contacts",
     "ground_truth",
-    "small_hull",
     "small_margin",
     "support_polygon_of_contacts",
     "zmp_of_contacts",
@@ -133,28 +135,39 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
             mujoco.mj_contactForce(model, data, i, local[i])
         address = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
         dim, forces = np.full(n, 6, dtype=np.int32), local.ravel()
-    arrays = (contact.geom, contact.pos, contact.frame, contact.dist, address, dim, forces)
+    room = n * len(feet)
+    ids, rows, carries = np.empty((room, 2), dtype=np.int32), np.empty((room, 10)), np.empty(room, dtype=np.bool_)
+    own = _masks_of(tuple(map(frozenset, feet)), model.ngeom)
+    ends = contact_rows(
+        *(contact.geom, contact.pos, contact.frame, contact.dist, address, dim, forces),
+        *(own, ids, rows, carries.view(np.uint8)),
+    )
     sets = []
-    for geom_ids in feet:
-        ids, rows = np.empty((n, 2), dtype=np.int32), np.empty((n, 11))
-        own = geom_ids if isinstance(geom_ids, frozenset) else frozenset(int(i) for i in geom_ids)
-        k = contact_rows(*arrays, _mask_of(own, model.ngeom), ids, rows)
-        if not k:
+    for i, j in pairwise(ends):
+        if i == j:
             sets.append(_NO_CONTACTS)
             continue
-        ids, rows = ids[:k], rows[:k]
         sets.append(
-            ContactSet(ids[:, 0], ids[:, 1], rows[:, :3], rows[:, 3:6], rows[:, 6:9], rows[:, 9], rows[:, 10] > 0.0)
+            ContactSet(
+                ids[i:j, 0],
+                ids[i:j, 1],
+                rows[i:j, :3],
+                rows[i:j, 3:6],
+                rows[i:j, 6:9],
+                rows[i:j, 9],
+                carries[i:j],
+            )
         )
     return tuple(sets)
 
 
 @lru_cache(maxsize=64)
-def _mask_of(geom_ids: frozenset[int], count: int) -> NDArray[np.uint8]:
-    """Which of a model's geoms are a foot's."""
-    mask = np.zeros(count, dtype=np.uint8)
-    mask[list(geom_ids)] = 1
-    return mask
+def _masks_of(feet: tuple[frozenset[int], ...], count: int) -> NDArray[np.uint8]:
+    """Which of a model's geoms are each foot's (feet, geoms)."""
+    masks = np.zeros((len(feet), count), dtype=np.uint8)
+    for mask, geom_ids in zip(masks, feet, strict=True):
+        mask[list(geom_ids)] = 1
+    return masks
 
 
 _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
@@ -251,21 +264,13 @@ def ground_truth(
     Returns:
         The truth, in the world frame.
     """
-    # Plain floats: on the handful of contacts that two feet have, numpy's calls cost more than the sums.
-    fx = fy = fz = tx = ty = tz = height = 0.0
+    sums = np.zeros(7)
     points: list[tuple[float, float]] = []
     for c in feet:
         if c.size:
-            near = (c.carries | (c.distances <= REACH)).tolist()
-            for (x, y, z), (a, b, f), (p, q, r), n in zip(
-                c.positions.tolist(), c.forces.tolist(), c.torques.tolist(), near, strict=True
-            ):
-                fx, fy, fz = fx + a, fy + b, fz + f
-                tx, ty, tz = tx + p + y * f - z * b, ty + q + z * a - x * f, tz + r + x * b - y * a
-                height += z * f
-                if n:
-                    points.append((x, y))
-    wrench = np.array([fx, fy, fz, tx, ty, tz])
+            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), REACH, sums, points)
+    fx, fy, fz, tx, ty, _, height = sums.tolist()
+    wrench = sums[:6]
     ring = small_hull(points)
     polygon = np.array(ring).reshape(-1, 2)
     if not fz >= minimum_force:
@@ -301,33 +306,6 @@ def small_margin(ring: Sequence[tuple[float, float]], x: float, y: float) -> flo
             outer = min(outer, math.hypot(dx - t * lx, dy - t * ly))
         ax, ay = bx, by
     return inner if inner > 0.0 and len(ring) > 2 else -outer
-
-
-def small_hull(points: Sequence[tuple[float, float]], tolerance: float = 1e-9) -> list[tuple[float, float]]:
-    """Convex hull of a few points given as tuples: the array function costs ten times as much on eight points.
-
-    Args:
-        points: Points (x, y) in m.
-        tolerance: Twice the area in m^2 of a triangle that still counts as a straight line.
-
-    Returns:
-        Hull, counter-clockwise from the lowest x.
-    """
-    cloud = sorted(set(points))
-    if len(cloud) < 3:
-        return cloud
-    ring: list[tuple[float, float]] = []
-    for sequence in (cloud, cloud[::-1]):
-        part: list[tuple[float, float]] = []
-        for p in sequence:
-            while len(part) >= 2:
-                (ax, ay), (bx, by) = part[-2], part[-1]
-                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > tolerance:
-                    break
-                part.pop()
-            part.append(p)
-        ring += part[:-1]
-    return ring
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

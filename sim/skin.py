@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
+from plantar.kernels.contact_sums import pair_loads
 from plantar.layout import DEFAULT_RANGES, SoleLayout
 from plantar.reading import Reading
 from sim.contact_truth import REACH, ContactSet, foot_contacts
@@ -79,30 +80,17 @@ class SoleSkin:
         if not contacts.size:
             return np.zeros(len(self.layout))
         rotation = data.site_xmat[self.site_id].reshape(3, 3)
-        points = (contacts.positions - data.site_xpos[self.site_id]).dot(rotation).tolist()
-        forces = contacts.forces.dot(rotation).tolist()
-        torques = contacts.torques.dot(rotation).tolist()
-        pairs: dict[tuple[int, int], list[Any]] = {}
-        for own, other, (x, y, z), (fx, fy, fz), (tx, ty, _), gap in zip(
-            contacts.own_geoms.tolist(),
-            contacts.other_geoms.tolist(),
-            points,
-            forces,
-            torques,
-            contacts.distances.tolist(),
-            strict=True,
-        ):
-            if gap > REACH and fz == 0.0:
-                continue
-            pair = pairs.get((own, other))
-            if pair is None:
-                pair = pairs[(own, other)] = [0.0, 0.0, 0.0, []]
-            pair[0] += fz
-            pair[1] += tx + y * fz - z * fy
-            pair[2] += ty + z * fx - x * fz
-            pair[3].append((x, y))
+        pairs = pair_loads(
+            contacts.own_geoms,
+            contacts.other_geoms,
+            (contacts.positions - data.site_xpos[self.site_id]).dot(rotation),
+            contacts.forces.dot(rotation),
+            contacts.torques.dot(rotation),
+            contacts.distances,
+            REACH,
+        )
         out: NDArray[np.float64] | None = None
-        for fz, tx, ty, patch in pairs.values():
+        for fz, tx, ty, patch in pairs:
             if fz > 0.0:
                 part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
                 out = part if out is None else out + part
@@ -196,7 +184,7 @@ class SkinSensor:
         force = self.skin.taxel_forces(data, contacts)
         if self._rng is not None and self.noise_std > 0.0:
             force = force + self._rng.normal(0.0, self.noise_std, len(force))
-        force = np.clip(force, *self.range)
+        force = np.minimum(np.maximum(force, self.range[0]), self.range[1])
         force[self.dead] = np.nan
         return force
 

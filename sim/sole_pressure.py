@@ -26,11 +26,11 @@ from numpy.typing import NDArray
 
 from plantar.cell_cutting import CellCutter
 from plantar.errors import InputError, LayoutError
+from plantar.kernels.few_points import small_hull
 from plantar.kernels.foundation import spread_part, spread_whole
 from plantar.layout import SoleLayout
 from plantar.polygon import area as polygon_area
 from plantar.polygon import closest_point, convex_hull, inner_offset
-from sim.contact_truth import small_hull
 
 __all__ = ["SolePressure"]
 
