@@ -333,11 +333,12 @@ class SwingCompliance:
         """Take a reading (n,) in m into the map; where the ground has moved the map begins anew."""
         g = self.gains
         known = np.isfinite(reading) & np.isfinite(self._distance)
-        news = np.where(known, reading, 0.0) - np.where(known, self._distance, 0.0)
-        if known.any():
-            if abs(float(news[known].mean())) > g.jump_of_all * self._noise:
+        news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
+        told = news[known]
+        if len(told):
+            if abs(float(told.sum()) / len(told)) > g.jump_of_all * self._noise:
                 self._readings[:] = 0.0
-            spread = _SIGMA_OF_MEDIAN * float(np.median(np.abs(news[known])))
+            spread = _SIGMA_OF_MEDIAN * _median(np.abs(told))
             self._noise = max(_LEAST_NOISE, self._noise + _NOISE_SHARE * (spread - self._noise))
         self._readings[~known | (np.abs(news) > g.jump * self._noise)] = 0.0
         self._readings = np.minimum(self._readings + 1.0, self._most)
@@ -373,6 +374,13 @@ class SwingCompliance:
         )
 
 
+def _median(values: NDArray[np.float64]) -> float:
+    """Median of a few values (n,), all finite: `np.median` takes ten times as long."""
+    ordered = np.sort(values)
+    middle = len(ordered) // 2
+    return float(ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle]))
+
+
 def _highest_plane(
     x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64], tolerance: float
 ) -> tuple[float, float, float, NDArray[np.float64]]:
@@ -384,7 +392,7 @@ def _highest_plane(
     """
     for _ in range(4):
         n = len(x)
-        mx, my, md = x.mean(), y.mean(), d.mean()
+        mx, my, md = x.sum() / n, y.sum() / n, d.sum() / n
         u, v, w = x - mx, y - my, d - md
         xx, xy, yy = float(u.dot(u)), float(u.dot(v)), float(v.dot(v))
         determinant = xx * yy - xy * xy

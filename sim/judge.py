@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import mujoco
@@ -11,7 +12,14 @@ from numpy.typing import NDArray
 
 from plantar.layout import Side
 from plantar.polygon import area
-from sim.contact_truth import GroundTruth, feet_contacts, foot_contacts, ground_truth, support_polygon_of_contacts
+from sim.contact_truth import (
+    ContactSet,
+    GroundTruth,
+    feet_contacts,
+    foot_contacts,
+    ground_truth,
+    support_polygon_of_contacts,
+)
 from sim.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
@@ -100,18 +108,25 @@ class Judge:
         sole = data.site_xmat[self.world.sole_sites[side]].reshape(3, 3)[:, 2]
         return math.degrees(math.acos(min(1.0, abs(float(up @ sole)))))
 
-    def look(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> GroundTruth:
+    def look(
+        self,
+        com: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        feet: Sequence[ContactSet] | None = None,
+    ) -> GroundTruth:
         """At each control tick: tilt, ZMP margin, contact areas and the controller's errors.
 
         Args:
             com: The controller's estimate of the CoM (3,) in m.
             zmp: The controller's estimate of the ZMP (2,) in m, or None.
+            feet: Contacts of both feet where they are known already.
 
         Returns:
             Ground reaction, true ZMP and true support polygon.
         """
         world, data = self.world, self.world.data
-        feet = feet_contacts(world.model, data, [self._geoms[s] for s in _SIDES])
+        if feet is None:
+            feet = feet_contacts(world.model, data, [self._geoms[s] for s in _SIDES])
         truth = ground_truth(feet)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)

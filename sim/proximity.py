@@ -74,19 +74,16 @@ class SoleProximity:
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
         """
-        out = np.full(len(self.layout), np.inf)
         if not self.within_range(data):
-            return out
+            return np.full(len(self.layout), np.inf)
         rotation = data.site_xmat[self._site].reshape(3, 3)
         starts = self._start.dot(rotation.T) + data.site_xpos[self._site]
         ways = self._way.dot(rotation.T)
-        cast, model, farthest = mujoco.mj_ray, self._model, self.range
-        geom = np.empty(1, dtype=np.int32)
-        for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
-            length = cast(model, data, start, way, _GROUPS, 1, -1, geom)
-            if 0.0 <= length <= farthest + _LIFT:
-                out[i] = length - _LIFT
-        return out
+        cast, model, geom = mujoco.mj_ray, self._model, np.empty(1, dtype=np.int32)
+        length = np.array(
+            [cast(model, data, start, way, _GROUPS, 1, -1, geom) for start, way in zip(starts, ways, strict=True)]
+        )
+        return np.where((length >= 0.0) & (length <= self.range + _LIFT), length - _LIFT, np.inf)
 
 
 class ProximitySensor:

@@ -222,8 +222,9 @@ class Simulation:
         began = shown = clock.perf_counter()
         k = 0
         while k < math.ceil(controller.end / PHYSICS_PERIOD):  # a replan may make it later
+            feet = None
             if k % sensors.skin_every == 0:
-                sensors.sample_skin(controller.proximity_sides, everything)
+                feet = sensors.sample_skin(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)
             if k % _EVERY == 0:
@@ -236,7 +237,7 @@ class Simulation:
                 skipped["percept_members"] += _compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.look(command.footholds)
-                truth = judge.look(command.state.com, command.state.zmp)
+                truth = judge.look(command.state.com, command.state.zmp, feet)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
                     self.recovery.look(data.time, truth.zmp, com, plan.vrp, plan.com)

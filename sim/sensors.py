@@ -13,7 +13,7 @@ from gait.ankle_sensor import AnkleSensor
 from gait.controller import Sensors
 from plantar.layout import Side
 from plantar.reading import Reading
-from sim.contact_truth import feet_contacts
+from sim.contact_truth import ContactSet, feet_contacts
 from sim.proximity import ProximitySensor, SoleProximity
 from sim.robots.robot import Robot
 from sim.scene import Sensing
@@ -86,17 +86,21 @@ class SensorSuite:
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
         self.readings: dict[Side, Reading] = {}
 
-    def sample_skin(self, near: Collection[Side] = _SIDES, everything: bool = False) -> None:
+    def sample_skin(self, near: Collection[Side] = _SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
         """Sample the soles, which is due every `skin_every` physics steps.
 
         Args:
             near: Soles whose proximity somebody asks for.
             everything: Measure proximity that nobody asks for too; readings stay the same.
+
+        Returns:
+            The contacts of both soles that the skins felt.
         """
         data = self._world.data
         feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in _SIDES])
         for side, contacts in zip(_SIDES, feet, strict=True):
             self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
+        return feet
 
     def sample_body(self) -> Sensors:
         """Sample encoders and IMU, with the soles' latest readings."""
