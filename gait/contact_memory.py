@@ -25,10 +25,6 @@ __all__ = ["ContactMemory"]
 class ContactMemory:
     """Contacts of one foot over its stance.
 
-    Attributes:
-        polygon: Hull (k, 2) of the centres of the cells that touch, in the sole frame in m, counter-clockwise; empty
-            where fewer than three touch.
-
     Args:
         layout: The sole.
         least_force: Running mean in N from which a cell carries.
@@ -61,7 +57,6 @@ class ContactMemory:
     def lift(self) -> None:
         """The foot is in the air: forget what it touched."""
         count = len(self._places)
-        self.polygon = np.empty((0, 2))
         self._mean = np.zeros(count)
         self._touches = np.zeros(count, dtype=bool)
         self._slope = np.zeros((count, 2))
@@ -78,14 +73,19 @@ class ContactMemory:
         slope = rotation[2, :2]
         if reading.time > self._time:
             self._time = reading.time
-            self._mean += self._smoothing * (np.nan_to_num(reading.force, nan=0.0, posinf=0.0) - self._mean)
+            self._mean += self._smoothing * (np.where(np.isfinite(reading.force), reading.force, 0.0) - self._mean)
             carries = self._mean > max(self._least_force, self._least_share * float(self._mean.sum()))
             self._touches |= carries
             self._slope[carries] = slope
-        rise = ((slope - self._slope) * (self._places - center_of_pressure)).sum(axis=1)
-        self._touches &= rise < self._gap
+        rise = (slope - self._slope) * (self._places - center_of_pressure)
+        self._touches &= rise[:, 0] + rise[:, 1] < self._gap
+
+    @property
+    def polygon(self) -> NDArray[np.float64]:
+        """Hull (k, 2) of the centres of the cells that touch, in the sole frame in m, counter-clockwise; empty where
+        fewer than three touch."""
         touching = self._places[self._touches]
-        self.polygon = convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
+        return convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
 
     def target(self, wanted: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """Where the foot can be loaded safely.
@@ -96,6 +96,7 @@ class ContactMemory:
         Returns:
             The nearest point (2,) well inside the polygon; None while the foot touches at a point or a line.
         """
-        if len(self.polygon) < 3 or area(self.polygon) < self._least_area:
+        polygon = self.polygon
+        if len(polygon) < 3 or area(polygon) < self._least_area:
             return None
-        return closest_point(inner_offset(self.polygon, self._inset), wanted)
+        return closest_point(inner_offset(polygon, self._inset), wanted)

@@ -149,7 +149,7 @@ class StanceContact:
         if reading.time <= self._time or load < s.minimum_load:
             return False
         self._time = reading.time
-        force = np.nan_to_num(reading.force, nan=0.0, posinf=0.0)
+        force = np.where(np.isfinite(reading.force), reading.force, 0.0)
         self._count += 1
         self._sum = s.forgetting * self._sum + force
         self._weight = s.forgetting * self._weight + 1.0
