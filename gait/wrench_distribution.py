@@ -195,7 +195,6 @@ class WrenchDistribution:
             return self._rest(contacts, ratio)
         solver = work.solver
         assert solver is not None
-        solver.update(f=work.gradient)
         scaled, _, flag, _ = solver.solve()
         if flag < 1:
             scaled = self._least_violating(work)
@@ -267,35 +266,40 @@ class WrenchDistribution:
                     return None
                 limited = True
                 self._constrain(work, i, contact)
-            if last is None or not (
-                np.array_equal(contact.position, last.position) and np.array_equal(contact.rotation, last.rotation)
-            ):
-                moved = True
+            moved = (
+                moved
+                or last is None
+                or contact.position.tolist() != last.position.tolist()
+                or contact.rotation.tolist() != last.rotation.tolist()
+            )
             work.contacts[i] = contact
         if moved and not _turn(work, contacts):
             work.forget()
             return None
-        if moved or limited or ratio != work.ratio:
+        changed = moved or limited or ratio != work.ratio
+        if changed:
             if moved or limited:
-                np.matmul(work.jacobian.T, self.weights.net * work.jacobian, out=work.fixed)
+                work.jacobian.T.dot(self.weights.net * work.jacobian, out=work.fixed)
                 work.fixed += work.own
             work.ratio = ratio
             self._weigh(work, ratio)
-            if work.solver is None:
-                work.solver = daqp.Model()
-                work.solver.settings = {"primal_tol": 1e-10}
-                work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
-            elif limited:
-                work.solver.update(H=work.hessian, A=work.constraints, bupper=work.upper, blower=work.lower)
-            else:
-                work.solver.update(H=work.hessian)
         mx, my, mz = work.middle
         dx, dy, dz = px - mx, py - my, pz - mz
         w, m = self.weight, self.weight * _LENGTH
         moments = ((tx + dy * fz - dz * fy) / m, (ty + dz * fx - dx * fz) / m, (tz + dx * fy - dy * fx) / m)
         wanted = np.array([fx / w, fy / w, fz / w, *moments])
-        np.matmul(wanted, work.jacobian, out=work.gradient)
+        wanted.dot(work.jacobian, out=work.gradient)
         work.gradient *= -self.weights.net
+        if work.solver is None:
+            work.solver = daqp.Model()
+            work.solver.settings = {"primal_tol": 1e-10}
+            work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
+        elif limited:
+            work.solver.update(H=work.hessian, f=work.gradient, A=work.constraints)
+        elif changed:
+            work.solver.update(H=work.hessian, f=work.gradient)
+        else:
+            work.solver.update(f=work.gradient)
         return wanted
 
     def _constrain(self, work: _Workspace, i: int, contact: FootContact) -> None:
@@ -353,18 +357,17 @@ def _turn(work: _Workspace, contacts: Sequence[FootContact]) -> bool:
     """Jacobian of the net wrench about the middle of the contacts, in the program's units; False if not finite."""
     places = [c.position.tolist() for c in contacts]
     mx, my, mz = work.middle = tuple(sum(v) / len(places) for v in zip(*places, strict=True))
-    # One flat list: filling blocks of an array costs twice as much.
-    force: list[list[float]] = [[], [], []]
-    moment: list[list[float]] = [[], [], []]
-    for contact, (x, y, z) in zip(contacts, places, strict=True):
+    total = 0.0
+    for k, (contact, (x, y, z)) in enumerate(zip(contacts, places, strict=True)):
         dx, dy, dz = (x - mx) / _LENGTH, (y - my) / _LENGTH, (z - mz) / _LENGTH
-        one, two, three = contact.rotation.tolist()
-        for rows, turned in zip(force, (one, two, three), strict=True):
-            rows += [*turned, 0.0, 0.0, 0.0]
-        (a, b, c), (d, e, f), (g, h, i) = one, two, three
-        moment[0] += [dy * g - dz * d, dy * h - dz * e, dy * i - dz * f, *one]
-        moment[1] += [dz * a - dx * g, dz * b - dx * h, dz * c - dx * i, *two]
-        moment[2] += [dx * d - dy * a, dx * e - dy * b, dx * f - dy * c, *three]
-    flat = [v for row in (*force, *moment) for v in row]
-    work.jacobian.ravel()[:] = flat
-    return math.isfinite(sum(flat))
+        (a, b, c), (d, e, f), (g, h, i) = contact.rotation.tolist()
+        levers = [
+            *(dy * g - dz * d, dy * h - dz * e, dy * i - dz * f),
+            *(dz * a - dx * g, dz * b - dx * h, dz * c - dx * i),
+            *(dx * d - dy * a, dx * e - dy * b, dx * f - dy * c),
+        ]
+        total += sum(levers) + (a + b + c + d + e + f + g + h + i)
+        columns = work.jacobian[:, 6 * k : 6 * k + 6]
+        columns[:3, :3] = columns[3:, 3:] = contact.rotation
+        columns[3:, :3] = np.array(levers).reshape(3, 3)
+    return math.isfinite(total)
