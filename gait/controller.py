@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +27,7 @@ from gait.estimator import (
 from gait.feasibility import FeasibilityRules
 from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footholds import FootholdFelt, Footholds, middle_of_sole
-from gait.footsteps import Footstep, other_side
+from gait.footsteps import Footstep, level_rotation, other_side
 from gait.ground_conformity import ConformityGains, GroundConformity
 from gait.lip import pendulum_frequency
 from gait.phases import Phase, Timing, WalkSchedule
@@ -383,9 +383,9 @@ class WalkingController:
             return
         foot = feet[side]
         place = self._frame.to_world(foot.position)
-        back = Footstep(side, 0.0, 0.0, torso - heading(state.rotation_base_to_world)).rotation_sole_to_world
+        back = level_rotation(torso - heading(state.rotation_base_to_world))
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-        aligned = Footstep(side, 0.0, 0.0, -self._frame.turn).rotation_sole_to_world
+        aligned = level_rotation(-self._frame.turn)
         shift, turn = self._compensation.update(
             phase.swing == side,
             foot.position,
@@ -396,7 +396,7 @@ class WalkingController:
             back.dot(state.rotation_base_to_world),
         )
         rotation = rotation_from_vector(turn).dot(foot.rotation)
-        feet[side] = replace(foot, position=foot.position + shift, rotation=rotation)
+        feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
 
     def _posture(self, com: NDArray[np.float64], torso: float) -> NDArray[np.float64]:
         """Rotation (3, 3) of the torso: along the feet, and leaning over the foot that the CoM moves to.
@@ -456,7 +456,7 @@ class WalkingController:
             center = self.footholds.center(side)
             contact = FootContact(
                 self._frame.to_world(position),
-                Footstep(side, 0.0, 0.0, yaw + self._frame.turn).rotation_sole_to_world,
+                level_rotation(yaw + self._frame.turn),
                 rectangle[1],
                 preferred=(float(center[0]), float(center[1])),
             )
@@ -497,8 +497,11 @@ class WalkingController:
         rotations: dict[Side, NDArray[np.float64]] = {}
         for side in _SIDES:
             position = self.motion.footholds[side][0]
-            turn = self.footholds.turn(side)
-            rotations[side] = self.motion.rotation(side).dot(rotation_from_vector(np.array([turn[0], turn[1], 0.0])))
+            x, y = self.footholds.turn(side).tolist()
+            rotation = self.motion.rotation(side)
+            if x or y:
+                rotation = rotation.dot(rotation_from_vector(np.array([x, y, 0.0])))
+            rotations[side] = rotation
             centers[side] = position[:2] + rotations[side][:2, :2].dot(self.footholds.center(side))
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}

@@ -272,7 +272,8 @@ class FloatingBaseEstimator:
             specific[:2] -= planned_acceleration
         size = math.sqrt(float(specific.dot(specific)))
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
-            tilt = np.array([specific[1], -specific[0], 0.0]) / size  # specific x up
+            x, y, _ = specific.tolist()
+            tilt = np.array([y / size, -x / size, 0.0])  # specific x up
             # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
             # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
             self._samples += 1

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gait.command_frame import CommandFrame
 from gait.estimator import rotation_from_vector
-from gait.footsteps import Footstep, other_side
+from gait.footsteps import Footstep, level_rotation, other_side
 from gait.phases import Phase, PhaseKind, WalkSchedule
 from gait.swing import SwingTrajectory, minimum_jerk
 from gait.swing_compliance import GroundView, SwingCompliance, turned_to_ground, vector_from_rotation
@@ -136,7 +136,7 @@ class FootMotion:
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
-        level = Footstep(side, 0.0, 0.0, self.footholds[side][1]).rotation_sole_to_world
+        level = level_rotation(self.footholds[side][1])
         return level if self._compliance is None else np.asarray(level.dot(self._tilts[side]))
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:

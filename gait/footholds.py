@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gait.command_frame import CommandFrame
 from gait.estimator import BaseState
 from gait.foot_motion import FootMotion
-from gait.footsteps import Footstep
+from gait.footsteps import level_rotation
 from gait.landing_compliance import LandingCompliance
 from gait.phases import Phase, PhaseKind
 from gait.stance_contact import ContactSettings, StanceContact
@@ -202,7 +202,7 @@ class Footholds:
             time: Time in s.
         """
         self._feet[side].center = self._middle[side] + np.array([0.0, distance])
-        turn = Footstep(side, 0.0, 0.0, self._motion.footholds[side][1] + self._frame.turn).rotation_sole_to_world
+        turn = level_rotation(self._motion.footholds[side][1] + self._frame.turn)
         self._move(step, self._plan.stance(step) + turn[:2, 1] * distance, phase, time)
 
     def zmp_region(self, phase: Phase) -> NDArray[np.float64]:
@@ -231,7 +231,7 @@ class Footholds:
                     position, yaw = self._motion.footholds[side]
                     support = polygon_in_world(
                         self._outline[side],
-                        Footstep(side, 0.0, 0.0, yaw).rotation_sole_to_world,
+                        level_rotation(yaw),
                         np.array([position[0], position[1], 0.0]) + self._frame.offset,
                     )
                 parts.append(support)

@@ -30,7 +30,8 @@ class LegModel:
     def __init__(self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str) -> None:
         self.model = model
         self._data = mujoco.MjData(model)  # of the solution
-        self._probe = mujoco.MjData(model)  # of the measured posture
+        self._probe = mujoco.MjData(model)  # of the measured posture, in the base frame
+        self._probe.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
         ids = [model.joint(name).id for name in joints]
         self._qpos = np.array([model.jnt_qposadr[i] for i in ids])
         self._dof = np.array([model.jnt_dofadr[i] for i in ids])
@@ -52,7 +53,6 @@ class LegModel:
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics in the base frame (see `gait.estimator.LegKinematics`)."""
         data = self._probe
-        data.qpos[:7] = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
         data.qpos[self._qpos] = joint_positions
         mujoco.mj_kinematics(self.model, data)
         mujoco.mj_comPos(self.model, data)
@@ -128,7 +128,7 @@ class LegModel:
             mujoco.mj_integratePos(model, data.qpos, self._velocity, 1.0)
             joints = np.minimum(np.maximum(data.qpos[self._qpos], self._lower), self._upper)
             data.qpos[self._qpos] = joints
-        return data.qpos[self._qpos].copy(), float(np.abs(error).max())
+        return data.qpos[self._qpos], float(np.abs(error).max())
 
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, NDArray[np.float64]]

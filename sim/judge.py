@@ -77,12 +77,13 @@ class Judge:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
         self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
-        self._adr = np.array([self.world.touch[s] for s in _SIDES])
 
     def watch(self) -> None:
         """After each physics step: landings and their impacts."""
         data = self.world.data
-        for side, force in zip(_SIDES, data.sensordata[self._adr].tolist(), strict=True):
+        sensed = data.sensordata
+        for side, address in self.world.touch.items():
+            force = float(sensed[address])
             if force < _TOUCH:
                 self._air[side] += 1
                 continue

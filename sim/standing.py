@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.footsteps import Footstep
+from gait.footsteps import Footstep, level_rotation
 from gait.lip import GRAVITY
 from plantar.errors import RobotError, SceneError
 from plantar.layout import Side
@@ -57,7 +57,7 @@ def stand(
     middle = np.mean([centers[s] for s in _SIDES], axis=0)
     com = np.array([middle[0], middle[1], ground + com_height])
     yaw = feet["left"].yaw
-    rotation = Footstep("left", 0.0, 0.0, yaw).rotation_sole_to_world
+    rotation = level_rotation(yaw)
     quaternion = np.array([np.cos(0.5 * yaw), 0.0, 0.0, np.sin(0.5 * yaw)])
     legs.set_configuration(com, quaternion, posture)
     joints, error = legs.solve(
