@@ -57,8 +57,9 @@ class CommandFrame:
             [1.0, 2.0]
         """
         dx, dy = (point - self.anchor[:2] - self.offset[:2]).tolist()
+        x, y, _ = self.anchor.tolist()
         c, s = math.cos(self.turn), math.sin(self.turn)
-        return np.array([self.anchor[0] + c * dx + s * dy, self.anchor[1] - s * dx + c * dy])
+        return np.array([x + c * dx + s * dy, y - s * dx + c * dy])
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
         """A point of the command frame in the world.

@@ -345,7 +345,7 @@ class WalkingController:
             self.conformity.update(phase, zmp, state, percepts)
         height = self._com_height(phase)
         yaws = [self.motion.footholds[side][1] for side in _SIDES]
-        target = np.array([*self._frame.to_command(com), height])
+        target = np.array([*self._frame.to_command(com).tolist(), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
         posture = self._posture(target, torso)
         if actions:
@@ -407,8 +407,9 @@ class WalkingController:
         s = self.settings
         middle = 0.5 * (self.motion.footholds["left"][0] + self.motion.footholds["right"][0])
         c, d = math.cos(torso), math.sin(torso)
-        left = -d * (com[0] - middle[0]) + c * (com[1] - middle[1])
-        roll = -s.trunk_lean * min(s.lean_reach, max(-s.lean_reach, float(left)))
+        dx, dy, _ = (com - middle).tolist()
+        left = -d * dx + c * dy
+        roll = -s.trunk_lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])
 

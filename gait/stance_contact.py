@@ -171,13 +171,13 @@ class StanceContact:
         if distance is None or reading.time <= self._seen_time:
             return
         self._seen_time = reading.time
-        sound = np.isfinite(distance) | np.isposinf(distance)
+        sound = distance > -np.inf
         near = distance[np.isfinite(distance)]
         if len(near) < self.settings.least_seen:
             return
         # Relative to the nearest ground: the foot is on its way down.
         ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
-        depth = np.clip(distance - ground, -0.05, self.settings.deep)
+        depth = np.minimum(np.maximum(distance - ground, -0.05), self.settings.deep)
         self._looks += 1
         share = self.settings.sight if self._depth is not None else 1.0
         before = np.zeros(len(depth)) if self._depth is None else self._depth

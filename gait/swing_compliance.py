@@ -158,6 +158,7 @@ class SwingCompliance:
         self._rising = False
         self._liftoff: float | None = None
         self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
+        self._rise = np.zeros(len(layout))  # of each taxel from the last pose but one to the last
         self._speed = self._drift = 0.0
         self._aim: float | None = None
 
@@ -208,7 +209,8 @@ class SwingCompliance:
             _, before, turned = self._poses[-1]
             g, moved = self.gains, math.dist(position, before)
             self._most = max(float(g.readings_moving), g.readings * g.still / (g.still + moved))
-            self._distance = self._distance + self._risen(before, turned, position, rotation)
+            self._rise = self._risen(before, turned, position, rotation)
+            self._distance = self._distance + self._rise
         self._poses.append((time, position.copy(), rotation.copy()))
         reading = percept.reading.proximity
         if reading is not None and percept.reading.time > self._read:
@@ -320,8 +322,8 @@ class SwingCompliance:
         """How far (n,) each taxel rose in m since a time, for a reading that is as old as that."""
         _, position, rotation = self._poses[-1]
         later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
-        for then, before, turned in reversed(self._poses):
-            risen = self._risen(before, turned, position, rotation)
+        for k, (then, before, turned) in enumerate(reversed(self._poses)):
+            risen = self._rise if k == 1 else self._risen(before, turned, position, rotation)
             if then <= time:
                 span = later[0] - then
                 share = (time - then) / span if span > 0.0 else 1.0

@@ -42,18 +42,19 @@ class Reading:
         if force.ndim != 1:
             raise ReadingError(f"reading field 'force' has shape {force.shape}; expected (taxels,)")
         object.__setattr__(self, "force", force)
-        for name, shape in (
-            ("proximity", force.shape),
-            ("temperature", force.shape),
-            ("acceleration", (*force.shape, 3)),
-        ):
-            value = getattr(self, name)
-            if value is None:
-                continue
-            value = _numbers(name, value)
-            if value.shape != shape:
-                raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")
-            object.__setattr__(self, name, value)
+        if self.proximity is not None:
+            self._keep("proximity", self.proximity, force.shape)
+        if self.temperature is not None:
+            self._keep("temperature", self.temperature, force.shape)
+        if self.acceleration is not None:
+            self._keep("acceleration", self.acceleration, (*force.shape, 3))
+
+    def _keep(self, name: str, given: ArrayLike, shape: tuple[int, ...]) -> None:
+        """Take a field over as numbers of a shape."""
+        value = _numbers(name, given)
+        if value.shape != shape:
+            raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")
+        object.__setattr__(self, name, value)
 
 
 def _numbers(name: str, value: ArrayLike) -> NDArray[np.float64]:

@@ -369,12 +369,11 @@ def _compute_rest(command: Command, everything: bool) -> int:
     """Count the members of both percepts that the controller did not ask for; compute them where all is wanted."""
     count = 0
     for percept in command.percepts.values():
-        missing = _MEMBERS - percept.__dict__.keys()
         if everything:
-            for name in missing:
+            for name in _MEMBERS:
                 getattr(percept, name)
         else:
-            count += len(missing)
+            count += len(_MEMBERS) - len(_MEMBERS.intersection(percept.__dict__))
     return count
 
 

@@ -66,7 +66,7 @@ class LegServos:
             self.out_of_reach_since = float(self._world.data.time)
         torques = self._legs.static_torques(
             {side: feet[side].force for side in _SIDES},
-            {side: np.array([*feet[side].center_of_pressure, feet[side].position[2]]) for side in _SIDES},
+            {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in _SIDES},
         )
         last = joints if self._last is None else self._last
         velocity = (joints - last) / self._period
