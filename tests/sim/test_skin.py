@@ -229,8 +229,8 @@ def test_corner_lifted_by_micrometres_stays_in_the_patch(gap: float, whole: bool
     model, data, skin = rig(PLANE)
     mujoco.mj_forward(model, data)
     contacts = ContactSet(
-        own_geoms=np.full(4, 1),
-        other_geoms=np.zeros(4, dtype=np.int64),
+        own_geoms=np.ones(4, dtype=np.int32),
+        other_geoms=np.zeros(4, dtype=np.int32),
         positions=np.column_stack([OUTLINE, np.zeros(4)]),
         forces=np.array([[0.0, 0.0, f] for f in (0.0, 100.0, 100.0, 100.0)]),
         torques=np.zeros((4, 3)),

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from plantar import InputError, LayoutError, SoleLayout, center_of_pressure, hex_layout
 from plantar.polygon import convex_hull, inner_offset, signed_margin
 from sim.sole_pressure import SolePressure
+from sim.sole_pressure import _pseudo_inverse as pseudo_inverse
 
 HALF = np.array([0.125, 0.0775])
 OUTLINE = HALF * [[-1, -1], [1, -1], [1, 1], [-1, 1]]
@@ -174,3 +175,15 @@ def test_tilted_taxels_add_up_in_the_vertical() -> None:
 def test_a_rubber_without_thickness_is_refused() -> None:
     with pytest.raises(InputError, match="rubber"):
         SolePressure(LAYOUT, rubber=0.0)
+
+
+def test_pseudo_inverse_is_numpy_s() -> None:
+    """Of cells anywhere, in a row and alone, which leave directions without stiffness."""
+    rng = np.random.default_rng(5)
+    for k in range(300):
+        u = np.column_stack([np.ones(k % 9 + 1), rng.uniform(-1.0, 1.0, (k % 9 + 1, 2))])
+        if k % 3 == 0:
+            u[:, 2] = 0.5 * u[:, 1]
+        stiffness = (rng.dirichlet(np.ones(len(u))) * u.T) @ u
+        theirs = np.linalg.pinv(stiffness, rcond=1e-9, hermitian=True)
+        assert pseudo_inverse(stiffness, 1e-9) == pytest.approx(theirs, rel=1e-9, abs=1e-9)
