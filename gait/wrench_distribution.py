@@ -294,7 +294,7 @@ class WrenchDistribution:
             work.solver = daqp.Model()
             work.solver.settings = {"primal_tol": 1e-10}
             work.solver.setup(work.hessian, work.gradient, work.constraints, work.upper, work.lower)
-        elif limited:
+        elif limited:  # its bounds never change: only the least force differs from 0
             work.solver.update(H=work.hessian, f=work.gradient, A=work.constraints)
         elif changed:
             work.solver.update(H=work.hessian, f=work.gradient)
