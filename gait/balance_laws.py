@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from gait.balance import BalanceGains, BalanceLaw, DcmBalance
 from plantar.errors import InputError
+from plantar.unknown_keys import refuse_unknown_keys
 
 if TYPE_CHECKING:
     from gait.wrench_balance import WrenchBalanceGains
@@ -43,10 +44,7 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
         from gait.wrench_balance import WrenchBalanceGains
 
         kind = WrenchBalanceGains
-    known = kind.names()
-    for key in table:
-        if key != "law" and key not in known:
-            raise InputError(f"[balance] has an unknown key '{key}'; allowed with law '{law}': law, {', '.join(known)}")
+    refuse_unknown_keys(table, ("law", *kind.names()), "[balance]", note=f" with law '{law}'")
     return kind.from_table(table)
 
 

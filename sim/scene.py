@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.errors import SceneError
+from plantar.unknown_keys import refuse_unknown_keys
 from sim.table import from_table, limits
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
 
@@ -298,11 +299,7 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
         raise SceneError(f"scene file {path} is not valid TOML: {error}") from None
     source = override(source, settings)
     where = f"scene '{path.stem}'"
-    for key in source:
-        if key not in ("name", "description", "robot", *_SECTIONS):
-            raise SceneError(
-                f"{where} has an unknown key '{key}'; allowed: name, description, robot, {', '.join(_SECTIONS)}"
-            )
+    refuse_unknown_keys(source, ("name", "description", "robot", *_SECTIONS), where, SceneError)
     for key in ("name", "description", "robot"):
         if not isinstance(source.get(key, ""), str):
             raise SceneError(f"{where}: '{key}' is not a text")

@@ -8,6 +8,7 @@ from dataclasses import Field, fields
 from typing import Any, TypeVar
 
 from plantar.errors import SceneError
+from plantar.unknown_keys import refuse_unknown_keys
 
 __all__ = ["from_table", "limits"]
 
@@ -47,12 +48,8 @@ def from_table(kind: type[T], table: Any, where: str) -> T:
     if not isinstance(table, Mapping):
         raise SceneError(f"{where} is not a table")
     known: dict[str, Field[Any]] = {f.name: f for f in fields(kind)}  # type: ignore[arg-type]
-    values: dict[str, Any] = {}
-    for key, value in table.items():
-        if key not in known:
-            raise SceneError(f"{where} has an unknown key '{key}'; allowed: {', '.join(known)}")
-        values[key] = _checked(known[key], value, where)
-    return kind(**values)
+    refuse_unknown_keys(table, known, where, SceneError)
+    return kind(**{key: _checked(known[key], value, where) for key, value in table.items()})
 
 
 def _checked(item: Field[Any], value: Any, where: str) -> Any:

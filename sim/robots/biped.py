@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
+from plantar.unknown_keys import refuse_unknown_keys
 
 __all__ = ["BipedParameters", "biped_mjcf"]
 
@@ -87,9 +88,7 @@ class BipedParameters:
             "chest_size": 3,
         }
         fields = list(cls.__dataclass_fields__)
-        for key in table:
-            if key not in fields:
-                raise RobotError(f"{where}: [biped] has an unknown key '{key}'; allowed: {', '.join(fields)}")
+        refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)
         values: dict[str, Any] = {}
         for key in fields:
             if key not in table:

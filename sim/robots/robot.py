@@ -9,7 +9,7 @@ import json
 import math
 import os
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 from plantar.errors import LayoutError, RobotError
 from plantar.layout import Side, SoleLayout
 from plantar.layout_file import read_layout
+from plantar.unknown_keys import refuse_unknown_keys
 from sim.robots.biped import BipedParameters
 
 __all__ = ["FootShape", "LegNames", "Robot", "builtin_robots", "load_robot"]
@@ -183,13 +184,6 @@ def _numbers(source: Mapping[str, Any], key: str, count: int, where: str, low: f
     return tuple(_number({key: v}, key, where, low, high) for v in value)
 
 
-def _only(source: Mapping[str, Any], allowed: Collection[str], where: str) -> None:
-    """Refuse keys that nobody reads: one that is misspelt would be ignored."""
-    for key in source:
-        if key not in allowed:
-            raise RobotError(f"{where} has an unknown key '{key}'; allowed: {', '.join(allowed)}")
-
-
 def load_robot(name: str | os.PathLike[str]) -> Robot:
     """Load a robot by its built-in name or from a TOML file.
 
@@ -234,7 +228,7 @@ def _foot(table: Mapping[str, Any], where: str) -> FootShape:
 
 
 def _leg(table: Mapping[str, Any], side: Side, where: str) -> LegNames:
-    _only(table, ("joints", "foot_body", "sole_site"), where)
+    refuse_unknown_keys(table, ("joints", "foot_body", "sole_site"), where, RobotError)
     joints = table.get("joints")
     if not isinstance(joints, list) or not all(isinstance(j, str) for j in joints):
         raise RobotError(f"{where} joints is {joints!r}; allowed: a list of joint names")
@@ -268,7 +262,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
     where = str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'"
     for key, allowed in _KEYS.items():
         if key in source:
-            _only(_table(source, key, where), allowed, f"{where}: [{key}]")
+            refuse_unknown_keys(_table(source, key, where), allowed, f"{where}: [{key}]", RobotError)
     model = _table(source, "model", where)
     kind = _text(model, "kind", where)
     if kind not in ("biped", "mjcf", "urdf"):
@@ -313,7 +307,7 @@ def _robot_from(source: Mapping[str, Any], path: Path) -> Robot:
         efforts = _numbers(servo, "effort_limits", joints_of_leg, f"{where}: [servo]", 1e-3, 1e5)
     crouch = _number({"largest_crouch": 0.15, **gait}, "largest_crouch", f"{where}: [gait]", 0.0, 0.5)
     balance = dict(_table(source, "balance", where))
-    _only(source, ("name", "description", "biped", "balance", *_KEYS), where)
+    refuse_unknown_keys(source, ("name", "description", "biped", "balance", *_KEYS), where, RobotError)
     return Robot(
         name=_text(source, "name", where),
         description=str(source.get("description", "")),

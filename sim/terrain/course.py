@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from plantar.errors import SceneError
+from plantar.unknown_keys import refuse_unknown_keys
 from sim.table import limits
 from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain, rotation_of
 
@@ -45,9 +46,7 @@ class Course(Terrain):
 def _solid(table: Mapping[str, Any], where: str) -> Solid:
     if not isinstance(table, Mapping):
         raise SceneError(f"{where} is not a table")
-    unknown = set(table) - {"shape", "size", "position", "angles"}
-    if unknown:
-        raise SceneError(f"{where} has an unknown key '{min(unknown)}'; allowed: shape, size, position, angles")
+    refuse_unknown_keys(table, ("shape", "size", "position", "angles"), where, SceneError)
     shape = table.get("shape", "box")
     if not isinstance(shape, str) or shape not in _SHAPES:
         raise SceneError(f"{where}: shape is {shape!r}; allowed: {', '.join(_SHAPES)}")

@@ -1,0 +1,35 @@
+"""Keys of tables that nobody reads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from plantar.errors import InputError, PlantarError
+
+__all__ = ["refuse_unknown_keys"]
+
+
+def refuse_unknown_keys(
+    given: Iterable[str], allowed: Iterable[str], where: str, error: type[PlantarError] = InputError, note: str = ""
+) -> None:
+    """Refuse keys of a table that nobody reads: one that is misspelt would be ignored.
+
+    Args:
+        given: The table's keys.
+        allowed: Those that are read.
+        where: Name of the table, for the message.
+        error: What is raised.
+        note: On what it depends which are allowed, such as " with law 'dcm'".
+
+    Raises:
+        PlantarError: If there is another key; the message names it and those that are allowed.
+
+    Example:
+        >>> refuse_unknown_keys(["heigth"], ["height", "width"], "[terrain]")
+        Traceback (most recent call last):
+        plantar.errors.InputError: [terrain] has an unknown key 'heigth'; allowed: height, width
+    """
+    known = list(allowed)
+    for key in given:
+        if key not in known:
+            raise error(f"{where} has an unknown key '{key}'; allowed{note}: {', '.join(known)}")
