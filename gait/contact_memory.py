@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layout import SoleLayout
-from plantar.polygon import area, closest_point, convex_hull, inner_offset
+from plantar.polygon import convex_hull, signed_margin
 from plantar.reading import Reading
 
 __all__ = ["ContactMemory"]
@@ -31,8 +31,6 @@ class ContactMemory:
         least_share: Share of the foot's load from which it does.
         smoothing: Share of a new reading in the running mean.
         gap: Rise in m from which a cell has lifted off.
-        inset: Distance in m that the foot's load shall keep from the polygon's edge.
-        least_area: Area in m^2 of a polygon that is more than a line.
     """
 
     def __init__(
@@ -42,16 +40,12 @@ class ContactMemory:
         least_share: float = 0.04,
         smoothing: float = 0.3,
         gap: float = 0.002,
-        inset: float = 0.015,
-        least_area: float = 6e-4,
     ) -> None:
         self._places = layout.positions[:, :2]
         self._least_force = least_force
         self._least_share = least_share
         self._smoothing = smoothing
         self._gap = gap
-        self._inset = inset
-        self._least_area = least_area
         self.lift()
 
     def lift(self) -> None:
@@ -87,16 +81,6 @@ class ContactMemory:
         touching = self._places[self._touches]
         return convex_hull(touching) if len(touching) >= 3 else np.empty((0, 2))
 
-    def target(self, wanted: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Where the foot can be loaded safely.
-
-        Args:
-            wanted: Where it would best be (2,) in the sole frame in m.
-
-        Returns:
-            The nearest point (2,) well inside the polygon; None while the foot touches at a point or a line.
-        """
-        polygon = self.polygon
-        if len(polygon) < 3 or area(polygon) < self._least_area:
-            return None
-        return closest_point(inner_offset(polygon, self._inset), wanted)
+    def encloses(self, point: NDArray[np.float64]) -> bool:
+        """Whether a point (2,) in the sole frame in m lies between the contacts."""
+        return len(self.polygon) >= 3 and signed_margin(self.polygon, point) >= 0.0

@@ -6,10 +6,10 @@ of a foot, Caron et al. 2019, per newton of load, so that a foot that has just t
 
     w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)].
 
-- A foot that takes the weight over turns until c, a point well inside the contacts found so far and near the sole's
-  middle, is what carries; its centre of pressure keeps its height meanwhile.
-- The foot that carries the body turns until its centre of pressure is the desired ZMP: on three bumps that takes some
-  milliradians, and where the ZMP has to leave the triangle the foot goes on to the next bump.
+- A foot that takes the weight over turns until the contacts found so far enclose its middle c; its centre of pressure
+  keeps its height meanwhile.
+- The foot that carries the body turns where the desired ZMP c lies beyond them, on to the next bump. (A foot that
+  turns between its contacts, too, swings: a servo's stiffness moves its load by ten metres for each radian.)
 - The foot that gives the weight away keeps its orientation.
 """
 
@@ -43,16 +43,12 @@ class ConformityGains(Gains):
     """Gains of feet that take the ground's shape.
 
     Attributes:
-        incoming: k of a foot that takes the weight over in rad/s per m.
-        stance: k of the foot that carries the body in rad/s per m.
+        firm: k on firm ground, in rad/s per m for each newton that the foot carries.
+        rolling: k of a foot that rolls over an edge in rad/s per m.
         nearly: Distance in m from its target at which an incoming foot stays as it is.
         largest_rate: Largest rate of a turn in rad/s.
         least_load: Vertical force in N from which a centre of pressure means something.
-        incoming_load: Force in N from which an incoming foot turns at its full rate.
-        stance_load: The same of the foot that carries the body.
-        contact_load: Force in N from which contacts decide where an incoming foot shall be loaded.
         press: Force in N that a landed foot holds before it takes the weight over.
-        boost: How many times faster a stance foot turns that rolls over an edge, so that its load does not move.
         follows: Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground.
         watch: Number of control ticks over which that is judged.
         least_turn: Turn in rad from which it is.
@@ -60,16 +56,12 @@ class ConformityGains(Gains):
 
     CALLED: ClassVar[str] = "conformity gain"
 
-    incoming: float = 4.0
-    stance: float = 3.4
+    firm: float = 0.006
+    rolling: float = 5.0
     nearly: float = 0.01
     largest_rate: float = 0.6
     least_load: float = 15.0
-    incoming_load: float = 60.0
-    stance_load: float = 400.0
-    contact_load: float = 120.0
     press: float = 80.0
-    boost: float = 2.0
     follows: float = 1.0
     watch: int = 10
     least_turn: float = 0.002
@@ -118,7 +110,7 @@ class FootTurn:
         if away <= g.nearly:
             self.hold(center_of_pressure)
             return np.zeros(2)
-        rate = g.incoming * (1.0 - g.nearly / away) * min(1.0, load / g.incoming_load)
+        rate = (1.0 - g.nearly / away) * self._rate(load, center_of_pressure, target)
         return self._turn(rate, center_of_pressure, target)
 
     def stance(
@@ -134,11 +126,13 @@ class FootTurn:
         Returns:
             Turn (2,) about the sole's x and y axes in rad.
         """
+        return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
+
+    def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
+        """k in rad/s per m. On firm ground a servo's stiffness K moves the load by K / force for each rad: a turn as much
+        less as the load is less keeps the loop as fast as its delay allows."""
         g = self.gains
-        rate = g.stance * min(1.0, load / g.stance_load)
-        if self._rolls(center_of_pressure, target):
-            rate *= g.boost
-        return self._turn(rate, center_of_pressure, target)
+        return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
 
     def _rolls(self, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> bool:
         """Whether the turns of the last ticks have not moved the centre of pressure."""
@@ -192,7 +186,6 @@ class GroundConformity:
         self._middles = middles
         self._turns = {side: FootTurn(gains, period) for side in _SIDES}
         self._contacts = {side: ContactMemory(layouts[side]) for side in _SIDES}
-        self._targets = {side: middles[side] for side in _SIDES}
 
     def update(
         self, phase: Phase, zmp_desired: NDArray[np.float64], state: BaseState, percepts: Mapping[Side, Percept]
@@ -211,7 +204,6 @@ class GroundConformity:
             if phase.swing == side and not self._motion.landed:
                 turns.lift()
                 contacts.lift()
-                self._targets[side] = self._middles[side]
                 continue
             load, cop = state.loads[side], percepts[side].position_cop_in_sole
             if cop is None or load < self.gains.least_load:
@@ -221,14 +213,13 @@ class GroundConformity:
             if phase.stance == side:
                 if self.turns_stance:
                     target = rotation[:2, :2].T @ (zmp_desired - position[:2])
-                    self._motion.turn_standing(side, turns.stance(load, cop, target), _ORIGIN)
-            elif self._comes_in(side, phase):
-                found = contacts.target(self._middles[side]) if load > self.gains.contact_load else None
-                if found is not None:
-                    self._targets[side] = found
-                self._motion.turn_standing(side, turns.incoming(load, cop, self._targets[side]), cop)
-            else:
-                turns.hold(cop)
+                    if not contacts.encloses(target):
+                        self._motion.turn_standing(side, turns.stance(load, cop, target), _ORIGIN)
+                        continue
+            elif self._comes_in(side, phase) and not contacts.encloses(self._middles[side]):
+                self._motion.turn_standing(side, turns.incoming(load, cop, self._middles[side]), cop)
+                continue
+            turns.hold(cop)
 
     def _comes_in(self, side: Side, phase: Phase) -> bool:
         """Whether a standing foot takes the weight over now: not at the two ends of the walk."""
