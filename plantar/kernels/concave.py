@@ -428,7 +428,18 @@ class OutlineRectangles:
             box[2] = high - least / width
             box[3] = low + least / width
             self.bound.narrow(self.ring, n, self.corner, least, box)
-            self.bound.clear(self.xs, self.ys, self.start, self.rings, box, self.half, self.target, reach)
+            self.bound.clear(
+                self.xs,
+                self.ys,
+                self.start,
+                self.rings,
+                box,
+                self.half,
+                self.target,
+                self.clear_low,
+                self.clear_high,
+                reach,
+            )
         self.clear_low = min(self.clear_low, reach[0])
         self.clear_high = min(self.clear_high, reach[1])
 

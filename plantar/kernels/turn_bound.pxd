@@ -5,6 +5,7 @@ from . cimport rectangle
 
 cdef Py_ssize_t _LINES
 cdef Py_ssize_t _CHAIN
+cdef int _STEPS
 cdef double _BEND
 cdef double _INF
 
@@ -31,12 +32,13 @@ cdef class TurnBound:
     cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept
 
     @cython.locals(
-        middle=double, lean=double, bend=double, gap=double, beside=double, side=Py_ssize_t,
-        before=double, slope=double, root=double, far=double
+        middle=double, middle_lean=double, side=Py_ssize_t, sign=double, wanted=double, area=double, lean=double,
+        at=double, left=double, bend=double, gap=double, beside=double, before=double, slope=double, root=double,
+        far=double
     )
     cdef void clear(
         self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double half,
-        double target, double[::1] reach
+        double target, double wanted_low, double wanted_high, double[::1] reach
     ) except *
 
     @cython.locals(

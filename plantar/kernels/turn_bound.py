@@ -18,6 +18,7 @@ __all__ = ["TurnBound"]
 _LINES = 12  # slanted edges that are taken account of; others are left out, which only weakens the bound
 _CHAIN = 6  # edges of a chain that are walked along
 _INF = math.inf  # typed: an attribute of the module is looked up at each use
+_STEPS = 4  # steps to either side, each from where the bound of the one before ends
 _BEND = 2.0  # second derivative of the bound's logarithm, in (w / h + h / w)^2
 
 
@@ -95,7 +96,7 @@ class TurnBound:
                     box[side] = at
                     break
 
-    def clear(self, xs, ys, start, rings, box, half, target, reach):
+    def clear(self, xs, ys, start, rings, box, half, target, wanted_low, wanted_high, reach):
         """How far from the middle angle no rectangle that encloses a box has more than some area.
 
         Args:
@@ -105,8 +106,9 @@ class TurnBound:
             box: Box Q: x from and to, y from and to.
             half: Half the interval in rad.
             target: The area.
-            reach: Receives the distances in rad towards smaller and towards larger angles, up to `half`; what stands
-                there is the least that is returned.
+            wanted_low: Distance in rad towards smaller angles that is looked at, up to `half`; wanted_high likewise.
+            reach: Receives the distances in rad towards smaller and towards larger angles, up to those wanted; what
+                stands there is the least that is returned.
         """
         if box[0] >= box[1] or box[2] >= box[3]:
             return
@@ -115,20 +117,35 @@ class TurnBound:
         middle = self._room(xs, ys, box, 0.0)
         if not 0.0 < middle < target:
             return
-        lean = rectangle.lean(self.corner) - half
-        if lean <= 0.0:
-            return
-        bend = 2.0 / math.sin(2.0 * lean)
-        bend *= _BEND * bend
-        gap = math.log(target / middle)
-        beside = 0.125 * half
+        middle_lean = rectangle.lean(self.corner)
         for side in range(2):
-            # The slope is at most what the areas rose by from the other side, and a bit for the bend in between.
-            before = self._room(xs, ys, box, beside if side == 0 else -beside)
-            slope = math.log(middle / max(1e-300, before)) / beside + 0.5 * bend * beside
-            root = math.sqrt(slope * slope + 2.0 * bend * gap)
-            far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
-            reach[side] = max(reach[side], min(half, far))
+            sign = -1.0 if side == 0 else 1.0
+            wanted = wanted_low if side == 0 else wanted_high
+            area = middle
+            lean = middle_lean
+            at = 0.0
+            for _ in range(_STEPS):
+                left = wanted - at
+                beside = 0.125 * left
+                lean -= left + beside
+                if lean <= 0.0:
+                    break
+                bend = 2.0 / math.sin(2.0 * lean)
+                bend *= _BEND * bend
+                gap = math.log(target / area)
+                # The slope is at most what the areas rose by from a little before, and a bit for the bend in between.
+                before = self._room(xs, ys, box, sign * (at - beside))
+                slope = math.log(area / max(1e-300, before)) / beside + 0.5 * bend * beside
+                root = math.sqrt(slope * slope + 2.0 * bend * gap)
+                far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
+                at += far
+                if far < 0.5 * left or at >= wanted:
+                    break
+                area = self._room(xs, ys, box, sign * at)
+                if not 0.0 < area < target:
+                    break
+                lean = rectangle.lean(self.corner)
+            reach[side] = max(reach[side], min(wanted, at))
 
     def _find_bearing(self, xs, ys, m, box, half):
         """Find the vertices that bear on a side at every angle, and those of each side that do so most at either end.
