@@ -15,7 +15,7 @@ from . import rectangle
 
 __all__ = ["TurnBound"]
 
-_LINES = 12  # slanted edges that are taken account of; others are left out, which only weakens the bound
+_LINES = 32  # slanted edges that are taken account of; others are left out, which only weakens the bound
 _CHAIN = 6  # edges of a chain that are walked along
 _INF = math.inf  # typed: an attribute of the module is looked up at each use
 _STEPS = 4  # steps to either side, each from where the bound of the one before ends
@@ -47,9 +47,9 @@ class TurnBound:
         self.lists = lists
         self.lines = 0
         self.line = self._numbers(4 * _LINES)
-        self.ring = self._numbers(64)
-        self.cut = self._numbers(64)
-        self.work = self._numbers(320)
+        self.ring = self._numbers(2 * _LINES + 16)
+        self.cut = self._numbers(2 * _LINES + 16)
+        self.work = self._numbers(8 * _LINES + 80)
         self.corner = self._numbers(8)
         self.bearings = 0
         self.bearing = self._places(64)
