@@ -264,6 +264,7 @@ class OutlineRectangles:
         self.clear_low = half
         self.clear_high = half
         self.target = target
+        self.bound.forget()
         if target <= self.diameter2 * math.tan(half):  # thin ones have none to turn back to
             self.half = 0.0
             area = self._enumerate(angle, 0.0, out)

@@ -54,6 +54,13 @@ class TurnBound:
         self.bearings = 0
         self.bearing = self._places(64)
         self.side = self._places(64)
+        self.edge = self._places(_LINES)
+        self.known_bearings = -1
+        self.known_lines = 0
+        self.known_bearing = self._places(64)
+        self.known_side = self._places(64)
+        self.known_edge = self._places(_LINES)
+        self.known_reach = self._numbers(2)
         self.foremost = self._places(8)
         self.most = self._numbers(8)
         self.level = self._numbers(4)
@@ -114,6 +121,11 @@ class TurnBound:
             return
         self._find_bearing(xs, ys, start[rings], box, half)
         self._find_lines(xs, ys, start, rings, box, math.tan(half) * (1.0 - 1e-9))
+        if self._is_known():
+            reach[0] = max(reach[0], min(wanted_low, self.known_reach[0]))
+            reach[1] = max(reach[1], min(wanted_high, self.known_reach[1]))
+            return
+        self._keep()
         middle = self._room(xs, ys, box, 0.0)
         if not 0.0 < middle < target:
             return
@@ -145,7 +157,36 @@ class TurnBound:
                 if not 0.0 < area < target:
                     break
                 lean = rectangle.lean(self.corner)
+            self.known_reach[side] = at
             reach[side] = max(reach[side], min(wanted, at))
+
+    def forget(self):
+        """Forget the vertices and lines that bore before, as at a new angle or for another target."""
+        self.known_bearings = -1
+
+    def _is_known(self):
+        """Whether the same vertices and lines bear as the last time, as those of neighbouring pairs often do."""
+        if self.bearings != self.known_bearings or self.lines != self.known_lines:
+            return False
+        for k in range(self.bearings):
+            if self.bearing[k] != self.known_bearing[k] or self.side[k] != self.known_side[k]:
+                return False
+        for k in range(self.lines):
+            if self.edge[k] != self.known_edge[k]:
+                return False
+        return True
+
+    def _keep(self):
+        """Keep which vertices and lines bear."""
+        self.known_bearings = self.bearings
+        self.known_lines = self.lines
+        for k in range(self.bearings):
+            self.known_bearing[k] = self.bearing[k]
+            self.known_side[k] = self.side[k]
+        for k in range(self.lines):
+            self.known_edge[k] = self.edge[k]
+        self.known_reach[0] = 0.0
+        self.known_reach[1] = 0.0
 
     def _find_bearing(self, xs, ys, m, box, half):
         """Find the vertices that bear on a side at every angle, and those of each side that do so most at either end.
@@ -155,6 +196,9 @@ class TurnBound:
         if m > len(self.bearing):
             self.bearing = self._places(2 * m)
             self.side = self._places(2 * m)
+            self.known_bearing = self._places(2 * m)
+            self.known_side = self._places(2 * m)
+            self.known_bearings = -1
         cosine = math.cos(half)
         sine = math.sin(half)
         lean = math.tan(half)
@@ -236,6 +280,7 @@ class TurnBound:
                         and self._is_anchored(xs, ys, low, high, a, b, -1, box, lean)
                         and self._is_anchored(xs, ys, low, high, b, a, 1, box, lean)
                     ):
+                        self.edge[self.lines] = a
                         line[4 * self.lines] = xs[a]
                         line[4 * self.lines + 1] = ys[a]
                         line[4 * self.lines + 2] = dx
