@@ -106,6 +106,8 @@ class TurnBound:
     def clear(self, xs, ys, start, rings, box, half, target, wanted_low, wanted_high, reach):
         """How far from the middle angle no rectangle that encloses a box has more than some area.
 
+        Between two calls of `forget` only the box may change, and the distances that are looked at may shrink.
+
         Args:
             xs: Abscissae of the outline's vertices at the middle angle; ys ordinates.
             start: Offsets (rings + 1) of the rings.
@@ -147,6 +149,8 @@ class TurnBound:
                 gap = math.log(target / area)
                 # The slope is at most what the areas rose by from a little before, and a bit for the bend in between.
                 before = self._room(xs, ys, box, sign * (at - beside))
+                if before == _INF:
+                    break
                 slope = math.log(area / max(1e-300, before)) / beside + 0.5 * bend * beside
                 root = math.sqrt(slope * slope + 2.0 * bend * gap)
                 far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
