@@ -176,10 +176,10 @@ class TurnBound:
         for k in range(self.bearings):
             if self.bearing[k] != self.known_bearing[k] or self.side[k] != self.known_side[k]:
                 return False
-        for k in range(self.lines):
-            if self.edge[k] != self.known_edge[k]:
-                return False
-        return True
+        k = 0
+        while k < self.lines and self.edge[k] == self.known_edge[k]:
+            k += 1
+        return k == self.lines
 
     def _keep(self):
         """Keep which vertices and lines bear."""

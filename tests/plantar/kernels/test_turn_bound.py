@@ -61,7 +61,7 @@ class Problem(TurnBound):
         return reach
 
 
-def check(rng):
+def is_within(rng):
     """Compare one problem's reach with 2 x 8 areas within it; whether there was one."""
     problem = Problem(rng)
     middle = problem.room(0.0)
@@ -69,7 +69,7 @@ def check(rng):
         return False
     target = middle * (1.0 + math.exp(rng.uniform(math.log(1e-7), math.log(0.1))))
     low, high = problem.reach(target)
-    assert 0.0 <= low <= problem.half and 0.0 <= high <= problem.half
+    assert 0.0 <= min(low, high) <= max(low, high) <= problem.half
     for turn in (*np.linspace(-low, 0.0, 8, endpoint=False), *np.linspace(high, 0.0, 8, endpoint=False)):
         area = problem.room(float(turn))
         assert area <= target * (1.0 + 1e-12) or area == math.inf  # infinite: open, which says nothing of the area
@@ -80,7 +80,7 @@ def check(rng):
 @settings(max_examples=30, deadline=None)
 def test_no_room_within_reach_is_above_the_target(seed):
     rng = np.random.default_rng(seed)
-    assert sum(check(rng) for _ in range(30)) > 5
+    assert sum(is_within(rng) for _ in range(30)) > 5
 
 
 def test_what_is_known_of_the_same_vertices_and_lines_is_no_more_than_what_is_found():
