@@ -221,7 +221,8 @@ def _largest_triangles(rings: Rings) -> Array:
         x, y = rings.points[rows, :size].T
         for a in range(size - 2):
             dx, dy = x[a + 1 :] - x[a], y[a + 1 :] - y[a]
-            twice = dx[:, None] * dy - dx * dy[:, None]  # each triangle with both signs
+            cross = dx[:, None] * dy
+            twice = cross - cross.transpose(1, 0, 2)  # each triangle with both signs
             best[rows] = np.maximum(best[rows], 0.5 * twice.max(axis=(0, 1)))
     return best
 

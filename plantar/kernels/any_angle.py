@@ -173,6 +173,8 @@ class AnyAngle:
     def _march(self, out):
         """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best."""
         angle = 0.0
+        last = 0.0
+        before = 0.0
         for _ in range(_STEPS):
             if angle >= _QUARTER:
                 return
@@ -186,11 +188,15 @@ class AnyAngle:
             curve = 2.0 / math.sin(2.0 * lean)
             curve *= curve
             gap = math.log(self.best * (1.0 + _CLOSE) / area)
-            # The slope is at most what it rose by from a little before, and a bit for the bend in between.
-            back = min(0.25 * lean, max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve))))
+            # The slope is at most what it rose by from the step before, if near enough, and a bit for the bend between.
+            back = angle - last
+            if not 0.0 < back < 0.3 * lean:
+                back = min(0.25 * lean, max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve))))
+                before = self._largest(angle - back, 0.0, out)
             bend = back * 2.0 / math.sin(2.0 * (lean - back))
-            before = self._largest(angle - back, 0.0, out)
             slope = (math.log(area / max(1e-300, before)) + 0.5 * bend * bend) / back
+            last = angle
+            before = area
             slope = min(slope, math.sqrt(curve))
             root = math.sqrt(slope * slope + 2.0 * curve * gap)
             step = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve

@@ -264,6 +264,7 @@ class OutlineRectangles:
         self.clear_low = half
         self.clear_high = half
         self.target = target
+        self.bound.forget()
         if target <= self.diameter2 * math.tan(half):  # thin ones have none to turn back to
             self.half = 0.0
             area = self._enumerate(angle, 0.0, out)
@@ -428,7 +429,18 @@ class OutlineRectangles:
             box[2] = high - least / width
             box[3] = low + least / width
             self.bound.narrow(self.ring, n, self.corner, least, box)
-            self.bound.clear(self.xs, self.ys, self.start, self.rings, box, self.half, self.target, reach)
+            self.bound.clear(
+                self.xs,
+                self.ys,
+                self.start,
+                self.rings,
+                box,
+                self.half,
+                self.target,
+                self.clear_low,
+                self.clear_high,
+                reach,
+            )
         self.clear_low = min(self.clear_low, reach[0])
         self.clear_high = min(self.clear_high, reach[1])
 

@@ -5,6 +5,7 @@ from . cimport rectangle
 
 cdef Py_ssize_t _LINES
 cdef Py_ssize_t _CHAIN
+cdef int _STEPS
 cdef double _BEND
 cdef double _INF
 
@@ -20,6 +21,13 @@ cdef class TurnBound:
     cdef Py_ssize_t bearings
     cdef Py_ssize_t[::1] bearing
     cdef Py_ssize_t[::1] side
+    cdef Py_ssize_t[::1] edge
+    cdef Py_ssize_t known_bearings
+    cdef Py_ssize_t known_lines
+    cdef Py_ssize_t[::1] known_bearing
+    cdef Py_ssize_t[::1] known_side
+    cdef Py_ssize_t[::1] known_edge
+    cdef double[::1] known_reach
     cdef Py_ssize_t[::1] foremost
     cdef double[::1] most
     cdef double[::1] level
@@ -31,13 +39,22 @@ cdef class TurnBound:
     cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept
 
     @cython.locals(
-        middle=double, lean=double, bend=double, gap=double, beside=double, side=Py_ssize_t,
-        before=double, slope=double, root=double, far=double
+        middle=double, middle_lean=double, side=Py_ssize_t, sign=double, wanted=double, area=double, lean=double,
+        at=double, left=double, bend=double, gap=double, beside=double, before=double, slope=double, root=double,
+        far=double
     )
     cdef void clear(
         self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double half,
-        double target, double[::1] reach
+        double target, double wanted_low, double wanted_high, double[::1] reach
     ) except *
+
+    cdef void forget(self) noexcept
+
+    @cython.locals(k=Py_ssize_t)
+    cdef bint _is_known(self) noexcept
+
+    @cython.locals(k=Py_ssize_t)
+    cdef void _keep(self) noexcept
 
     @cython.locals(
         most="double[::1]", level="double[::1]", v=Py_ssize_t, k=Py_ssize_t, count=Py_ssize_t, side=Py_ssize_t, end=Py_ssize_t, x=double,
