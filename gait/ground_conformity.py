@@ -129,8 +129,8 @@ class FootTurn:
         return self._turn(self._rate(load, center_of_pressure, target), center_of_pressure, target)
 
     def _rate(self, load: float, center_of_pressure: NDArray[np.float64], target: NDArray[np.float64]) -> float:
-        """k in rad/s per m. On firm ground a servo's stiffness K moves the load by K / force for each rad: a turn as much
-        less as the load is less keeps the loop as fast as its delay allows."""
+        """k in rad/s per m. On firm ground a servo's stiffness K moves the load by K / force for each rad: turns in
+        proportion to the load keep the loop as fast as its delay allows."""
         g = self.gains
         return g.rolling if self._rolls(center_of_pressure, target) else min(g.rolling, g.firm * load)
 
