@@ -20,8 +20,11 @@ _APPROACH_SHARE = 0.44
 _ARRIVED_SHARE = 0.61
 """Share of such a swing after which the foot moves only downwards."""
 
-_LIFT_SHARE = 0.28
+_RISE_SHARE = 0.28
 """Largest share of such a swing spent rising: the next stone may be 30 mm higher, and the toe is soon above it."""
+
+_HIGH_SHARE = 0.34
+"""Share of such a swing after which it comes down: what moves under the foot meanwhile has to pass below it."""
 
 _SKEW = 0.8
 """Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
@@ -73,8 +76,8 @@ class SwingTrajectory:
 
     @property
     def lifted(self) -> float:
-        """Time in s since lift-off at which the foot is highest."""
-        return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, _LIFT_SHARE))
+        """Time in s since lift-off from which the foot comes down."""
+        return self.duration * (self.lift_share if self.approach_height == 0.0 else min(self.lift_share, _HIGH_SHARE))
 
     @property
     def arrived(self) -> float:
@@ -101,7 +104,8 @@ class SwingTrajectory:
         top = max(start, end) + self.height
         lifted = self.lifted
         if time < lifted:
-            rise, _ = minimum_jerk(time / lifted)
+            rising = lifted if self.approach_height == 0.0 else min(lifted, _RISE_SHARE * self.duration)
+            rise, _ = minimum_jerk(time / rising)
             return start + rise * (top - start)
         if self.approach_height == 0.0:
             fall, _ = minimum_jerk((time - lifted) / (self.duration - lifted))
