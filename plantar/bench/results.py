@@ -26,6 +26,12 @@ def numbers(value: Any) -> Array:
         >>> numbers([np.eye(2), (1.5, None), np.array([True])]).tolist()
         [1.5, 1.0, 0.0, 0.0, 1.0]
     """
+    if isinstance(value, list):  # of one kind of result, as a rule: no look at each
+        kinds = set(map(type, value))
+        if kinds == {float}:
+            return np.array(value)
+        if kinds == {np.ndarray} and value[0].dtype.kind == "f":
+            return np.concatenate(value, axis=None)
     floats: list[float] = []
     arrays: list[Array] = []
     _gather((value,), floats, arrays)
@@ -60,7 +66,7 @@ def not_finite(values: Sequence[Any]) -> list[bool]:
         >>> not_finite([np.zeros(2), None, (1.0, np.array([np.nan]))])
         [False, False, True]
     """
-    if np.isfinite(numbers(list(values))).all():
+    if np.isfinite(numbers([v for v in values if v is not None])).all():
         return [False] * len(values)
     return [not np.isfinite(numbers(v)).all() for v in values]
 

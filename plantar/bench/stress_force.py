@@ -297,8 +297,8 @@ def _two_feet(block: Block, tally: Tally) -> None:
     members = [n for n in dir(FeetPercept) if not n.startswith("_")]
     rows = range(0, len(block), 2)  # a reading each foot
     feet = [FeetPercept([block.percepts[i], block.percepts[i - 1]], poses, float(at[2])) for i in rows]
-    wrong = not_finite([[getattr(f, m) for m in members] for f in feet])
-    tally.add("FeetPercept: every member", block, wrong, 0.0, len(block))
+    wrong = [not_finite([getattr(f, m) for f in feet]) for m in members]
+    tally.add("FeetPercept: every member", block, np.any(wrong, axis=0), 0.0, len(block))
 
 
 def _every_member(block: Block, tally: Tally) -> None:
