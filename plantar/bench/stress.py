@@ -97,7 +97,7 @@ def stress(
     unasked, or leaves its bound.
 
     Args:
-        readings: How many, 1 or more.
+        readings: How many at least, 1 or more.
         seed: Of what is left to chance.
         progress: Called with the fraction done and a text.
 
@@ -119,5 +119,5 @@ def stress(
                 tally.run(check, block)
             done += len(block)
             if progress is not None:
-                progress(done / readings, f"{done} readings, {tally.failures} failures")
+                progress(min(1.0, done / readings), f"{done} readings, {tally.failures} failures")
     return StressResult(done, seed, time.perf_counter() - start, tally.tested)

@@ -29,6 +29,10 @@ _STRONG = {"force": (0.0, 1e12), "proximity": (0.0, 0.05), "temperature": (0.0, 
 """Ranges of a sole that 1e9 N do not saturate."""
 
 
+_LEAST = 16
+"""Readings of the smallest block: every kind of check finds some that it looks at."""
+
+
 @dataclass(frozen=True, eq=False)
 class Block:
     """Readings of one sole; n taxels.
@@ -125,7 +129,7 @@ def blocks_of(soles: list[SoleLayout], readings: int, seed: int, size: int = 500
 
     Args:
         soles: The soles.
-        readings: How many readings in all.
+        readings: How many readings in all, at least: the last block has 16 or more.
         seed: Of what is left to chance.
         size: Most readings in a block.
 
@@ -138,7 +142,7 @@ def blocks_of(soles: list[SoleLayout], readings: int, seed: int, size: int = 500
     while done < readings:
         layout = order[number % len(order)]
         rng = np.random.default_rng([seed, number])
-        count = min(size, readings - done)
+        count = min(size, max(readings - done, _LEAST))
         yield _block(layout, count, rng, number, (number // len(order)) * size)
         done += count
         number += 1

@@ -43,6 +43,13 @@ def test_a_function_that_raises_is_found(monkeypatch):
     assert "planted" in result.functions["plane_polygons raises"].examples[0]
 
 
+@pytest.mark.parametrize("readings", [1, 501])
+def test_a_rest_of_one_reading_is_no_failure(readings):
+    result = stress(readings)
+    assert result.failures == 0
+    assert readings <= result.least <= readings + 15
+
+
 def test_the_same_seed_gives_the_same_readings():
     soles = stress_soles()
     one, two, other = ([b.force for b in blocks_of(soles, 900, seed)] for seed in (3, 3, 4))
