@@ -83,4 +83,5 @@ class ContactMemory:
 
     def encloses(self, point: NDArray[np.float64]) -> bool:
         """Whether a point (2,) in the sole frame in m lies between the contacts."""
-        return len(self.polygon) >= 3 and signed_margin(self.polygon, point) >= 0.0
+        polygon = self.polygon
+        return len(polygon) >= 3 and signed_margin(polygon, point) >= 0.0
