@@ -2,7 +2,7 @@
 
 A rigid sole comes to rest on three bumps, in an orientation that no sensor saw before. A stiff ankle would keep the
 commanded one and lean the body instead. Each foot therefore turns with its centre of pressure's error (damping control
-of a foot, Caron et al. 2019, per newton of load, so that a foot that has just touched turns as fast as a loaded one):
+of a foot, Caron et al. 2019), as fast as its load allows, or faster where it rolls over an edge:
 
     w = k ((p - c) x e_z),     [w_x, w_y] = k [p_y - c_y, -(p_x - c_x)].
 

@@ -90,8 +90,8 @@ class Uneven(Terrain):
     Attributes:
         height_range: Largest difference in m to the ground that the plan expects.
         slope_range: Largest slope in degrees, in any direction; only where the stones do not move.
-        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts by up to 35 mm in 100
-            steps, and a foot that is so far off shall not stand on two heights.
+        gap: Width in m that is free between the stones of the two feet: dead reckoning drifts to the side in a long
+            walk, and a foot that is off shall not stand on two heights.
         depth: How deep in m the floor lies below.
     """
 
