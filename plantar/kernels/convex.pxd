@@ -92,6 +92,8 @@ cdef void _place(
 @cython.locals(k=Py_ssize_t, room=Py_ssize_t, size=Py_ssize_t, rings=double[:, :, ::1], lines=double[:, ::1])
 cpdef inner_offset(const double[:, :] polygon, double distance)
 
+cdef _upright(ring)
+
 @cython.locals(i=Py_ssize_t)
 cdef void _shifted(double[:, :, ::1] rings, Py_ssize_t size, const double[:, :] polygon, double[:, ::1] out) noexcept
 

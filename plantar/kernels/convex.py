@@ -456,7 +456,12 @@ def inner_offset(polygon, distance):
     size = _inner_offset(polygon, distance, lines, rings)
     out = np.empty((size, 2))
     _shifted(rings, size, polygon, out)
-    return out
+    return _upright(out)
+
+
+def _upright(ring):
+    """A ring; the hull of its corners where rounding far from the origin has turned a sliver over."""
+    return convex_hull(ring) if ring.shape[0] > 2 and area(ring) < 0.0 else ring
 
 
 def _shifted(rings, size, polygon, out):

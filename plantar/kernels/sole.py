@@ -208,6 +208,8 @@ class SoleKernel:
             self.copy_hull(size, corners)
         elif size > 2:
             convex._shifted(self.rings, left, self.polygon, corners)
+            safe = convex._upright(safe)
+            corners = safe
         else:
             corners[0, 0], corners[0, 1] = cx, cy
         nearest = np.empty(2)

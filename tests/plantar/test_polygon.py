@@ -243,6 +243,23 @@ def test_inner_offset_too_far_gives_the_deepest_point(seed, factor):
     assert signed_margin(polygon, got[0]) == pytest.approx(depth, abs=1e-6)
 
 
+def test_inner_offset_of_a_sliver_far_away_is_not_turned_over():
+    polygon = [
+        [40008154.23239806, -39957629.36556947],
+        [40016308.46479613, -39971752.91037965],
+        [40040771.16199034, -39985876.455189824],
+        [40057079.62678646, -39985876.455189824],
+        [40065233.85918453, -39971752.91037965],
+        [40032616.92959227, -39915258.731138945],
+        [40016308.46479613, -39915258.731138945],
+        [40008154.23239807, -39929382.27594912],
+    ]
+    got = inner_offset(polygon, 21185.317215263844)  # just less than the deepest point's depth
+    corners = [tuple(map(Fraction, p)) for p in got.tolist()]
+    assert len(corners) > 1
+    assert sum(a * d - b * c for (a, b), (c, d) in zip([corners[-1], *corners], corners, strict=False)) >= 0
+
+
 def _inscribed_radius(polygon):
     """Largest margin of any point, as a linear programme: maximise d with n . p >= n . a + d for every edge."""
     from scipy.optimize import linprog
