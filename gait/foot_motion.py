@@ -177,6 +177,10 @@ class FootMotion:
         Returns:
             Whether a new swing began.
         """
+        if self._compliance is not None and senses is not None:
+            for side, compliance in self._compliance.items():
+                if loads[side] > compliance.gains.touch_force:
+                    compliance.stand(senses[side].position, senses[side].rotation)
         began = phase.swing is not None and self._step != phase.step
         if phase.swing is not None and began:
             self._begin(phase, phase.swing, frame)
@@ -301,7 +305,7 @@ class FootMotion:
         if view.slope is None:
             self._tilts[side] = rotation_from_vector((1.0 - share) * vector_from_rotation(self._tilts[side]))
         elif view.distance < 0.8 * gains.sensing_range:
-            largest = gains.turn_rate * self._period
+            largest = compliance.turn_rate(view.distance, view.slope) * self._period
             self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 
     def _press(self, side: Side, load: float) -> None:

@@ -38,7 +38,12 @@ _LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expe
 _NOISE_SHARE = 0.02  # share of a reading in what is known of that
 _SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
 _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
-_TOLERANCE = 1.5  # standard deviations that a point of the map may lie above the plane that is the ground
+_SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
+_TOLERANCE = 1.0  # standard deviations of a reading that a point of the map may lie above the plane that is the ground
+_TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind it: what few of them show is noise
+_CUTS = 4  # times at most that it is fitted to the points above it
+_LEAST_SPREAD = 2e-4  # m^2: least variance along x and y of the points that a plane is fitted to
+_POLISHES = 3  # times at most that the plane through the highest ground is fitted again to all points on it
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
 
@@ -63,7 +68,7 @@ class ComplianceGains:
         reserve: The same at which a foot that has not touched hurries down; it begins at twice that.
         haste: How many times faster it touches then.
         turning: Time constant in s with which the sole turns to the ground.
-        turn_rate: Largest rate of that in rad/s.
+        turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
         largest_slope: Slope in rad beyond which the sole does not follow the ground.
         follow_taxels: Number of taxels that must lie on a slope for the sole to follow it.
         ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
@@ -93,8 +98,8 @@ class ComplianceGains:
     clearance_slope: float = 0.2
     correction: float = 0.03
     steepness: float = 3.0
-    crawl_time: float = 0.25
-    reserve: float = 0.04
+    crawl_time: float = 0.3
+    reserve: float = 0.08
     haste: float = 2.5
     turning: float = 0.04
     turn_rate: float = 1.5
@@ -149,6 +154,7 @@ class SwingCompliance:
         self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
         self._corners = layout.outline
         self._centre = layout.positions.mean(axis=0)
+        self._arm = 0.5 * float(np.linalg.norm(np.ptp(self._corners, axis=0)))  # m from the middle to an edge
         self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
         self._distance = np.full(len(layout), np.inf)
         self._readings = np.zeros(len(layout))
@@ -156,6 +162,7 @@ class SwingCompliance:
         self._most = float(gains.readings_moving)
         self._noise = _LEAST_NOISE
         self._rising = False
+        self._stood: float | None = None
         self._liftoff: float | None = None
         self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
         self._rise = np.zeros(len(layout))  # of each taxel from the last pose but one to the last
@@ -174,11 +181,20 @@ class SwingCompliance:
         self._read = -math.inf
         self._poses.clear()
         self._rising = True
-        self._liftoff = None
+        self._liftoff, self._stood = self._stood, None
         self._speed = self._drift = 0.0
         self._aim = None
         self.switch.reset()
         self.force = 0.0
+
+    def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
+        """The sole carries load here: it lifts off from the last height at which it did.
+
+        Args:
+            position: Sole position (3,) in the world as estimated in m.
+            rotation: Rotation (3, 3) from the sole to the world as estimated.
+        """
+        self._stood = self._height(position, rotation)
 
     def feel(self, load: float) -> bool:
         """Whether the foot has landed (T 4.30 corrected).
@@ -219,7 +235,10 @@ class SwingCompliance:
         view = self._view()
         if not self._rising:
             return view
-        return self._lifted_off(view, float(position[2] + rotation[2, :2].dot(self._centre[:2])))
+        return self._lifted_off(view, self._height(position, rotation))
+
+    def _height(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> float:
+        return float(position[2] + rotation[2, :2].dot(self._centre[:2]))
 
     def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
         """The ground that the sole has just left is as far away as its middle rose to a height in m, but for a bias."""
@@ -269,6 +288,18 @@ class SwingCompliance:
         behind = view.distance - self._aim
         self._aim -= self._speed * period
         return period * min(g.top_speed, max(-0.1, self._speed + behind / g.correction))
+
+    def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
+        """Largest rate in rad/s at which the sole turns: its edge goes down no faster than the whole of it does, but
+        where the slope that is left is more than what noise makes of the ground.
+
+        Args:
+            distance: How far down in m the first contact is.
+            slope: Rise of the ground along the sole's x and y (tangents).
+        """
+        g = self.gains
+        gentle = (g.touch_speed + max(0.0, distance) / g.damping) / self._arm
+        return min(g.turn_rate, gentle + max(0.0, math.hypot(*slope) - _SLOPE_OF_NOISE) / g.turning)
 
     def holding(self, since: float) -> float:
         """Force in N that a foot shall carry some time after it touched, until weight is put on it.
@@ -351,7 +382,7 @@ class SwingCompliance:
         if len(seen) < 3:
             return None
         x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
-        level, sx, sy, used = _highest_plane(x, y, d, _TOLERANCE * self._noise)
+        level, sx, sy, used = _highest_plane(x, y, d, self._readings[seen], self._noise)
         g = self.gains
         slope: tuple[float, float] | None = (sx, sy)
         if len(used) < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
@@ -384,30 +415,79 @@ def _median(values: NDArray[np.float64]) -> float:
 
 
 def _highest_plane(
-    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64], tolerance: float
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    d: NDArray[np.float64],
+    readings: NDArray[np.float64],
+    noise: float,
 ) -> tuple[float, float, float, NDArray[np.float64]]:
     """Plane z = -level + sx x + sy y through the highest ground under a sole.
 
-    A least-squares plane; while it leaves out ground that is higher than it by more than a tolerance in m, the fit is
-    repeated with the points above it. Fewer than six points, or points in a row, give a level plane. Also returns the
-    distances of the points that lie on it.
+    A least-squares plane, each point with as much weight as it has readings behind it; while it leaves out ground that
+    is higher than it by more than the noise explains, the fit is repeated with the points above it. Those are few, and
+    of their noise the upper part, and where none is too high some may lie far below: so the plane that is found is
+    fitted again to all points that the noise may have moved off it.
+
+    Args:
+        x: Points (n,) in the sole frame in m.
+        y: The same.
+        d: Distances (n,) of the ground in m.
+        readings: Number of readings (n,) that each is the mean of.
+        noise: Standard deviation of a reading in m.
+
+    Returns:
+        level, sx and sy, of a level plane for fewer than six points or points in a row; and the distances of the points
+        that lie on it.
     """
-    for _ in range(4):
-        n = len(x)
-        mx, my, md = x.sum() / n, y.sum() / n, d.sum() / n
-        u, v, w = x - mx, y - my, d - md
-        xx, xy, yy = float(u.dot(u)), float(u.dot(v)), float(v.dot(v))
-        determinant = xx * yy - xy * xy
-        if n < 6 or determinant < 0.02 * xx * yy + 1e-12 or min(xx, yy) < n * 2e-4:
-            return float(np.sort(d)[: max(1, n // 3)].mean()), 0.0, 0.0, d
-        xw, yw = float(u.dot(w)), float(v.dot(w))
-        sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
-        above = -(w + sx * u + sy * v)  # how much higher than the plane the ground is
-        if float(above.max()) < tolerance:
+    tolerance = noise * np.maximum(_TOLERANCE, _TOLERANCE_OF_MEAN / np.sqrt(readings))
+    used = np.arange(len(x))
+    plane = None
+    for _ in range(_CUTS):
+        found = _plane(x[used], y[used], d[used], readings[used])
+        if found is None:
+            return float(np.sort(d[used])[: max(1, len(used) // 3)].mean()), 0.0, 0.0, d[used]
+        plane = found
+        above = _above(plane, x[used], y[used], d[used])
+        if not bool((above > tolerance[used]).any()):
             break
-        higher = above > 0.0
-        x, y, d = x[higher], y[higher], d[higher]
-    return float(md + sx * mx + sy * my), float(sx), float(sy), d
+        used = used[above > 0.0]
+    assert plane is not None
+    for _ in range(_POLISHES):
+        near = np.flatnonzero(np.abs(_above(plane, x, y, d)) < tolerance)
+        if np.array_equal(near, used):
+            break
+        found = _plane(x[near], y[near], d[near], readings[near])
+        if found is None:
+            break
+        plane, used = found, near
+    return (*plane, d[used])
+
+
+def _plane(
+    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64], weight: NDArray[np.float64]
+) -> tuple[float, float, float] | None:
+    """Least-squares plane d = level - sx x - sy y; None for fewer than six points, or points in a row."""
+    if len(x) < 6:
+        return None
+    whole = float(weight.sum())
+    mx, my, md = float(weight.dot(x)) / whole, float(weight.dot(y)) / whole, float(weight.dot(d)) / whole
+    u, v, w = x - mx, y - my, d - md
+    wu, wv = weight * u, weight * v
+    xx, xy, yy = float(wu.dot(u)), float(wu.dot(v)), float(wv.dot(v))
+    determinant = xx * yy - xy * xy
+    if determinant < 0.02 * xx * yy or min(xx, yy) < whole * _LEAST_SPREAD:
+        return None
+    xw, yw = float(wu.dot(w)), float(wv.dot(w))
+    sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
+    return md + sx * mx + sy * my, sx, sy
+
+
+def _above(
+    plane: tuple[float, float, float], x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """How much higher (n,) in m than a plane the ground is."""
+    level, sx, sy = plane
+    return np.asarray(level - sx * x - sy * y - d)
 
 
 def turned_to_ground(

@@ -69,6 +69,47 @@ def test_a_slab_under_half_the_sole_is_what_is_met_first() -> None:
     assert view.distance == pytest.approx(0.012, abs=1e-3)
 
 
+def test_a_taxel_over_the_edge_does_not_tilt_the_ground() -> None:
+    distance = np.full(len(LAYOUT), 0.01)
+    distance[np.argmax(X + Y)] = 0.018  # 8 mm lower than the rest, at a corner of the sole
+    view = looked(distance)
+    assert view is not None
+    assert view.slope == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert view.distance == pytest.approx(0.01)
+    assert view.even
+
+
+def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() -> None:
+    errors = []
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        compliance = SwingCompliance(LAYOUT, ComplianceGains())
+        compliance.begin()
+        for k in range(20):
+            reading = np.where(X > -0.03, 0.012, 0.03) + rng.normal(0.0, 2e-3, len(LAYOUT))
+            time = PERIOD * k
+            view = compliance.look(percept(reading, time), np.array([0.0, 0.0, 0.03]), np.eye(3), time)
+        assert view is not None
+        assert view.slope is not None
+        errors.append((view.middle - 0.012, *view.slope))
+    assert np.abs(np.mean(errors, axis=0)).max() < 2e-3  # the upper half of the noise would make it 1 mm too high
+    assert np.abs(np.array(errors)[:, 0]).max() < 8e-4
+    assert np.abs(np.array(errors)[:, 1:]).max() < 0.015
+
+
+def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.begin()
+    distance = np.full(len(LAYOUT), 0.01)
+    for k in range(40):
+        compliance.look(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
+    compliance._readings[0], compliance._distance[0] = 1.0, 0.005  # a taxel that sees this ground for the first time
+    view = compliance.look(percept(distance, 0.195), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.195)
+    assert view is not None
+    assert view.distance == pytest.approx(0.01, abs=5e-4)
+    assert view.slope == pytest.approx((0.0, 0.0), abs=5e-3)
+
+
 def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
     distance = np.full(len(LAYOUT), 0.02)
     distance[:5] = np.nan
@@ -134,6 +175,22 @@ def test_a_bias_is_learned_where_the_sole_leaves_the_ground(bias: float) -> None
     compliance = SwingCompliance(LAYOUT, ComplianceGains())
     swung(compliance, lambda z: z + bias + rng.normal(0.0, 2e-3, len(LAYOUT)), 0.0)
     assert compliance.bias == pytest.approx(bias, abs=8e-4)
+
+
+def test_a_sole_that_left_the_ground_before_its_swing_learns_no_bias_of_that() -> None:
+    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance.stand(np.array([0.0, 0.0, -0.004]), np.eye(3))  # where it last carried load
+    swung(compliance, lambda z: np.full(len(LAYOUT), z + 0.004), 0.0)
+    assert compliance.bias == 0.0
+
+
+def test_close_to_the_ground_an_edge_goes_down_no_faster_than_the_sole() -> None:
+    gains = ComplianceGains()
+    compliance = SwingCompliance(LAYOUT, gains)
+    slow = compliance.turn_rate(0.0, (0.005, 0.0))
+    assert slow * np.hypot(*np.ptp(LAYOUT.outline, axis=0)) / 2 == pytest.approx(gains.touch_speed)
+    assert compliance.turn_rate(0.03, (0.005, 0.0)) == gains.turn_rate
+    assert compliance.turn_rate(0.0, (0.1, 0.0)) == gains.turn_rate  # a wedge slides in
 
 
 def test_ground_that_was_no_plane_teaches_no_bias() -> None:
