@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.estimator import rotation_from_vector
+from plantar.kernels.highest_ground import highest_plane
 from plantar.layout import SoleLayout
 from plantar.percept import Percept
 from plantar.percept_virtual import PROXIMITY_GAIN
@@ -39,11 +40,6 @@ _NOISE_SHARE = 0.02  # share of a reading in what is known of that
 _SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
 _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
 _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
-_TOLERANCE = 1.0  # standard deviations of a reading that a point of the map may lie above the plane that is the ground
-_TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind it: what few of them show is noise
-_CUTS = 4  # times at most that it is fitted to the points above it
-_LEAST_SPREAD = 2e-4  # m^2: least variance along x and y of the points that a plane is fitted to
-_POLISHES = 3  # times at most that the plane through the highest ground is fitted again to all points on it
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
 
 
@@ -158,6 +154,8 @@ class SwingCompliance:
         self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
         self._distance = np.full(len(layout), np.inf)
         self._readings = np.zeros(len(layout))
+        self._on_plane = np.zeros(len(layout), dtype=np.uint8)
+        self._plane = np.zeros(3)
         self._read = -math.inf
         self._most = float(gains.readings_moving)
         self._noise = _LEAST_NOISE
@@ -378,22 +376,25 @@ class SwingCompliance:
         self._distance = np.where(known, self._distance + news / self._readings, reading)
 
     def _view(self) -> GroundView | None:
-        seen = np.flatnonzero(np.isfinite(self._distance))
-        if len(seen) < 3:
+        distance = self._distance - self.bias
+        seen = int(np.count_nonzero(np.isfinite(distance)))
+        if seen < 3:
             return None
-        x, y, d = self._x[seen], self._y[seen], self._distance[seen] - self.bias
-        level, sx, sy, used = _highest_plane(x, y, d, self._readings[seen], self._noise)
         g = self.gains
+        found = highest_plane(self._x, self._y, distance, self._readings, self._noise, self._on_plane, self._plane)
+        count = int(np.count_nonzero(self._on_plane))
+        level, sx, sy = self._plane.tolist() if found else (0.0, 0.0, 0.0)
         slope: tuple[float, float] | None = (sx, sy)
-        if len(used) < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
+        if count < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
             slope = None  # too little to stand on, or too steep: the sole stays level
-            nearest = middle = float(np.sort(used)[: max(1, len(used) // 3)].mean())
+        if slope is None or not found:
+            nearest = middle = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
         else:
             nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
             if g.orientation == "moment":
-                slope = self._slope_of_moment(len(seen))
-        return GroundView(nearest, middle, slope, len(used) > _EVEN * len(seen))
+                slope = self._slope_of_moment(seen)
+        return GroundView(nearest, middle, slope, count > _EVEN * seen)
 
     def _slope_of_moment(self, count: int) -> tuple[float, float]:
         """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
@@ -412,82 +413,6 @@ def _median(values: NDArray[np.float64]) -> float:
     ordered = np.sort(values)
     middle = len(ordered) // 2
     return float(ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle]))
-
-
-def _highest_plane(
-    x: NDArray[np.float64],
-    y: NDArray[np.float64],
-    d: NDArray[np.float64],
-    readings: NDArray[np.float64],
-    noise: float,
-) -> tuple[float, float, float, NDArray[np.float64]]:
-    """Plane z = -level + sx x + sy y through the highest ground under a sole.
-
-    A least-squares plane, each point with as much weight as it has readings behind it; while it leaves out ground that
-    is higher than it by more than the noise explains, the fit is repeated with the points above it. Those are few, and
-    of their noise the upper part, and where none is too high some may lie far below: so the plane that is found is
-    fitted again to all points that the noise may have moved off it.
-
-    Args:
-        x: Points (n,) in the sole frame in m.
-        y: The same.
-        d: Distances (n,) of the ground in m.
-        readings: Number of readings (n,) that each is the mean of.
-        noise: Standard deviation of a reading in m.
-
-    Returns:
-        level, sx and sy, of a level plane for fewer than six points or points in a row; and the distances of the points
-        that lie on it.
-    """
-    tolerance = noise * np.maximum(_TOLERANCE, _TOLERANCE_OF_MEAN / np.sqrt(readings))
-    used = np.arange(len(x))
-    plane = None
-    for _ in range(_CUTS):
-        found = _plane(x[used], y[used], d[used], readings[used])
-        if found is None:
-            return float(np.sort(d[used])[: max(1, len(used) // 3)].mean()), 0.0, 0.0, d[used]
-        plane = found
-        above = _above(plane, x[used], y[used], d[used])
-        if not bool((above > tolerance[used]).any()):
-            break
-        used = used[above > 0.0]
-    assert plane is not None
-    for _ in range(_POLISHES):
-        near = np.flatnonzero(np.abs(_above(plane, x, y, d)) < tolerance)
-        if np.array_equal(near, used):
-            break
-        found = _plane(x[near], y[near], d[near], readings[near])
-        if found is None:
-            break
-        plane, used = found, near
-    return (*plane, d[used])
-
-
-def _plane(
-    x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64], weight: NDArray[np.float64]
-) -> tuple[float, float, float] | None:
-    """Least-squares plane d = level - sx x - sy y; None for fewer than six points, or points in a row."""
-    if len(x) < 6:
-        return None
-    whole = float(weight.sum())
-    mx, my, md = float(weight.dot(x)) / whole, float(weight.dot(y)) / whole, float(weight.dot(d)) / whole
-    u, v, w = x - mx, y - my, d - md
-    wu, wv = weight * u, weight * v
-    xx, xy, yy = float(wu.dot(u)), float(wu.dot(v)), float(wv.dot(v))
-    determinant = xx * yy - xy * xy
-    if determinant < 0.02 * xx * yy or min(xx, yy) < whole * _LEAST_SPREAD:
-        return None
-    xw, yw = float(wu.dot(w)), float(wv.dot(w))
-    sx, sy = -(yy * xw - xy * yw) / determinant, -(xx * yw - xy * xw) / determinant
-    return md + sx * mx + sy * my, sx, sy
-
-
-def _above(
-    plane: tuple[float, float, float], x: NDArray[np.float64], y: NDArray[np.float64], d: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """How much higher (n,) in m than a plane the ground is."""
-    level, sx, sy = plane
-    return np.asarray(level - sx * x - sy * y - d)
 
 
 def turned_to_ground(

@@ -1,0 +1,110 @@
+"""Kernel of the plane through the highest ground under a swinging sole.
+
+Plain Python that also compiles ahead of time (`highest_ground.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["highest_plane"]
+
+_INFINITE = float("inf")
+_TOLERANCE = 1.0  # standard deviations of a reading that a point may lie off the plane that is the ground
+_TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind it: what few of them show is noise
+_CUTS = 4  # times at most that the plane is fitted to the points above it
+_POLISHES = 3  # times at most that it is fitted again to all points on it
+_LEAST_POINTS = 6
+_LEAST_SPREAD = 2e-4  # m^2: least variance along x and y of the points that a plane is fitted to
+_IN_A_ROW = 0.02  # share of the product of the variances below which the points are in a row
+
+
+def highest_plane(x, y, distance, readings, noise, used, plane):
+    """Fit the plane z = -level + sx x + sy y through the highest ground that the taxels of a sole see.
+
+    Least squares, each point with as much weight as it has readings behind it. While the plane leaves out ground that
+    is higher than it by more than the noise explains, the fit is repeated with the points above it. Those are few, and
+    of their noise the upper part, and where none is too high some may lie far below: so the plane that is found is
+    fitted again to all points that the noise may have moved off it. Reference: the same in numpy, with its
+    least-squares solver; the error is below 1e-12 of the largest distance.
+
+    Args:
+        x: Taxels (n,) in the sole frame in m.
+        y: The same.
+        distance: Distances (n,) of the ground from them in m; inf or NaN where nothing is seen.
+        readings: Number of readings (n,) that each is the mean of, 1 or more.
+        noise: Standard deviation of a reading in m.
+        used: Receives 1 for the points (n,) on the plane, or, where there is none, for those that were left; else 0.
+        plane: Receives level in m, sx and sy (3,).
+
+    Returns:
+        Whether there is a plane: six points or more, not in a row.
+    """
+    n = x.shape[0]
+    for i in range(n):
+        used[i] = abs(distance[i]) < _INFINITE
+    for _ in range(_CUTS):
+        if not _fit(x, y, distance, readings, used, plane):
+            return False
+        missed = False
+        for i in range(n):
+            if used[i] and _above(x, y, distance, plane, i) > _explained(noise, readings[i]):
+                missed = True
+                break
+        if not missed:
+            break
+        for i in range(n):
+            if used[i] and not _above(x, y, distance, plane, i) > 0.0:
+                used[i] = 0
+    for _ in range(_POLISHES):
+        changed = False
+        for i in range(n):
+            near = abs(_above(x, y, distance, plane, i)) < _explained(noise, readings[i])
+            if near != used[i]:
+                changed = True
+            used[i] = near
+        if not changed or not _fit(x, y, distance, readings, used, plane):
+            break
+    return True
+
+
+def _above(x, y, distance, plane, i):
+    """How much higher in m than the plane the ground is under a taxel."""
+    return plane[0] - plane[1] * x[i] - plane[2] * y[i] - distance[i]
+
+
+def _explained(noise, readings):
+    """Distance in m from the plane that noise explains."""
+    return noise * max(_TOLERANCE, _TOLERANCE_OF_MEAN / math.sqrt(readings))
+
+
+def _fit(x, y, distance, readings, used, plane):
+    """Weighted least squares; the plane stays as it is where there is none, and the result is False."""
+    count = 0
+    whole = mx = my = md = 0.0
+    for i in range(x.shape[0]):
+        if used[i]:
+            w = readings[i]
+            count += 1
+            whole += w
+            mx += w * x[i]
+            my += w * y[i]
+            md += w * distance[i]
+    if count < _LEAST_POINTS:
+        return False
+    mx, my, md = mx / whole, my / whole, md / whole
+    xx = xy = yy = xd = yd = 0.0
+    for i in range(x.shape[0]):
+        if used[i]:
+            w, u, v, d = readings[i], x[i] - mx, y[i] - my, distance[i] - md
+            xx += w * u * u
+            xy += w * u * v
+            yy += w * v * v
+            xd += w * u * d
+            yd += w * v * d
+    determinant = xx * yy - xy * xy
+    if determinant < _IN_A_ROW * xx * yy or min(xx, yy) < whole * _LEAST_SPREAD:
+        return False
+    sx, sy = (xy * yd - yy * xd) / determinant, (xy * xd - xx * yd) / determinant
+    plane[0], plane[1], plane[2] = md + sx * mx + sy * my, sx, sy
+    return True
