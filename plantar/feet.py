@@ -59,7 +59,7 @@ class FeetPercept:
     def positions_cop_in_world(self) -> tuple[NDArray[np.float64] | None, ...]:
         """CoP (3,) of each sole in the world in m, None for a sole without load (T 4.21)."""
         return tuple(
-            None if p.position_cop_in_sole is None else pose.to_world([*p.position_cop_in_sole, 0.0])
+            None if p.position_cop_in_sole is None else pose.to_world([*p.position_cop_in_sole.tolist(), 0.0])
             for p, pose in zip(self.percepts, self.poses, strict=True)
         )
 

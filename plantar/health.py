@@ -200,7 +200,9 @@ def fill_from_neighbours(
     out = np.array(values, dtype=np.float64)
     if out.ndim not in (1, 2) or out.shape[-1] != len(layout):
         raise ReadingError(f"readings have shape {out.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    bad = np.broadcast_to(np.asarray(faulty, dtype=bool), out.shape)
+    bad = np.asarray(faulty, dtype=bool)
+    if bad.shape != out.shape:
+        bad = np.broadcast_to(bad, out.shape)
     *frame, taxel = bad.nonzero()
     if not len(taxel):
         return out

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.cell_edges import EdgeTable, edge_table
+from plantar.enclosing import bounding_box
 from plantar.errors import ReadingError
 from plantar.kernels.outline import Rings, area_and_centroid, ring_areas
 from plantar.layout import SoleLayout
@@ -181,9 +182,9 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
         (2, 0.04)
     """
     parts = [o for o in outlines_in_world if len(o)]
-    boxes = [(o.points.min(axis=0), o.points.max(axis=0)) for o in parts]
-    for i, (low, high) in enumerate(boxes):
-        if any((low <= b).all() and (a <= high).all() for a, b in boxes[:i]):
+    boxes = [bounding_box(o.points).tolist() for o in parts]
+    for i, ((x1, y1), _, (x2, y2), _) in enumerate(boxes):
+        if any(x1 <= b[2][0] and b[0][0] <= x2 and y1 <= b[2][1] and b[0][1] <= y2 for b in boxes[:i]):
             return _union([island for o in parts for island in o.islands])
     sizes = (b - a for o in parts for a, b in pairwise(o.starts))
     return Outline(

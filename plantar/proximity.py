@@ -161,12 +161,17 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
     if any(map(math.isnan, levels)):
         raise InputError("heights of contours hold NaN")
     readings = np.asarray(distance, dtype=np.float64)
+    if readings.shape != (len(layout),):
+        raise ReadingError(f"distances have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
+    hull = layout.kernel.hull
     stack: list[HeightContour] = []
+    polygon = np.empty((0, 2))
     before = b""
     for height in levels:
-        taxels = np.asarray(readings < height)
+        taxels = readings < height
         cells = taxels.tobytes()  # the quickest way to compare two masks
-        polygon = stack[-1].polygon_in_sole if stack and cells == before else cells_polygon(layout, taxels)
+        if cells != before:
+            polygon = hull(taxels)[0]
+            before = cells
         stack.append(HeightContour(height, taxels, polygon))
-        before = cells
     return tuple(stack)

@@ -64,12 +64,10 @@ def _near_ground(block: Block, tally: Tally) -> None:
 def _plane_of_ground(block: Block, tally: Tally) -> None:
     """Planes are finite, as flat as their points allow, and found again where every taxel sees one plane."""
     layout = block.layout
-    wrong = []
-    for p in block.percepts:
-        plane = p.ground_plane_in_sole
-        if plane is not None:
-            values = [plane.height, *plane.slope, plane.residual]
-            wrong.append(not all(map(math.isfinite, values)) or not plane.inliers.any())
+    planes = [plane for p in block.percepts if (plane := p.ground_plane_in_sole) is not None]
+    values = np.array([(plane.height, *plane.slope, plane.residual) for plane in planes]).reshape(-1, 4)
+    inliers = np.array([plane.inliers for plane in planes]).reshape(-1, len(layout))
+    wrong = ~np.isfinite(values).all(axis=1) | ~inliers.any(axis=1)
     tally.add("Percept.ground_plane_in_sole: finite", block, wrong, 0.0, len(block))
     height, slope = 0.02, block.rng.uniform(-0.1, 0.1, 2)
     if np.abs(layout.positions[:, 2]).max() == 0.0 and len(layout) > 3:

@@ -173,15 +173,12 @@ def _batch_functions(block: Block, tally: Tally) -> None:
     wrong = differing(parts, [p.support_polygon_in_sole for p in percepts])
     tally.add("batch.support_polygons: vertices", block, wrong)
     ground = batch.ground_planes(layout, block.proximity)
-    planes = [p.ground_plane_in_sole for p in percepts]
+    fitted = zip(ground.directions.tolist(), ground.height.tolist(), ground.slope.tolist(), strict=True)
     wrong = [
-        i % 16 > 0
-        and (
-            ground.directions[i] != -1
-            if plane is None
-            else (plane.height, *plane.slope) != (ground.height[i], *ground.slope[i])
+        i % 16 > 0 and (directions != -1 if plane is None else [plane.height, *plane.slope] != [height, *slope])
+        for i, (plane, (directions, height, slope)) in enumerate(
+            zip((p.ground_plane_in_sole for p in percepts), fitted, strict=True)
         )
-        for i, plane in enumerate(planes)
     ]
     tally.add("batch.ground_planes", block, wrong)
     bare = batch.support_polygons(layout, block.force)
@@ -233,9 +230,9 @@ def _balance_points(block: Block, tally: Tally) -> None:
     far = size * (1.0 + float(np.abs(at).max()))
     tally.add("wrench_at: there and back", block, _error(there, wrenches, far), 1e-14)
     points = [zmp.zmp_in_plane(w, float(at[2])) for w in wrenches]
-    tally.add("zmp_in_plane", block, [p is not None and not np.isfinite(p).all() for p in points])
+    tally.add("zmp_in_plane", block, not_finite(points))
     flat_points = [force.zmp_of_wrench(w) for w in wrenches]
-    tally.add("zmp_of_wrench", block, [p is not None and not np.isfinite(p).all() for p in flat_points])
+    tally.add("zmp_of_wrench", block, not_finite(flat_points))
     pressed = np.array([p.pressure_driven_wrench_in_sole for p in percepts])
     area = np.array([p.contact_area for p in percepts])[:, None]
     right = np.where(area > 0.0, wrenches * block.layout.cell_area / np.where(area > 0.0, area, 1.0), 0.0)
@@ -274,16 +271,14 @@ def _balance_points(block: Block, tally: Tally) -> None:
     tally.add("zmp_of_soles", block, error, 1e-9, 2 * len(found))
     com = at + np.array([0.0, 0.0, 0.8])
     pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
-    lost = [p is not None and not np.isfinite(p).all() for p in pivot]
-    tally.add("centroidal_moment_pivot", block, lost)
+    tally.add("centroidal_moment_pivot", block, not_finite(pivot))
     dcm = zmp.divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
     tally.add("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
-    composite = [force.zmp_of_feet([p.position_cop_in_sole, p.position_cop_in_sole], [1.0, 2.0]) for p in percepts]
-    off = [
-        0.0 if c is None or (q := p.position_cop_in_sole) is None else float(np.abs(c - q).max())
-        for c, p in zip(composite, percepts, strict=True)
-    ]
-    tally.add("zmp_of_feet", block, np.array(off) / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
+    composite = [force.zmp_of_feet([c, c], [1.0, 2.0]) for c in cops]
+    there_is = np.array([a is not None and b is not None for a, b in zip(composite, cops, strict=True)])
+    found = np.array([np.zeros(2) if c is None else c for c in composite])
+    off = np.where(there_is, np.abs(found - place[:, :2]).max(axis=1), 0.0)
+    tally.add("zmp_of_feet", block, off / (1.0 + np.abs(block.layout.positions).max()), 1e-14)
     turns = block.rng.normal(size=(6, 5))
     torque = pressure_wrench.joint_torque(turns, turn, wrenches)
     loads = np.hstack([wrenches[:, :3] @ turn.T, wrenches[:, 3:] @ turn.T])
