@@ -163,7 +163,6 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
     readings = np.asarray(distance, dtype=np.float64)
     if readings.shape != (len(layout),):
         raise ReadingError(f"distances have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    hull = layout.kernel.hull
     stack: list[HeightContour] = []
     polygon = np.empty((0, 2))
     before = b""
@@ -171,7 +170,7 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         taxels = readings < height
         cells = taxels.tobytes()  # the quickest way to compare two masks
         if cells != before:
-            polygon = hull(taxels)[0]
+            polygon = layout.kernel.hull(taxels)[0]
             before = cells
         stack.append(HeightContour(height, taxels, polygon))
     return tuple(stack)

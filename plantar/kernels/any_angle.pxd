@@ -1,7 +1,7 @@
 # C types of any_angle.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport concave, rectangle
+from . cimport concave, rectangle, work_arrays
 
 cdef double _QUARTER
 cdef double _GOLDEN
@@ -16,6 +16,14 @@ cdef int _SECTIONS
 cdef double _STEP
 cdef double _STRIDE
 cdef double _LONGEST
+cdef double _ALMOST
+cdef double _INF
+cdef double _ASIDE
+cdef int _PARABOLA
+cdef int _CROSSING
+cdef int _BESIDE
+cdef double _SLACK
+cdef int _SECTION
 
 @cython.final
 cdef class AnyAngle:
@@ -31,7 +39,6 @@ cdef class AnyAngle:
     cdef double[::1] room
     cdef readonly concave.OutlineRectangles outline
 
-    cdef _numbers(self, Py_ssize_t size)
 
     cpdef double in_ring(self, double[::1] ring, Py_ssize_t n, double[::1] work, double[::1] out) except -1
 
@@ -63,6 +70,6 @@ cdef class AnyAngle:
     @cython.locals(before="double[::1]", i=Py_ssize_t)
     cdef _widen(self)
 
-    @cython.locals(golden=bint, beyond=bint)
+    @cython.locals(way=int, beyond=bint)
     cdef void _climb(self, double middle, double area, double[::1] out) except *
     cdef double _lower(self, double area, double turn) noexcept

@@ -10,9 +10,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from . import concave, rectangle
+from . import concave, rectangle, work_arrays
 
 __all__ = ["AnyAngle"]
 
@@ -27,7 +25,12 @@ _SEEDS = 6  # directions of edges that are looked at first
 _CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
 _STEP = 1e-6  # rad to either side by which a summit is told
-_STRIDE = 2e-3  # rad of the first step uphill
+_STRIDE = 5e-3  # rad of the first step uphill
+_PARABOLA, _CROSSING, _BESIDE, _SECTION = range(4)  # ways to a summit
+_SLACK = 1e-7  # share of the area that a summit may stand higher than what is taken for it
+_ASIDE = 0.02  # share of a bracket that a summit is looked for beside where it is known
+_INF = math.inf
+_ALMOST = 0.999  # share of the best area above which it is looked for again, at the end
 _LONGEST = 0.5  # rad of a step along the angles of a convex ring
 
 
@@ -55,13 +58,10 @@ class AnyAngle:
         self.n = 0
         self.best = 0.0
         self.best_angle = 0.0
-        self.stack = self._numbers(512)
-        self.room = self._numbers(512)
-        self.direction = self._numbers(_SEEDS + 2)
+        self.stack = work_arrays.numbers(512, self.lists)
+        self.room = work_arrays.numbers(512, self.lists)
+        self.direction = work_arrays.numbers(_SEEDS + 2, self.lists)
         self.outline = concave.OutlineRectangles(lists)
-
-    def _numbers(self, size):
-        return [0.0] * size if self.lists else np.zeros(size)
 
     def in_ring(self, ring, n, work, out):
         """Largest rectangle in a convex ring.
@@ -126,12 +126,12 @@ class AnyAngle:
             if self.best > before:
                 best_part = k
         outline.choose(best_part)
-        return self._largest(self.best_angle, 0.0, out)
+        return self._largest(self.best_angle, _ALMOST * self.best, out)
 
     def _take_ring(self, points, n):
         """Look at a convex part of an outline as a ring."""
         if 8 * n + 16 > len(self.room):
-            self.room = self._numbers(16 * n + 16)
+            self.room = work_arrays.numbers(16 * n + 16, self.lists)
         self.convex = True
         self.ring = points
         self.n = n
@@ -284,7 +284,7 @@ class AnyAngle:
     def _widen(self):
         """Make room for more intervals."""
         before = self.stack
-        self.stack = self._numbers(2 * len(before))
+        self.stack = work_arrays.numbers(2 * len(before), self.lists)
         for i in range(len(before)):
             self.stack[i] = before[i]
 
@@ -300,12 +300,16 @@ class AnyAngle:
         if beside > area:  # else the summit itself, as edges and corners that touch make them
             low = middle
             at_low = area
+            beyond_low = middle  # the one before low, and likewise: with low the slope on that side
+            at_beyond_low = area
             at = side
             mine = beside
             reach = _STRIDE if side > middle else -_STRIDE
             high = at + reach
             at_high = self._largest(high, self._lower(mine, high - at), out)
             while at_high > mine and abs(reach) < _QUARTER:
+                beyond_low = low
+                at_beyond_low = at_low
                 low = at
                 at_low = mine
                 at = high
@@ -313,37 +317,100 @@ class AnyAngle:
                 reach *= 2.0
                 high = at + reach
                 at_high = self._largest(high, self._lower(mine, high - at), out)
-            # The summit of the parabola through the three, or a golden section where that does not halve the bracket.
-            golden = False
+            beyond_high = high
+            at_beyond_high = at_high
+            # The summit of the parabola through the three; where that does not halve the bracket, the crossing of the
+            # slopes on both sides as long as it comes closer to what it promises, then a golden section.
+            way = _PARABOLA
+            missed = _INF
+            steep = 1.0
             for _ in range(_SECTIONS):
                 width = abs(high - low)
-                if width < 3e-8 or mine - min(at_low, at_high) < 1e-7 * mine:
+                if width < 3e-8 or mine - min(at_low, at_high) < _SLACK * mine:
                     break
                 angle = at + _GOLDEN * ((high if abs(high - at) > abs(at - low) else low) - at)
-                p = (at - low) * (mine - at_high)
-                q = (at - high) * (mine - at_low)
-                if not golden and p != q:
-                    trial = at - 0.5 * ((at - low) * p - (at - high) * q) / (p - q)
-                    if min(low, high) < trial < max(low, high) and trial != at:
-                        angle = trial
+                promised = 0.0
+                summit = 0.0
+                if way == _PARABOLA:
+                    p = (at_low - mine) / (low - at)
+                    q = (at_high - mine) / (high - at)
+                    bend = (p - q) / (low - high)
+                    p -= bend * (low - at)
+                    if bend < 0.0:
+                        trial = at - 0.5 * p / bend
+                        summit = mine - 0.25 * p * p / bend
+                        least = _ASIDE * width  # beside where it is known already
+                        if abs(trial - at) < least:
+                            trial = at + (least if high - at > at - low else -least)
+                        if min(low, high) < trial < max(low, high):
+                            angle = trial
+                            promised = mine + (p + bend * (trial - at)) * (trial - at)
+                elif way == _CROSSING and beyond_low != low and beyond_high != high:
+                    p = (at_low - at_beyond_low) / (low - beyond_low)
+                    q = (at_high - at_beyond_high) / (high - beyond_high)
+                    here = at_low + p * (at - low)
+                    there = at_high + q * (at - high)
+                    if abs(here - mine) < abs(there - mine):  # which of the two slopes it stands on
+                        here = mine
+                        p = (mine - at_low) / (at - low)
+                        there = at_high + q * (at - high)
+                    else:
+                        there = mine
+                        q = (mine - at_high) / (at - high)
+                    if p != q:
+                        trial = at + (there - here) / (p - q)
+                        if min(low, high) < trial < max(low, high) and trial != at:
+                            angle = trial
+                            promised = here + p * (trial - at)
+                            summit = promised
+                            steep = max(abs(p), abs(q))
+                elif way == _BESIDE:
+                    least = min(_SLACK * mine / steep, 0.5 * abs(angle - at))
+                    angle = at + (least if high - at > at - low else -least)
                 trial = self._largest(angle, self._lower(mine, angle - at), out)
                 beyond = (angle > at) == (high > at)
                 if trial > mine:
                     if beyond:
+                        beyond_low = low
+                        at_beyond_low = at_low
                         low = at
                         at_low = mine
                     else:
+                        beyond_high = high
+                        at_beyond_high = at_high
                         high = at
                         at_high = mine
                     at = angle
                     mine = trial
                 elif beyond:
+                    beyond_high = high
+                    at_beyond_high = at_high
                     high = angle
                     at_high = trial
                 else:
+                    beyond_low = low
+                    at_beyond_low = at_low
                     low = angle
                     at_low = trial
-                golden = abs(high - low) > 0.5 * width
+                gap = abs(promised - trial)
+                if way == _BESIDE:
+                    if trial < mine:
+                        break
+                    way = _SECTION
+                elif gap < 0.1 * _SLACK * mine and summit < (1.0 + _SLACK) * mine:
+                    if way == _PARABOLA:
+                        break
+                    way = _BESIDE  # a slope that is known from afar only may rise on
+                elif way == _CROSSING and promised > 0.0:
+                    way = _CROSSING if gap < 0.25 * missed else _SECTION
+                    missed = gap
+                elif abs(high - low) <= 0.5 * width:
+                    way = _PARABOLA
+                elif way == _PARABOLA:
+                    way = _CROSSING
+                    missed = _INF
+                else:
+                    way = _PARABOLA
         if mine > self.best:
             self.best = mine
             self.best_angle = at

@@ -1,7 +1,7 @@
 # C types of concave.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rectangle, turn_bound
+from . cimport rectangle, turn_bound, work_arrays
 
 cdef double _CLOSER
 
@@ -33,6 +33,8 @@ cdef class OutlineRectangles:
     cdef double[::1] edge
     cdef double[::1] trapezoid
     cdef double[::1] reach
+    cdef double[::1] left
+    cdef double[::1] right
     cdef double[::1] stack
     cdef Py_ssize_t[::1] slab
     cdef Py_ssize_t[::1] path
@@ -54,8 +56,6 @@ cdef class OutlineRectangles:
     cdef double y1
     cdef double y2
 
-    cdef _numbers(self, Py_ssize_t size)
-    cdef _places(self, Py_ssize_t size)
 
     @cython.locals(
         m=Py_ssize_t, rings=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
@@ -82,8 +82,8 @@ cdef class OutlineRectangles:
 
     @cython.locals(
         slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
-        path="Py_ssize_t[::1]", reach="double[::1]", trapezoid="double[::1]", count=Py_ssize_t, k=Py_ssize_t,
-        start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint
+        path="Py_ssize_t[::1]", reach="double[::1]", left="double[::1]", right="double[::1]", trapezoid="double[::1]",
+        count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint
     )
     cdef double _enumerate(self, double angle, double floor, double[::1] out) except -1
     cdef bint _may_hold(self, double width, double height) noexcept

@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from . import rectangle, turn_bound
+from . import rectangle, turn_bound, work_arrays
 
 __all__ = ["OutlineRectangles"]
 
@@ -37,11 +35,11 @@ class OutlineRectangles:
         self.many = 0
         self._make_room(64, 16)
         self._make_many(512)
-        self.ring = self._numbers(18)
-        self.work = self._numbers(96)
-        self.corner = self._numbers(8)
-        self.box = self._numbers(4)
-        self.reached = self._numbers(2)
+        self.ring = work_arrays.numbers(18, self.lists)
+        self.work = work_arrays.numbers(96, self.lists)
+        self.corner = work_arrays.numbers(8, self.lists)
+        self.box = work_arrays.numbers(4, self.lists)
+        self.reached = work_arrays.numbers(2, self.lists)
         self.clear_low = 0.0
         self.clear_high = 0.0
         self.bound = turn_bound.TurnBound(lists)
@@ -55,40 +53,36 @@ class OutlineRectangles:
         self.y1 = 0.0
         self.y2 = 0.0
 
-    def _numbers(self, size):
-        return [0.0] * size if self.lists else np.zeros(size)
-
-    def _places(self, size):
-        return [0] * size if self.lists else np.zeros(size, dtype=np.intp)
-
     def _make_room(self, points, rings):
         """Work arrays for so many points and rings."""
         self.room = points
-        self.given = self._numbers(2 * points)
-        self.points = self._numbers(2 * points)
-        self.xs = self._numbers(points)
-        self.ys = self._numbers(points)
-        self.line = self._numbers(points)
-        self.order = self._places(points)
-        self.rank = self._places(points)
-        self.first = self._places(points + 1)
-        self.filled = self._places(points)
-        self.given_start = self._places(rings + 1)
-        self.start = self._places(rings + 1)
-        self.owner = self._places(rings + 1)
-        self.part = self._places(rings + 1)
-        self.ring_area = self._numbers(rings + 1)
-        self.part_area = self._numbers(rings + 1)
+        self.given = work_arrays.numbers(2 * points, self.lists)
+        self.points = work_arrays.numbers(2 * points, self.lists)
+        self.xs = work_arrays.numbers(points, self.lists)
+        self.ys = work_arrays.numbers(points, self.lists)
+        self.line = work_arrays.numbers(points, self.lists)
+        self.order = work_arrays.places(points, self.lists)
+        self.rank = work_arrays.places(points, self.lists)
+        self.first = work_arrays.places(points + 1, self.lists)
+        self.filled = work_arrays.places(points, self.lists)
+        self.given_start = work_arrays.places(rings + 1, self.lists)
+        self.start = work_arrays.places(rings + 1, self.lists)
+        self.owner = work_arrays.places(rings + 1, self.lists)
+        self.part = work_arrays.places(rings + 1, self.lists)
+        self.ring_area = work_arrays.numbers(rings + 1, self.lists)
+        self.part_area = work_arrays.numbers(rings + 1, self.lists)
 
     def _make_many(self, total):
         """Work arrays for so many edges across slabs."""
         self.many = total
-        self.edge = self._numbers(3 * total)
-        self.trapezoid = self._numbers(2 * total + 4)
-        self.reach = self._numbers(total // 2 + 1)
-        self.stack = self._numbers(total + 4)
-        self.path = self._places(total // 2 + 2)
-        self.slab = self._places(total // 2 + 1)
+        self.edge = work_arrays.numbers(3 * total, self.lists)
+        self.trapezoid = work_arrays.numbers(2 * total + 4, self.lists)
+        self.reach = work_arrays.numbers(total // 2 + 1, self.lists)
+        self.left = work_arrays.numbers(total + 2, self.lists)
+        self.right = work_arrays.numbers(total + 2, self.lists)
+        self.stack = work_arrays.numbers(total + 4, self.lists)
+        self.path = work_arrays.places(total // 2 + 2, self.lists)
+        self.slab = work_arrays.places(total // 2 + 1, self.lists)
 
     def take(self, points, starts, apart):
         """Take an outline, and find its parts: each island with its holes.
@@ -280,7 +274,12 @@ class OutlineRectangles:
         return area
 
     def _enumerate(self, angle, floor, out):
-        """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in."""
+        """Branch and bound over the pairs of trapezoids that a rectangle starts and ends in.
+
+        Where all of a pair's window passes through one way into the trapezoid before the first, what starts in the
+        first goes on at least up to the way, which the pair with that one may use too: the pair is left out, likewise
+        at the end. So each rectangle lies in what some pair that is left may use.
+        """
         slabs = self._cut(angle)
         if slabs < 1:
             return floor
@@ -291,21 +290,39 @@ class OutlineRectangles:
         path = self.path
         reach = self.reach
         trapezoid = self.trapezoid
+        left = self.left
+        right = self.right
         count = first[slabs]
-        # How far to the right a rectangle can get from a trapezoid, if it is high enough for more than the floor.
+        # How far to the right a rectangle can get from a trapezoid, if it is high enough for more than the floor. And
+        # the widest ways through its sides: what passes there unhindered goes on, and need not start or end here.
         least = floor / (line[slabs] - line[0])
+        for t in range(first[0], first[1]):
+            left[2 * t] = 1.0
+            left[2 * t + 1] = 0.0
         for k in range(slabs - 1, -1, -1):
+            if k + 1 < slabs:
+                for t in range(first[k + 1], first[k + 2]):
+                    left[2 * t] = 1.0
+                    left[2 * t + 1] = 0.0
             for start in range(first[k], first[k + 1]):
                 far = line[k + 1]
+                right[2 * start] = 1.0
+                right[2 * start + 1] = 0.0
                 if k + 1 < slabs:
                     for t in range(first[k + 1], first[k + 2]):
-                        if (
-                            reach[t] > far
-                            and min(trapezoid[4 * t + 1], trapezoid[4 * start + 3])
-                            - max(trapezoid[4 * t], trapezoid[4 * start + 2])
-                            > least
-                        ):
+                        bottom_y = max(trapezoid[4 * t], trapezoid[4 * start + 2])
+                        top_y = min(trapezoid[4 * t + 1], trapezoid[4 * start + 3])
+                        wide = top_y - bottom_y
+                        if wide <= 0.0:
+                            continue
+                        if wide > least and reach[t] > far:
                             far = reach[t]
+                        if wide > left[2 * t + 1] - left[2 * t]:
+                            left[2 * t] = bottom_y
+                            left[2 * t + 1] = top_y
+                        if wide > right[2 * start + 1] - right[2 * start]:
+                            right[2 * start] = bottom_y
+                            right[2 * start + 1] = top_y
                 reach[start] = far
         self.best = floor
         self.found = False
@@ -323,6 +340,8 @@ class OutlineRectangles:
                     else:
                         self._offer(line[i], line[i + 1], max(below, low_right), min(above, high_right))
                 top = 0
+                if low_right >= left[2 * start] and high_right <= left[2 * start + 1]:
+                    continue
                 if self._may_hold(reach[start] - line[i], high_right - low_right):
                     path[0] = start
                     stack[0] = low_right
@@ -343,9 +362,12 @@ class OutlineRectangles:
                         top_y = min(high_y, trapezoid[4 * t + 1])
                         if top_y <= bottom_y:
                             continue
+                        if bottom_y >= left[2 * start] and top_y <= left[2 * start + 1]:
+                            continue
                         if self._may_hold(line[k + 1] - line[i], top_y - bottom_y):
                             if exact:
-                                self._solve(i, k, bottom_y, top_y, start, t)
+                                if bottom_y < right[2 * t] or top_y > right[2 * t + 1]:
+                                    self._solve(i, k, bottom_y, top_y, start, t)
                             else:
                                 self._offer(line[i], line[k], max(bottom_y, below), min(top_y, above))
                         bottom_y = max(bottom_y, trapezoid[4 * t + 2])
@@ -402,8 +424,9 @@ class OutlineRectangles:
     def _narrow(self, i, k, low, high, n, area):
         """Narrow what is clear around the middle angle to what a pair of trapezoids leaves.
 
-        The rectangle that one above the target turns back into reaches from slab i to slab k and fills most of the
-        window, so all of them enclose a box, and `TurnBound` applies.
+        The rectangle that one above the target turns back into lies in what the pair may use, also where it could go on
+        beyond the slabs that it starts and ends in (see `_enumerate`), and fills most of the window. So all of them
+        enclose a box, and `TurnBound` applies.
 
         Args:
             i: Slab of the first trapezoid; k of the last one.
@@ -424,8 +447,8 @@ class OutlineRectangles:
         least = self.target - self.half * diagonal2
         if self.half <= _CLOSER and least > 0.0:
             box = self.box
-            box[0] = min(self.line[i + 1], self.line[k + 1] - least / height)
-            box[1] = max(self.line[k], self.line[i] + least / height)
+            box[0] = self.line[k + 1] - least / height
+            box[1] = self.line[i] + least / height
             box[2] = high - least / width
             box[3] = low + least / width
             self.bound.narrow(self.ring, n, self.corner, least, box)

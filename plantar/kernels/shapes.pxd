@@ -1,7 +1,7 @@
 # C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport any_angle, concave, enclosing, inscribed, rectangle
+from . cimport any_angle, concave, enclosing, inscribed, rectangle, work_arrays
 
 cdef double _LARGEST
 cdef double _INF
@@ -17,7 +17,6 @@ cdef class ConvexShapes:
     cdef double x
     cdef double y
 
-    cdef _room(self, Py_ssize_t size)
 
     @cython.locals(k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, n=Py_ssize_t, ring=double[::1])
     cdef Py_ssize_t _clean(self, const double[:, :] polygon) except -1

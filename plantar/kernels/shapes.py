@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from . import any_angle, enclosing, inscribed, rectangle
+from . import any_angle, enclosing, inscribed, rectangle, work_arrays
 
 __all__ = ["ConvexShapes"]
 
@@ -32,23 +32,20 @@ class ConvexShapes:
 
     def __init__(self, lists):
         self.lists = lists
-        self.ring = self._room(64)
-        self.work = self._room(512)
-        self.out = self._room(8)
+        self.ring = work_arrays.numbers(64, self.lists)
+        self.work = work_arrays.numbers(512, self.lists)
+        self.out = work_arrays.numbers(8, self.lists)
         self.turning = any_angle.AnyAngle(lists)
         self.n = 0
         self.x = 0.0
         self.y = 0.0
 
-    def _room(self, size):
-        return [0.0] * size if self.lists else np.zeros(size)
-
     def _clean(self, polygon):
         """Take a polygon; the number of vertices that count, with those in `ring` (see `inscribed.clean_ring`)."""
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
-            self.ring = self._room(4 * k + 2)
-            self.work = self._room(8 * (2 * k) + 128)  # as many as the ring takes
+            self.ring = work_arrays.numbers(4 * k + 2, self.lists)
+            self.work = work_arrays.numbers(8 * (2 * k) + 128, self.lists)  # as many as the ring takes
         # First finite vertex, about which the others are taken.
         i = 0
         while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):

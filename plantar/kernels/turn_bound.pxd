@@ -1,7 +1,7 @@
 # C types of turn_bound.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rectangle
+from . cimport rectangle, work_arrays
 
 cdef Py_ssize_t _LINES
 cdef Py_ssize_t _CHAIN
@@ -32,8 +32,6 @@ cdef class TurnBound:
     cdef double[::1] most
     cdef double[::1] level
 
-    cdef _numbers(self, Py_ssize_t size)
-    cdef _places(self, Py_ssize_t size)
 
     @cython.locals(side=Py_ssize_t, wide=Py_ssize_t, size=Py_ssize_t, at=double, sign=double, reach=double)
     cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept

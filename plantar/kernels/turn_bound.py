@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from . import rectangle
+from . import rectangle, work_arrays
 
 __all__ = ["TurnBound"]
 
@@ -47,30 +45,24 @@ class TurnBound:
     def __init__(self, lists):
         self.lists = lists
         self.lines = 0
-        self.line = self._numbers(4 * _LINES)
-        self.ring = self._numbers(2 * _LINES + 16)
-        self.cut = self._numbers(2 * _LINES + 16)
-        self.work = self._numbers(8 * _LINES + 80)
-        self.corner = self._numbers(8)
+        self.line = work_arrays.numbers(4 * _LINES, self.lists)
+        self.ring = work_arrays.numbers(2 * _LINES + 16, self.lists)
+        self.cut = work_arrays.numbers(2 * _LINES + 16, self.lists)
+        self.work = work_arrays.numbers(8 * _LINES + 80, self.lists)
+        self.corner = work_arrays.numbers(8, self.lists)
         self.bearings = 0
-        self.bearing = self._places(64)
-        self.side = self._places(64)
-        self.edge = self._places(_LINES)
+        self.bearing = work_arrays.places(64, self.lists)
+        self.side = work_arrays.places(64, self.lists)
+        self.edge = work_arrays.places(_LINES, self.lists)
         self.known_bearings = -1
         self.known_lines = 0
-        self.known_bearing = self._places(64)
-        self.known_side = self._places(64)
-        self.known_edge = self._places(_LINES)
-        self.known_reach = self._numbers(2)
-        self.foremost = self._places(8)
-        self.most = self._numbers(8)
-        self.level = self._numbers(4)
-
-    def _numbers(self, size):
-        return [0.0] * size if self.lists else np.zeros(size)
-
-    def _places(self, size):
-        return [0] * size if self.lists else np.zeros(size, dtype=np.intp)
+        self.known_bearing = work_arrays.places(64, self.lists)
+        self.known_side = work_arrays.places(64, self.lists)
+        self.known_edge = work_arrays.places(_LINES, self.lists)
+        self.known_reach = work_arrays.numbers(2, self.lists)
+        self.foremost = work_arrays.places(8, self.lists)
+        self.most = work_arrays.numbers(8, self.lists)
+        self.level = work_arrays.numbers(4, self.lists)
 
     def narrow(self, ring, n, corner, least, box):
         """Find a box that all rectangles of more than some area in a convex ring enclose, at angle 0.
@@ -199,10 +191,10 @@ class TurnBound:
         Sides count as left, right, bottom, top; `level` is where they stand at the middle angle.
         """
         if m > len(self.bearing):
-            self.bearing = self._places(2 * m)
-            self.side = self._places(2 * m)
-            self.known_bearing = self._places(2 * m)
-            self.known_side = self._places(2 * m)
+            self.bearing = work_arrays.places(2 * m, self.lists)
+            self.side = work_arrays.places(2 * m, self.lists)
+            self.known_bearing = work_arrays.places(2 * m, self.lists)
+            self.known_side = work_arrays.places(2 * m, self.lists)
             self.known_bearings = -1
         cosine = math.cos(half)
         sine = math.sin(half)
