@@ -381,7 +381,9 @@ class SwingCompliance:
         if seen < 3:
             return None
         g = self.gains
-        found = highest_plane(self._x, self._y, distance, self._readings, self._noise, self._on_plane, self._plane)
+        found = highest_plane(
+            self._x, self._y, distance, self._readings, self._noise, g.follow_taxels, self._on_plane, self._plane
+        )
         count = int(np.count_nonzero(self._on_plane))
         level, sx, sy = self._plane.tolist() if found else (0.0, 0.0, 0.0)
         slope: tuple[float, float] | None = (sx, sy)

@@ -11,10 +11,13 @@ cdef int _LEAST_POINTS
 cdef double _LEAST_SPREAD
 cdef double _IN_A_ROW
 
-@cython.locals(n=Py_ssize_t, i=Py_ssize_t, _=Py_ssize_t, missed=bint, changed=bint, near=bint)
+@cython.locals(
+    n=Py_ssize_t, i=Py_ssize_t, _=Py_ssize_t, higher=bint, lower=bint, above=double, off=double, changed=bint,
+    near=bint, level=double, sx=double, sy=double, fits=bint, on=Py_ssize_t
+)
 cpdef bint highest_plane(
     const double[:] x, const double[:] y, const double[:] distance, const double[:] readings, double noise,
-    unsigned char[:] used, double[:] plane
+    Py_ssize_t least, unsigned char[:] used, double[:] plane
 ) except -1
 
 cdef double _above(

@@ -12,21 +12,21 @@ __all__ = ["highest_plane"]
 _INFINITE = float("inf")
 _TOLERANCE = 1.0  # standard deviations of a reading that a point may lie off the plane that is the ground
 _TOLERANCE_OF_MEAN = 4.0  # the same in those of the mean of the readings behind it: what few of them show is noise
-_CUTS = 4  # times at most that the plane is fitted to the points above it
+_CUTS = 8  # times at most that the plane is fitted to what of the ground is left
 _POLISHES = 3  # times at most that it is fitted again to all points on it
 _LEAST_POINTS = 6
 _LEAST_SPREAD = 2e-4  # m^2: least variance along x and y of the points that a plane is fitted to
 _IN_A_ROW = 0.02  # share of the product of the variances below which the points are in a row
 
 
-def highest_plane(x, y, distance, readings, noise, used, plane):
+def highest_plane(x, y, distance, readings, noise, least, used, plane):
     """Fit the plane z = -level + sx x + sy y through the highest ground that the taxels of a sole see.
 
     Least squares, each point with as much weight as it has readings behind it. While the plane leaves out ground that
-    is higher than it by more than the noise explains, the fit is repeated with the points above it. Those are few, and
-    of their noise the upper part, and where none is too high some may lie far below: so the plane that is found is
-    fitted again to all points that the noise may have moved off it. Reference: the same in numpy, with its
-    least-squares solver; the error is below 1e-12 of the largest distance.
+    is higher than it by more than the noise explains, the fit is repeated with the points above it, and then without
+    those that lie below it by more. What is left is few, and of its noise the upper part: so the plane that is found is
+    fitted again to all points that the noise may have moved off it, as long as that leaves none out above. Reference:
+    the same in numpy, with its least-squares solver; the error is below 1e-12 of the largest distance.
 
     Args:
         x: Taxels (n,) in the sole frame in m.
@@ -34,6 +34,8 @@ def highest_plane(x, y, distance, readings, noise, used, plane):
         distance: Distances (n,) of the ground from them in m; inf or NaN where nothing is seen.
         readings: Number of readings (n,) that each is the mean of, 1 or more.
         noise: Standard deviation of a reading in m.
+        least: Points that the cuts have to leave for the plane to be fitted again: on a few of a small block a plane
+            would find more on the ground beside it.
         used: Receives 1 for the points (n,) on the plane, or, where there is none, for those that were left; else 0.
         plane: Receives level in m, sx and sy (3,).
 
@@ -46,24 +48,37 @@ def highest_plane(x, y, distance, readings, noise, used, plane):
     for _ in range(_CUTS):
         if not _fit(x, y, distance, readings, used, plane):
             return False
-        missed = False
+        higher = lower = False
         for i in range(n):
-            if used[i] and _above(x, y, distance, plane, i) > _explained(noise, readings[i]):
-                missed = True
-                break
-        if not missed:
+            if used[i]:
+                above = _above(x, y, distance, plane, i)
+                off = _explained(noise, readings[i])
+                higher = higher or above > off
+                lower = lower or above < -off
+        if not higher and not lower:
             break
         for i in range(n):
-            if used[i] and not _above(x, y, distance, plane, i) > 0.0:
+            if used[i] and _above(x, y, distance, plane, i) <= (0.0 if higher else -_explained(noise, readings[i])):
                 used[i] = 0
-    for _ in range(_POLISHES):
+    on = 0
+    for i in range(n):
+        on += used[i]
+    for _ in range(_POLISHES if on >= least else 0):
+        level, sx, sy = plane[0], plane[1], plane[2]
         changed = False
         for i in range(n):
             near = abs(_above(x, y, distance, plane, i)) < _explained(noise, readings[i])
             if near != used[i]:
                 changed = True
-            used[i] = near
-        if not changed or not _fit(x, y, distance, readings, used, plane):
+            used[i] = near + 2 * used[i]  # and what it was
+        fits = changed and _fit(x, y, distance, readings, used, plane)
+        for i in range(n):
+            if fits and _above(x, y, distance, plane, i) > _explained(noise, readings[i]):
+                fits = False  # all points on it have drawn it down from what is higher
+        for i in range(n):
+            used[i] = used[i] & 1 if fits else used[i] >> 1
+        if not fits:
+            plane[0], plane[1], plane[2] = level, sx, sy
             break
     return True
 
@@ -83,7 +98,7 @@ def _fit(x, y, distance, readings, used, plane):
     count = 0
     whole = mx = my = md = 0.0
     for i in range(x.shape[0]):
-        if used[i]:
+        if used[i] & 1:
             w = readings[i]
             count += 1
             whole += w
@@ -95,7 +110,7 @@ def _fit(x, y, distance, readings, used, plane):
     mx, my, md = mx / whole, my / whole, md / whole
     xx = xy = yy = xd = yd = 0.0
     for i in range(x.shape[0]):
-        if used[i]:
+        if used[i] & 1:
             w, u, v, d = readings[i], x[i] - mx, y[i] - my, distance[i] - md
             xx += w * u * u
             xy += w * u * v

@@ -63,6 +63,14 @@ def test_a_small_block_is_what_is_met_first_and_is_not_followed() -> None:
     assert view.distance == pytest.approx(0.012, abs=1e-6)
 
 
+@pytest.mark.parametrize("rim", [0.02, 0.03, 0.04, 0.06, 0.07])
+def test_a_block_under_the_front_rim_is_what_is_met_first(rim: float) -> None:
+    view = looked(np.where((0.1 - rim < X) & (np.abs(Y) < 0.05), 0.012, 0.04), noise=2e-3)
+    assert view is not None
+    assert view.distance < 0.015
+    assert view.slope is None or np.hypot(*view.slope) < 0.02  # a sole that followed it would swing its heel down
+
+
 def test_a_slab_under_half_the_sole_is_what_is_met_first() -> None:
     view = looked(np.where(X > 0.0, 0.012, 0.04))
     assert view is not None

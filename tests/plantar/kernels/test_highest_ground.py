@@ -10,6 +10,7 @@ from plantar.kernels import highest_ground
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 X, Y = LAYOUT.positions[:, 0].copy(), LAYOUT.positions[:, 1].copy()
 NOISE = 2e-3
+LEAST = 10
 PYTHON = kernels.python_form("highest_ground")
 seeds = st.integers(0, 2**32 - 1)
 
@@ -29,7 +30,7 @@ def ground(seed):
 
 def fitted(module, distance, readings):
     used, plane = np.zeros(len(X), dtype=np.uint8), np.zeros(3)
-    return module.highest_plane(X, Y, distance, readings, NOISE, used, plane), used, plane
+    return module.highest_plane(X, Y, distance, readings, NOISE, LEAST, used, plane), used, plane
 
 
 @given(seeds)
@@ -59,30 +60,46 @@ def test_the_plane_is_the_one_that_numpy_finds(seed):
     explained = NOISE * np.maximum(1.0, 4.0 / np.sqrt(readings))
     seen = np.isfinite(distance)
     used, plane = seen.copy(), None
-    for _ in range(4):
+    for _ in range(8):
         found = plane_of(distance, readings, used)
         if found is None:
             plane = None
             break
         plane = found
         above = np.where(seen, plane @ np.array([np.ones(len(X)), -X, -Y]) - distance, -np.inf)
-        if not (above > explained)[used].any():
+        if (above > explained)[used].any():
+            used &= above > 0.0
+        elif (above < -explained)[used].any():
+            used &= above > -explained
+        else:
             break
-        used &= above > 0.0
     got, on, ours = fitted(highest_ground, distance, readings)
     assert got == (plane is not None)
     if plane is None:
         assert on.astype(bool).tolist() == used.tolist()
         return
-    for _ in range(3):
+    for _ in range(3 if used.sum() >= LEAST else 0):
         near = np.abs(plane @ np.array([np.ones(len(X)), -X, -Y]) - distance) < explained
         near &= seen
         if (near == used).all():
             break
-        used = near
-        found = plane_of(distance, readings, used)
+        found = plane_of(distance, readings, near)
         if found is None:
             break
-        plane = found
+        above = np.where(seen, found @ np.array([np.ones(len(X)), -X, -Y]) - distance, -np.inf)
+        if (above > explained).any():
+            break
+        used, plane = near, found
     assert on.astype(bool).tolist() == used.tolist()
     np.testing.assert_allclose(ours, plane, rtol=0, atol=1e-12)
+
+
+@given(seeds)
+def test_no_ground_stands_above_the_plane(seed):
+    distance, readings = ground(seed)
+    found, _on, plane = fitted(highest_ground, distance, readings)
+    if found:
+        above = plane @ np.array([np.ones(len(X)), -X, -Y]) - distance
+        seen = np.isfinite(distance)
+        cut = (above > NOISE * np.maximum(1.0, 4.0 / np.sqrt(readings)))[seen]
+        assert not cut.any()
