@@ -16,7 +16,7 @@ from resumable import Case, rows_of, run_missing, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("completed", "fell", "steps", "impact_mean", "impact_max", "here", "angle_deg", "feasible", "area_ratio")
-COLUMNS += ("moment_Nm", "tilt_deg", "time_s", "rays_skipped", "p99_us")
+COLUMNS += ("moment_Nm", "tilt_deg", "time_s", "rays_skipped")
 IN_PLACE = "walk.length=0"
 ROBOTS = ("h1", "hrp2kai")
 
@@ -83,7 +83,6 @@ def run(case: Case, seed: int) -> dict[str, Any]:
         "tilt_deg": out["tilt_max_deg"],
         "time_s": out["sim_time_s"],
         "rays_skipped": out["skipped"].get("proximity_rays", ""),
-        "p99_us": out["control_us"]["p99"],
     }
 
 

@@ -294,6 +294,9 @@ class SwingCompliance:
         Args:
             distance: How far down in m the first contact is.
             slope: Rise of the ground along the sole's x and y (tangents).
+
+        Returns:
+            The rate.
         """
         g = self.gains
         gentle = (g.touch_speed + max(0.0, distance) / g.damping) / self._arm
