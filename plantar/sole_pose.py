@@ -80,12 +80,9 @@ class SolePose:
         """
         given = np.asarray(wrench, dtype=float)
         turn, lever = self._wrench_maps
-        if given.shape == (6,):  # one wrench: as few calls as it takes
-            turned: NDArray[np.float64] = given.reshape(2, 3).dot(turn)
-            turned[1] += given[:3].dot(lever)
-            return turned.reshape(6)
-        force, moment = given[..., :3], given[..., 3:]
-        return np.concatenate([force @ turn, moment @ turn + force @ lever], axis=-1)
+        turned: NDArray[np.float64] = given.reshape(-1, 3).dot(turn).reshape(given.shape)
+        turned[..., 3:] += given[..., :3].dot(lever)
+        return turned
 
     @lazy
     def _wrench_maps(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -92,10 +92,8 @@ cdef void _place(
 @cython.locals(k=Py_ssize_t, room=Py_ssize_t, size=Py_ssize_t, rings=double[:, :, ::1], lines=double[:, ::1])
 cpdef inner_offset(const double[:, :] polygon, double distance)
 
-cdef _upright(ring)
-
-@cython.locals(i=Py_ssize_t)
-cdef void _shifted(double[:, :, ::1] rings, Py_ssize_t size, const double[:, :] polygon, double[:, ::1] out) noexcept
+@cython.locals(i=Py_ssize_t, ring=double[:, ::1])
+cdef _shifted(double[:, :, ::1] rings, Py_ssize_t size, const double[:, :] polygon)
 
 @cython.locals(
     k=Py_ssize_t, backwards=bint, x0=double, y0=double, reach=double, i=Py_ssize_t, j=Py_ssize_t, x=double, y=double,

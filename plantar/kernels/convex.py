@@ -454,21 +454,18 @@ def inner_offset(polygon, distance):
     rings = np.empty((3, room, 3))
     lines = np.empty((k, 3))
     size = _inner_offset(polygon, distance, lines, rings)
+    return _shifted(rings, size, polygon)
+
+
+def _shifted(rings, size, polygon):
+    """Ring 0, moved back to the polygon's place; the hull of its corners where rounding far from the origin has turned
+    a sliver over."""
     out = np.empty((size, 2))
-    _shifted(rings, size, polygon, out)
-    return _upright(out)
-
-
-def _upright(ring):
-    """A ring; the hull of its corners where rounding far from the origin has turned a sliver over."""
-    return convex_hull(ring) if ring.shape[0] > 2 and area(ring) < 0.0 else ring
-
-
-def _shifted(rings, size, polygon, out):
-    """Copy ring 0, moved back to the polygon's place."""
+    ring = out
     for i in range(size):
-        out[i, 0] = rings[0, i, 0] + polygon[0, 0]
-        out[i, 1] = rings[0, i, 1] + polygon[0, 1]
+        ring[i, 0] = rings[0, i, 0] + polygon[0, 0]
+        ring[i, 1] = rings[0, i, 1] + polygon[0, 1]
+    return convex_hull(ring) if size > 2 and area(ring) < 0.0 else out
 
 
 def _inner_offset(polygon, distance, lines, rings):

@@ -61,7 +61,7 @@ cdef class SoleKernel:
 
     @cython.locals(
         corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, left=Py_ssize_t,
-        moved=bint, area=double, cx=double, cy=double, qx=double, qy=double, _margin=double
+        area=double, cx=double, cy=double, qx=double, qy=double, _margin=double
     )
     cpdef tick(
         self, const double[:] force, double threshold, double saturation, double offset, double x, double y

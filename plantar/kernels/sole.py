@@ -198,20 +198,15 @@ class SoleKernel:
         self._loads(force, self.mask, self.sums)
         size = self.find_hull(self.mask)
         area, cx, cy = self.measure_hull(size)
-        left = size
-        moved = size > 0 and not offset <= 0.0
-        if moved:
-            left = convex._inner_offset(self.polygon[:size], offset, self.lines, self.rings) if size > 2 else 1
-        safe = np.empty((left, 2))
-        corners = safe
-        if not moved:
-            self.copy_hull(size, corners)
+        if size == 0 or offset <= 0.0:
+            safe = np.empty((size, 2))
+            self.copy_hull(size, safe)
         elif size > 2:
-            convex._shifted(self.rings, left, self.polygon, corners)
-            safe = convex._upright(safe)
-            corners = safe
+            left = convex._inner_offset(self.polygon[:size], offset, self.lines, self.rings)
+            safe = convex._shifted(self.rings, left, self.polygon)
         else:
-            corners[0, 0], corners[0, 1] = cx, cy
+            safe = np.array([[cx, cy]])
+        corners = safe
         nearest = np.empty(2)
         point = nearest
         qx = qy = _NONE
