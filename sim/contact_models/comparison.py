@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -21,7 +21,7 @@ from plantar.polygon import area, convex_hull
 from sim.contact_models.candidates import CANDIDATES, Candidate, Contact, Sole, build_sole
 from sim.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
-__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_time", "tip_over"]
+__all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_times", "tip_over"]
 
 GRAVITY = 9.81
 MASS = 43.0
@@ -157,17 +157,18 @@ def compare_contact_models(
     """
     rows = []
     candidates = tuple(candidates)
-    for i, candidate in enumerate(candidates):
+    soles = [build_sole(candidate, layout, PLANE, mass=MASS, contact=contact) for candidate in candidates]
+    times = run_times(soles, layout)
+    for i, (candidate, sole) in enumerate(zip(candidates, soles, strict=True)):
         if progress is not None:
             progress(i / len(candidates), candidate.name)
-        sole = build_sole(candidate, layout, PLANE, mass=MASS, contact=contact)
         rows.append(
             ContactRow(
                 name=candidate.name,
                 **full_stance(sole, layout, seeds),
                 **tip_over(sole, layout),
                 **on_beams(candidate, layout, contact),
-                **run_time(sole, layout),
+                **times[i],
             )
         )
     if progress is not None:
@@ -310,30 +311,36 @@ def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) 
     }
 
 
-def run_time(sole: Sole, layout: SoleLayout, count: int = 300) -> dict[str, Any]:
-    """Median times in us of a physics step and of a taxel reading in full-sole stance.
+def run_times(soles: Sequence[Sole], layout: SoleLayout, count: int = 300) -> list[dict[str, Any]]:
+    """Median times in us of a physics step and of a taxel reading in full-sole stance, taken in turns.
 
     Args:
-        sole: The sole on flat ground.
-        layout: Its layout.
-        count: Steps to take.
+        soles: The soles on flat ground; each takes a step before any takes the next, so that what else the machine
+            does meets all of them alike.
+        layout: Their layout.
+        count: Steps that each takes.
 
     Returns:
-        The fields of `ContactRow` that it measures.
+        The fields of `ContactRow` that it measures, for each sole.
     """
     middle, half = _rectangle(layout)
-    rig = Rig(sole, layout)
-    rig.push(MASS * GRAVITY, middle + 0.1 * half)
-    rig.step(100)
-    steps, reads = [], []
-    for _ in range(count):
-        start = time.perf_counter()
-        rig.step()
-        between = time.perf_counter()
-        sole.read(rig.data)
-        reads.append(time.perf_counter() - between)
-        steps.append(between - start)
-    return {"step_us": float(np.median(steps)) * 1e6, "read_us": float(np.median(reads)) * 1e6}
+    rigs = [Rig(sole, layout) for sole in soles]
+    for rig in rigs:
+        rig.push(MASS * GRAVITY, middle + 0.1 * half)
+        rig.step(100)
+    steps, reads = np.zeros((2, len(rigs), count))
+    for k in range(count):
+        for i, rig in enumerate(rigs):
+            start = time.perf_counter()
+            rig.step()
+            between = time.perf_counter()
+            rig.sole.read(rig.data)
+            reads[i, k] = time.perf_counter() - between
+            steps[i, k] = between - start
+    return [
+        {"step_us": float(step) * 1e6, "read_us": float(read) * 1e6}
+        for step, read in zip(np.median(steps, axis=1), np.median(reads, axis=1), strict=True)
+    ]
 
 
 def _rectangle(layout: SoleLayout) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
