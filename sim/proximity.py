@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
+from plantar.kernels.ground_rays import cast_rays
 from plantar.layout import SoleLayout
 from sim.terrain import GROUND_GROUP
 
@@ -23,6 +24,9 @@ __all__ = ["ProximitySensor", "SoleProximity"]
 
 _LIFT = 0.02  # m inside the foot at which rays begin, so that a taxel that is pressed into the ground still sees it
 _GROUPS = np.array([1 if i == GROUND_GROUP else 0 for i in range(6)], dtype=np.uint8)
+_SIMPLE = tuple(
+    int(getattr(mujoco.mjtGeom, f"mjGEOM_{s}")) for s in ("PLANE", "SPHERE", "ELLIPSOID", "CYLINDER", "BOX")
+)
 
 
 class SoleProximity:
@@ -56,6 +60,11 @@ class SoleProximity:
         self._way = np.ascontiguousarray(-axes)
         self._reach = float(np.linalg.norm(layout.positions[:, :2], axis=1).max())
         self._top = ground_top
+        ids = np.flatnonzero(model.geom_group == GROUND_GROUP)
+        self._kinds = model.geom_type[ids].astype(np.int32)
+        self._simple = bool(np.isin(self._kinds, _SIMPLE).all())
+        self._ids = ids.astype(np.int32)
+        self._sizes, self._bounds = model.geom_size[ids], model.geom_rbound[ids]
 
     def within_range(self, data: Any) -> bool:
         """Whether any ground can be in range: no taxel is higher above the highest ground than its range.
@@ -79,11 +88,18 @@ class SoleProximity:
         rotation = data.site_xmat[self._site].reshape(3, 3)
         starts = self._start.dot(rotation.T) + data.site_xpos[self._site]
         ways = self._way.dot(rotation.T)
-        cast, model, geom = mujoco.mj_ray, self._model, np.empty(1, dtype=np.int32)
-        length = np.array(
-            [cast(model, data, start, way, _GROUPS, 1, -1, geom) for start, way in zip(starts, ways, strict=True)]
-        )
-        return np.where((length >= 0.0) & (length <= self.range + _LIFT), length - _LIFT, np.inf)
+        reach = self.range + _LIFT
+        length = np.empty(len(starts))
+        if self._simple:
+            cast_rays(
+                *(starts, ways, reach, self._ids, self._kinds, self._sizes, self._bounds),
+                *(data.geom_xpos, data.geom_xmat, length),
+            )
+        else:
+            geom = np.empty(1, dtype=np.int32)
+            for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
+                length[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
+        return np.where((length >= 0.0) & (length <= reach), length - _LIFT, np.inf)
 
 
 class ProximitySensor:
