@@ -219,15 +219,20 @@ class VrpPlan:
         time = max(time, self.times[0])
         i = bisect_right(self.times, time) - 1
         since, until = time - self.times[i], self.times[i + 1] - time
-        rate = self._rate[i]
-        vrp = self.vrps[i] + since * rate
-        growing = math.exp(-omega * until) * self._end_offset[i]
-        shrinking = math.exp(-omega * since) * self._offset_of_com(i)
-        return LipReference(
-            vrp=vrp,
-            dcm=vrp + rate / omega + growing,
-            dcm_velocity=rate + omega * growing,
-            com=vrp + 0.5 * growing + shrinking,
-            com_velocity=rate + omega * (0.5 * growing - shrinking),
-            com_acceleration=omega * omega * (0.5 * growing + shrinking),
-        )
+        grown, shrunk = math.exp(-omega * until), math.exp(-omega * since)
+        rates, starts = self._rate[i].tolist(), self.vrps[i].tolist()
+        growths, shrinkages = self._end_offset[i].tolist(), self._offset_of_com(i).tolist()
+        axes = []
+        for start, rate, growth, shrinkage in zip(starts, rates, growths, shrinkages, strict=True):
+            vrp, growing, shrinking = start + since * rate, grown * growth, shrunk * shrinkage
+            axes.append(
+                (
+                    vrp,
+                    vrp + rate / omega + growing,
+                    rate + omega * growing,
+                    vrp + 0.5 * growing + shrinking,
+                    rate + omega * (0.5 * growing - shrinking),
+                    omega * omega * (0.5 * growing + shrinking),
+                )
+            )
+        return LipReference(*np.array(list(zip(*axes, strict=True))))

@@ -7,7 +7,6 @@ robot.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Sequence
 from functools import lru_cache
 from itertools import pairwise
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 
 from plantar.kernels.contact_rows import contact_rows
 from plantar.kernels.contact_sums import ground_sums
-from plantar.kernels.few_points import small_hull
+from plantar.kernels.few_points import small_hull, small_margin
 
 __all__ = [
     "REACH",
@@ -30,7 +29,6 @@ __all__ = [
     "feet_contacts",
     "foot_contacts",
     "ground_truth",
-    "small_margin",
     "support_polygon_of_contacts",
     "zmp_of_contacts",
 ]
@@ -75,12 +73,14 @@ class GroundTruth(NamedTuple):
         zmp: True zero moment point (2,) in m, or None where the feet carry less than the minimum force.
         polygon: True support polygon (m, 2) in m, counter-clockwise; empty in the air.
         margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None where there is no ZMP.
+        points: Points (x, y) in m of each foot that carry a force or could.
     """
 
     wrench: NDArray[np.float64]
     zmp: NDArray[np.float64] | None
     polygon: NDArray[np.float64]
     margin: float | None
+    points: tuple[list[tuple[float, float]], ...] = ()
 
 
 _NO_CONTACTS = ContactSet(
@@ -265,47 +265,20 @@ def ground_truth(
         The truth, in the world frame.
     """
     sums = np.zeros(7)
-    points: list[tuple[float, float]] = []
-    for c in feet:
+    points: tuple[list[tuple[float, float]], ...] = tuple([] for _ in feet)
+    for c, own in zip(feet, points, strict=True):
         if c.size:
-            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), REACH, sums, points)
+            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), REACH, sums, own)
     fx, fy, fz, tx, ty, _, height = sums.tolist()
     wrench = sums[:6]
-    ring = small_hull(points)
+    ring = small_hull([p for own in points for p in own])
     polygon = np.array(ring).reshape(-1, 2)
     if not fz >= minimum_force:
-        return GroundTruth(wrench, None, polygon, None)
+        return GroundTruth(wrench, None, polygon, None, points)
     if plane_height is None:
         plane_height = height / fz
     x, y = (plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz
-    return GroundTruth(wrench, np.array([x, y]), polygon, small_margin(ring, x, y))
-
-
-def small_margin(ring: Sequence[tuple[float, float]], x: float, y: float) -> float:
-    """Signed distance in m of a point to the edge of a small hull: `plantar.polygon.signed_margin` on plain floats.
-
-    Args:
-        ring: Hull as `small_hull` gives it.
-        x: Point in m.
-        y: Point in m.
-
-    Returns:
-        The distance, positive inside; -inf for an empty hull.
-    """
-    if len(ring) < 2:
-        return -math.hypot(x - ring[0][0], y - ring[0][1]) if ring else -math.inf
-    inner, outer = math.inf, math.inf
-    ax, ay = ring[-1]
-    for bx, by in ring:
-        lx, ly, dx, dy = bx - ax, by - ay, x - ax, y - ay
-        length = math.hypot(lx, ly)
-        depth = (lx * dy - ly * dx) / length
-        inner = min(inner, depth)
-        if depth <= 0.0 or len(ring) == 2:
-            t = min(1.0, max(0.0, (dx * lx + dy * ly) / (length * length)))
-            outer = min(outer, math.hypot(dx - t * lx, dy - t * ly))
-        ax, ay = bx, by
-    return inner if inner > 0.0 and len(ring) > 2 else -outer
+    return GroundTruth(wrench, np.array([x, y]), polygon, small_margin(ring, x, y), points)
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.few_points import small_hull
 from plantar.layout import Side
 from plantar.polygon import area
 from sim.contact_truth import (
@@ -18,7 +19,6 @@ from sim.contact_truth import (
     feet_contacts,
     foot_contacts,
     ground_truth,
-    support_polygon_of_contacts,
 )
 from sim.world import PHYSICS_PERIOD, World
 
@@ -138,11 +138,11 @@ class Judge:
         center = data.subtree_com[world.torso]
         self.estimate_error_max = np.maximum(self.estimate_error_max, np.abs(com - center))
         if zmp is not None and truth.zmp is not None:
-            self.zmp_error.append(float(np.hypot(*(zmp - truth.zmp))))
-        for side, contacts in zip(_SIDES, feet, strict=True):
+            self.zmp_error.append(math.dist(zmp, truth.zmp))
+        for side, points in zip(_SIDES, truth.points, strict=True):
             last = self._landing[side]
-            if last is not None and data.time - last.time <= _SETTLED:
-                last.area = max(last.area, area(support_polygon_of_contacts([contacts])))
+            if last is not None and data.time - last.time <= _SETTLED and len(points) > 2:
+                last.area = max(last.area, area(np.array(small_hull(points))))
         ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
         if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
             self.fell = True

@@ -1,8 +1,12 @@
-"""Kernel of the convex hull of a few points given as tuples, for which making arrays costs more than the hull."""
+"""Kernels of a few points given as tuples, for which making arrays costs more than their convex hull."""
 
 from __future__ import annotations
 
-__all__ = ["small_hull"]
+import math
+
+__all__ = ["small_hull", "small_margin"]
+
+_INFINITE = float("inf")
 
 
 def small_hull(points, tolerance=1e-9):
@@ -34,3 +38,33 @@ def small_hull(points, tolerance=1e-9):
         ring += part
         cloud.reverse()
     return ring
+
+
+def small_margin(ring, x, y):
+    """Signed distance in m of a point to the edge of a small hull: `plantar.polygon.signed_margin` on plain floats.
+
+    Args:
+        ring: Hull as `small_hull` gives it.
+        x: Point in m.
+        y: Point in m.
+
+    Returns:
+        The distance, positive inside; -inf for an empty hull.
+    """
+    if not ring:
+        return -_INFINITE
+    inner = outer = _INFINITE
+    ax, ay = ring[len(ring) - 1]
+    if len(ring) == 1:
+        return -math.sqrt((x - ax) * (x - ax) + (y - ay) * (y - ay))
+    for bx, by in ring:
+        lx, ly, dx, dy = bx - ax, by - ay, x - ax, y - ay
+        length = math.sqrt(lx * lx + ly * ly)
+        depth = (lx * dy - ly * dx) / length
+        inner = min(inner, depth)
+        if depth <= 0.0 or len(ring) == 2:
+            t = min(1.0, max(0.0, (dx * lx + dy * ly) / (length * length)))
+            px, py = dx - t * lx, dy - t * ly
+            outer = min(outer, math.sqrt(px * px + py * py))
+        ax, ay = bx, by
+    return inner if inner > 0.0 and len(ring) > 2 else -outer

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from plantar.kernels.few_points import small_hull
+from plantar.kernels.few_points import small_hull, small_margin
 from plantar.polygon import area, convex_hull, signed_margin
 from sim.contact_truth import (
     contact_wrench_in_frame,
@@ -16,7 +16,6 @@ from sim.contact_truth import (
     feet_contacts,
     foot_contacts,
     ground_truth,
-    small_margin,
     support_polygon_of_contacts,
     zmp_of_contacts,
 )

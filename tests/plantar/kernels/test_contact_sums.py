@@ -47,7 +47,11 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
     assert (one == other).all()
     assert points == same
     assert paired(contact_sums, seed) == paired(python, seed)
-    assert few_points.small_hull(points) == python_form("few_points").small_hull(points)
+    source = python_form("few_points")
+    ring = few_points.small_hull(points)
+    assert ring == source.small_hull(points)
+    x, y = np.random.default_rng(seed).uniform(-0.3, 0.3, 2).tolist()
+    assert few_points.small_margin(ring, x, y) == source.small_margin(ring, x, y)
 
 
 @settings(max_examples=100)
