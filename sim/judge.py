@@ -75,25 +75,25 @@ class Judge:
 
     def __post_init__(self) -> None:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
+        self._sensed = self.world.data.sensordata
         self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
 
     def watch(self) -> None:
         """After each physics step: landings and their impacts."""
-        data = self.world.data
-        sensed = data.sensordata
+        time, sensed = float(self.world.data.time), self._sensed
         for side, address in self.world.touch.items():
             force = float(sensed[address])
             if force < _TOUCH:
                 self._air[side] += 1
                 continue
             if self._air[side] * PHYSICS_PERIOD >= _AIRBORNE:
-                landing = Landing(side, float(data.time), angle=self._angle(side))
+                landing = Landing(side, time, angle=self._angle(side))
                 self.landings.append(landing)
                 self._landing[side] = landing
             self._air[side] = 0
             last = self._landing[side]
-            if last is not None and data.time - last.time <= _IMPACT_WINDOW:
+            if last is not None and time - last.time <= _IMPACT_WINDOW:
                 last.impact = max(last.impact, force)
 
     def _angle(self, side: Side) -> float | None:
