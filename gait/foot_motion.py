@@ -27,7 +27,8 @@ _SIDES: tuple[Side, Side] = ("left", "right")
 _RETAKE_HEIGHT = 0.04  # m above what the foot met that a step taken once more rises at most
 _CLOSE_BY = 0.06  # m before its place from which a swing turns its sole to the ground
 _NEARLY_THERE = 0.012  # m before its place from which a swing judges the ground that it will land on
-_TOUCHING = 0.01  # m from the ground that it sees within which a small load on a sole is taken for a touch
+_TOUCHING = 0.01  # m from the ground that it sees within which less than a blind foot's load is taken for a touch
+_AT_THE_GROUND = 0.002  # m from it within which the least load is
 _GROUND_SHARE = 0.3
 """Share of a new foothold's height in the height at which the next one is expected."""
 
@@ -259,7 +260,7 @@ class FootMotion:
         elapsed = time - self._start
         if not self.landed:
             view = compliance.look(*sense, time)
-            if elapsed > 0.5 * swing.duration and compliance.feel(load) and self._may_touch(view, load):
+            if elapsed > 0.5 * swing.duration and compliance.feel(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
                 self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)
@@ -294,9 +295,16 @@ class FootMotion:
             drop = max(0.0, compliance.yielding(load, target, above, period))
         self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
 
-    def _may_touch(self, view: GroundView | None, load: float) -> bool:
-        """Whether a small load can be a touch: far from what it sees a foot feels noise, unless it hits something."""
-        return (view is not None and view.distance < _TOUCHING) or load > self._landing.contact_force
+    def _may_touch(self, compliance: SwingCompliance, view: GroundView | None, load: float) -> bool:
+        """Whether a load can be a touch: the farther the ground that it sees, the likelier a foot feels noise."""
+        blind = self._landing.contact_force
+        if load > blind:
+            return True
+        if view is None or view.distance >= _TOUCHING:
+            return False
+        far = (view.distance - _AT_THE_GROUND) / (_TOUCHING - _AT_THE_GROUND)
+        least = compliance.gains.contact_force
+        return far <= 0.0 or compliance.force > least + far * (blind - least)
 
     def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
         """Turn the sole a little to the ground's slope, or back to level where there is too little to follow."""

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from gait.command_frame import CommandFrame
-from gait.foot_motion import FootMotion, Landing
+from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footsteps import straight_plan
 from gait.phases import Timing, WalkSchedule
+from gait.swing_compliance import ComplianceGains, SwingCompliance
+from plantar import Percept, Reading, hex_layout
 from plantar.layout import Side
 
 PERIOD = 0.005
@@ -62,3 +64,36 @@ def test_a_standing_foot_stays_where_it_is() -> None:
     position, yaw = motion.footholds["right"]
     assert position.tolist() == [0.0, -0.085, 0.0]
     assert yaw == 0.0
+
+
+@pytest.mark.parametrize(
+    ("height", "spike", "landed"),
+    [(0.004, 35.0, False), (0.004, 90.0, True), (0.001, 35.0, True), (0.02, 60.0, False)],
+    ids=["noise above the ground", "met something", "a touch", "noise high up"],
+)
+def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, spike: float, landed: bool) -> None:
+    """The taxels of a sole that comes down add up to a few newtons of noise, and now and then to a touch's load."""
+    layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule(steps, Timing())
+    compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+    motion = FootMotion(feet, schedule, PERIOD, 0.05, LANDING, compliance)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    force = np.zeros(len(layout))
+    spikes = 0
+    for k in range(round(2.2 / PERIOD)):
+        time = k * PERIOD
+        senses = {}
+        for side in feet:
+            position, _ = motion.footholds[side]
+            seen = np.full(len(layout), max(0.0, float(position[2])))
+            percept = Percept(layout, Reading(time=time, force=force, proximity=seen))
+            senses[side] = SoleSense(percept, position, np.eye(3))
+        down = motion.comes_down and motion.footholds["left"][0][2] < height
+        spikes += down
+        load = spike if down and spikes <= 2 else 0.0
+        motion.update(schedule.at(time), time, {"left": load, "right": 800.0}, frame, senses)
+        if spikes == 3:
+            break
+    assert spikes == 3
+    assert motion.landed == landed
