@@ -15,6 +15,7 @@ from gait.balance import BalanceGains, FootAction, FootState
 from gait.balance_laws import balance_law
 from gait.com_height import CoMHeight
 from gait.command_frame import CommandFrame
+from gait.compliance_gains import ComplianceGains
 from gait.estimator import (
     BaseState,
     EstimatorGains,
@@ -36,7 +37,7 @@ from gait.skin_load import at_its_limit
 from gait.stance_contact import ContactSettings
 from gait.step_guard import StepGuard
 from gait.support_strip import SupportStrip
-from gait.swing_compliance import ComplianceGains, SwingCompliance
+from gait.swing_compliance import SwingCompliance
 from gait.vrp_plan import LipReference
 from gait.walk_plan import WalkPlan
 from gait.wrench_cone import FootContact, Rectangle

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from gait.command_frame import CommandFrame
 from gait.estimator import rotation_from_vector
 from gait.footsteps import Footstep, level_rotation, other_side
+from gait.ground_map import GroundView
 from gait.phases import Phase, PhaseKind, WalkSchedule
 from gait.swing import SwingTrajectory, minimum_jerk
-from gait.swing_compliance import GroundView, SwingCompliance, turned_to_ground, vector_from_rotation
+from gait.swing_compliance import SwingCompliance, turned_to_ground, vector_from_rotation
 from plantar.layout import Side
 from plantar.percept import Percept
 
@@ -181,7 +182,7 @@ class FootMotion:
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
                 if loads[side] > compliance.gains.touch_force:
-                    compliance.stand(senses[side].position, senses[side].rotation)
+                    compliance.ground.stand(senses[side].position, senses[side].rotation)
         began = phase.swing is not None and self._step != phase.step
         if phase.swing is not None and began:
             self._begin(phase, phase.swing, frame)
@@ -259,12 +260,12 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
-            view = compliance.look(*sense, time)
+            view = compliance.ground.look(*sense, time)
             if elapsed > 0.5 * swing.duration and compliance.feel(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
                 self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)
-                compliance.touched()
+                compliance.ground.touched()
         if not self.landed:
             if elapsed < swing.lifted:
                 self.footholds[side] = swing.at(elapsed)

@@ -161,7 +161,7 @@ class StepGuard:
             self._began, self._since, self._reading_time = time, math.inf, -1.0
             self._motion.press = self.rules.probe_force
             self._probe = FootholdProbe(self._compliance[side].layout, self.rules)
-            self._probe.see(self._compliance[side].distance)
+            self._probe.see(self._compliance[side].ground.distance)
             # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
             missing = time + self.rules.probe_limit + 1.5 * self.rules.probe_time + self.rules.reserve - phase.end
             if missing > 0.0:

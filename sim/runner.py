@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 
 from gait.balance_laws import balance_gains
+from gait.compliance_gains import ComplianceGains
 from gait.controller import Command, ControllerSettings, WalkingController
 from gait.estimator import EstimatorGains
 from gait.feasibility import FeasibilityRules
@@ -23,7 +24,6 @@ from gait.footholds import middle_of_sole
 from gait.footsteps import Footstep, straight_plan
 from gait.ground_conformity import ConformityGains
 from gait.phases import Timing
-from gait.swing_compliance import ComplianceGains
 from gait.walk_plan import vrp_of_step
 from plantar.errors import SceneError
 from plantar.layout import Side, SoleLayout

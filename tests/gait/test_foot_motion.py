@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from gait.command_frame import CommandFrame
+from gait.compliance_gains import ComplianceGains
 from gait.foot_motion import FootMotion, Landing, SoleSense
 from gait.footsteps import straight_plan
 from gait.phases import Timing, WalkSchedule
-from gait.swing_compliance import ComplianceGains, SwingCompliance
+from gait.swing_compliance import SwingCompliance
 from plantar import Percept, Reading, hex_layout
 from plantar.layout import Side
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gait.compliance_gains import ComplianceGains
 from gait.foot_motion import FootMotion, Landing
 from gait.footsteps import straight_plan
 from gait.ground_conformity import ConformityGains, FootTurn
 from gait.phases import Timing, WalkSchedule
-from gait.swing_compliance import ComplianceGains, SwingCompliance
+from gait.swing_compliance import SwingCompliance
 from plantar.errors import InputError
 from plantar.tiling import hex_layout
 

@@ -1,0 +1,242 @@
+"""What a swinging sole sees of the ground: a map of distances, and the plane through its highest part.
+
+What the taxels measure on their way down is kept as one map of distances, carried along with the sole as it moves, so
+that noise averages out though nothing stands still. A plane through the highest ground under the sole gives how far
+the first contact is and which way the ground slopes. The sensors' bias shows where the sole leaves the ground: it is
+as far away as the sole rose.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.compliance_gains import ComplianceGains
+from plantar.kernels.highest_ground import highest_plane
+from plantar.layout import SoleLayout
+from plantar.percept import Percept
+from plantar.percept_virtual import PROXIMITY_GAIN
+from plantar.virtual_wrench import virtual_ground_reaction_wrench
+
+__all__ = ["GroundMap", "GroundView"]
+
+
+_LARGEST_LESSON = 0.0015  # m that one touch changes the bias by: more is ground that moved
+_EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one
+_LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
+_LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expected at least
+_NOISE_SHARE = 0.02  # share of a reading in what is known of that
+_SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
+_LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
+_REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
+
+
+@dataclass(frozen=True)
+class GroundView:
+    """The ground under a swinging sole.
+
+    Attributes:
+        distance: How far down in m the first contact is.
+        middle: How far down in m the ground is under the middle of the sole; the same where it is no plane.
+        slope: Rise of the ground along the sole's x and y (tangents) that the sole has to turn by; None where there is
+            too little of it to follow.
+        even: Whether nearly all that is seen of the ground lies on one plane.
+    """
+
+    distance: float
+    middle: float
+    slope: tuple[float, float] | None
+    even: bool = True
+
+
+class GroundMap:
+    """The ground under one sole as its taxels have seen it since lift-off.
+
+    Attributes:
+        bias: What the distances that the sensors measure are too long by in m, as far as it is known.
+
+    Args:
+        layout: The sole.
+        gains: Settings.
+    """
+
+    def __init__(self, layout: SoleLayout, gains: ComplianceGains) -> None:
+        self.layout = layout
+        self.gains = gains
+        self.bias = 0.0
+        self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
+        self._corners = layout.outline
+        self._centre = layout.positions.mean(axis=0)
+        self._spread = ((layout.positions - self._centre) ** 2).mean(axis=0)[:2]
+        self._distance = np.full(len(layout), np.inf)
+        self._readings = np.zeros(len(layout))
+        self._on_plane = np.zeros(len(layout), dtype=np.uint8)
+        self._plane = np.zeros(3)
+        self._read = -math.inf
+        self._most = float(gains.readings_moving)
+        self._noise = _LEAST_NOISE
+        self._rising = False
+        self._stood: float | None = None
+        self._liftoff: float | None = None
+        self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
+        self._rise = np.zeros(len(layout))  # of each taxel from the last pose but one to the last
+
+    @property
+    def distance(self) -> NDArray[np.float64]:
+        """Distance (n,) of each taxel from the ground in m, less the bias; inf or NaN where nothing is seen."""
+        return self._distance - self.bias
+
+    def begin(self) -> None:
+        """A swing begins: the map is empty."""
+        self._distance[:] = np.inf
+        self._readings[:] = 0.0
+        self._read = -math.inf
+        self._poses.clear()
+        self._rising = True
+        self._liftoff, self._stood = self._stood, None
+
+    def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
+        """The sole carries load here: it lifts off from the last height at which it did.
+
+        Args:
+            position: Sole position (3,) in the world as estimated in m.
+            rotation: Rotation (3, 3) from the sole to the world as estimated.
+        """
+        self._stood = self._height(position, rotation)
+
+    def look(
+        self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
+    ) -> GroundView | None:
+        """What the sole sees now.
+
+        Args:
+            percept: What the sole senses.
+            position: Sole position (3,) in the world as estimated in m.
+            rotation: Rotation (3, 3) from the sole to the world as estimated.
+            time: Now in s.
+
+        Returns:
+            The ground, or None where nothing is seen.
+        """
+        if self._poses:
+            _, before, turned = self._poses[-1]
+            g, moved = self.gains, math.dist(position, before)
+            self._most = max(float(g.readings_moving), g.readings * g.still / (g.still + moved))
+            self._rise = self._risen(before, turned, position, rotation)
+            self._distance = self._distance + self._rise
+        self._poses.append((time, position.copy(), rotation.copy()))
+        reading = percept.reading.proximity
+        if reading is not None and percept.reading.time > self._read:
+            self._read = percept.reading.time
+            self._mix(reading + self._risen_since(self._read))
+        view = self._view()
+        if not self._rising:
+            return view
+        return self._lifted_off(view, self._height(position, rotation))
+
+    def touched(self) -> None:
+        """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
+        view = self._view()
+        if view is not None and abs(view.distance) < 0.015:
+            self.bias += min(_LARGEST_LESSON, max(-_LARGEST_LESSON, 0.5 * view.distance))
+
+    def _height(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> float:
+        return float(position[2] + rotation[2, :2].dot(self._centre[:2]))
+
+    def _lifted_off(self, view: GroundView | None, height: float) -> GroundView | None:
+        """The ground that the sole has just left is as far away as its middle rose to a height in m, but for a bias."""
+        if self._liftoff is None:
+            self._liftoff = height
+        risen = height - self._liftoff
+        if risen < _LIFTED_OFF:
+            return view
+        self._rising = False
+        if view is None or not view.even or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
+            return view
+        self.bias += view.middle - risen
+        return self._view()
+
+    def _risen(
+        self,
+        before: NDArray[np.float64],
+        turned: NDArray[np.float64],
+        position: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """How far (n,) each taxel rose in m from one pose of the sole to another: its distance grows by that."""
+        up = rotation.T.dot(position - before)
+        turn = turned.T.dot(rotation)
+        return np.asarray(up[2] + turn[2, 0] * self._x + turn[2, 1] * self._y)
+
+    def _risen_since(self, time: float) -> NDArray[np.float64]:
+        """How far (n,) each taxel rose in m since a time, for a reading that is as old as that."""
+        _, position, rotation = self._poses[-1]
+        later: tuple[float, NDArray[np.float64]] = (self._poses[-1][0], np.zeros(len(self._x)))
+        for k, (then, before, turned) in enumerate(reversed(self._poses)):
+            risen = self._rise if k == 1 else self._risen(before, turned, position, rotation)
+            if then <= time:
+                span = later[0] - then
+                share = (time - then) / span if span > 0.0 else 1.0
+                return risen + share * (later[1] - risen)
+            later = (then, risen)
+        return later[1]
+
+    def _mix(self, reading: NDArray[np.float64]) -> None:
+        """Take a reading (n,) in m into the map; where the ground has moved the map begins anew."""
+        g = self.gains
+        known = np.isfinite(reading) & np.isfinite(self._distance)
+        news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
+        told = news[known]
+        if len(told):
+            if abs(float(told.sum()) / len(told)) > g.jump_of_all * self._noise:
+                self._readings[:] = 0.0
+            spread = _SIGMA_OF_MEDIAN * _median(np.abs(told))
+            self._noise = max(_LEAST_NOISE, self._noise + _NOISE_SHARE * (spread - self._noise))
+        self._readings[~known | (np.abs(news) > g.jump * self._noise)] = 0.0
+        self._readings = np.minimum(self._readings + 1.0, self._most)
+        self._distance = np.where(known, self._distance + news / self._readings, reading)
+
+    def _view(self) -> GroundView | None:
+        distance = self._distance - self.bias
+        seen = int(np.count_nonzero(np.isfinite(distance)))
+        if seen < 3:
+            return None
+        g = self.gains
+        found = highest_plane(
+            self._x, self._y, distance, self._readings, self._noise, g.follow_taxels, self._on_plane, self._plane
+        )
+        count = int(np.count_nonzero(self._on_plane))
+        level, sx, sy = self._plane.tolist() if found else (0.0, 0.0, 0.0)
+        slope: tuple[float, float] | None = (sx, sy)
+        if count < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
+            slope = None  # too little to stand on, or too steep: the sole stays level
+        if slope is None or not found:
+            nearest = middle = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
+        else:
+            nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
+            middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
+            if g.orientation == "moment":
+                slope = self._slope_of_moment(seen)
+        return GroundView(nearest, middle, slope, count > _EVEN * seen)
+
+    def _slope_of_moment(self, count: int) -> tuple[float, float]:
+        """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
+        distance = self._distance - self.bias
+        wrench = virtual_ground_reaction_wrench(self.layout, distance, PROXIMITY_GAIN, self.gains.sensing_range)
+        moment_x = wrench[3] - self._centre[1] * wrench[2]
+        moment_y = wrench[4] + self._centre[0] * wrench[2]
+        return (
+            float(-moment_y / (PROXIMITY_GAIN * count * self._spread[0])),
+            float(moment_x / (PROXIMITY_GAIN * count * self._spread[1])),
+        )
+
+
+def _median(values: NDArray[np.float64]) -> float:
+    """Median of a few values (n,), all finite: `np.median` takes ten times as long."""
+    ordered = np.sort(values)
+    middle = len(ordered) // 2
+    return float(ordered[middle] if len(ordered) % 2 else 0.5 * (ordered[middle - 1] + ordered[middle]))
