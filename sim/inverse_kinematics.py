@@ -45,8 +45,6 @@ class LegModel:
         self.mass = float(model.body_subtreemass[self._root])
         n = model.nv
         self._jac = np.zeros((18, n))
-        self._jac_torso = np.zeros((3, n))
-        self._error = np.zeros(18)
         self._velocity = np.zeros(n)
         self._static = mujoco.MjData(model)
 
@@ -104,31 +102,32 @@ class LegModel:
         Returns:
             Joint angles (k,) in rad within their limits, and the largest task error before the last step (m or rad).
         """
-        model, data = self.model, self._data
-        jac, error = self._jac, self._error
+        model, data, jac = self.model, self._data, self._jac
+        error: list[float] = []
         for _ in range(iterations):
             mujoco.mj_kinematics(model, data)
             mujoco.mj_comPos(model, data)
             mujoco.mj_jacSubtreeCom(model, data, jac[0:3], self._root)
             mujoco.mj_jacBody(model, data, None, jac[3:6], self._torso)
-            error[0:3] = com - data.subtree_com[self._root]
-            error[3:6] = _rotation_error(rotation_torso, data.xmat[self._torso].reshape(3, 3))
+            error = (com - data.subtree_com[self._root]).tolist()
+            error += _rotation_error(rotation_torso, data.xmat[self._torso].reshape(3, 3))
             row = 6
             for side in _SIDES:
                 site = self._sites[side]
                 mujoco.mj_jacSite(model, data, jac[row : row + 3], jac[row + 3 : row + 6], site)
-                error[row : row + 3] = positions[side] - data.site_xpos[site]
-                error[row + 3 : row + 6] = _rotation_error(rotations[side], data.site_xmat[site].reshape(3, 3))
+                error += (positions[side] - data.site_xpos[site]).tolist()
+                error += _rotation_error(rotations[side], data.site_xmat[site].reshape(3, 3))
                 row += 6
             square = jac[:, self._columns]
             normal = square.T @ square
             normal.ravel()[:: len(normal) + 1] += 1e-8
-            _, step, _ = dposv(normal, square.T.dot(error))
+            _, step, _ = dposv(normal, square.T.dot(np.array(error)))
             self._velocity[self._columns] = np.minimum(np.maximum(step, -0.5), 0.5)
-            mujoco.mj_integratePos(model, data.qpos, self._velocity, 1.0)
-            joints = np.minimum(np.maximum(data.qpos[self._qpos], self._lower), self._upper)
-            data.qpos[self._qpos] = joints
-        return data.qpos[self._qpos], float(np.abs(error).max())
+            configuration = data.qpos
+            mujoco.mj_integratePos(model, configuration, self._velocity, 1.0)
+            joints = np.minimum(np.maximum(configuration[self._qpos], self._lower), self._upper)
+            configuration[self._qpos] = joints
+        return joints, max(map(abs, error))
 
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, NDArray[np.float64]]
@@ -158,7 +157,7 @@ class LegModel:
         return torques
 
 
-def _rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation vector (3,) in the world frame that turns `actual` into `wanted`, exact to first order."""
+def _rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> tuple[float, float, float]:
+    """Rotation vector in the world frame that turns `actual` into `wanted`, exact to first order."""
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = wanted.dot(actual.T).tolist()
-    return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])
+    return 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
