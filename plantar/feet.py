@@ -84,4 +84,4 @@ class FeetPercept:
     @lazy
     def contact_area(self) -> float:
         """Area in m^2 of the active cells of all soles (T 4.22)."""
-        return sum(p.contact_area for p in self.percepts)
+        return sum([p.contact_area for p in self.percepts])

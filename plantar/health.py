@@ -75,7 +75,9 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
         [False, True, False, False]
     """
     readings = np.asarray(values, dtype=np.float64)
-    return np.asarray((readings >= highest) & np.isfinite(readings))
+    mask = np.isfinite(readings)
+    mask &= readings >= highest
+    return np.asarray(mask)
 
 
 def stuck_taxels(
@@ -236,6 +238,8 @@ def _neighbour_table(layout: SoleLayout) -> tuple[NDArray[np.intp], NDArray[np.b
 
 
 def _same(now: NDArray[np.float64], before: NDArray[np.float64], tolerance: float) -> NDArray[np.bool_]:
+    if tolerance == 0.0:  # no two numbers that differ have a difference of 0
+        return np.asarray(now == before)
     with np.errstate(invalid="ignore"):  # inf - inf
         return np.asarray((now == before) | (np.abs(now - before) <= tolerance))
 

@@ -68,7 +68,7 @@ class Outline(Rings):
     def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int], apart: bool) -> Outline:
         """Outline of rings one after another; those without area are left out."""
         areas = ring_areas(points, starts)
-        if any(area == 0.0 or not math.isfinite(area) for area in areas):
+        if 0.0 in areas or not all(map(math.isfinite, areas)):
             pairs = zip(starts[:-1], starts[1:], areas, strict=True)
             kept = [(points[a:b], area) for a, b, area in pairs if area != 0.0 and math.isfinite(area)]
             points = np.concatenate([np.empty((0, 2)), *(ring for ring, _ in kept)])
@@ -119,7 +119,8 @@ class Outline(Rings):
         turn = np.asarray(rotation, dtype=float)[:2, :2]
         shift = np.asarray(translation, dtype=float)[:2]
         points = self.points @ turn.T + shift
-        if turn[0, 0] * turn[1, 1] < turn[0, 1] * turn[1, 0]:  # seen from below
+        (xx, xy), (yx, yy) = turn.tolist()
+        if xx * yy < xy * yx:  # seen from below
             points = np.concatenate([points, *(points[a:b][::-1] for a, b in pairwise(self.starts))])[len(points) :]
         return Outline._with_area(points, self.starts, self.apart)
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.activation import active_taxels
 from plantar.errors import ReadingError
-from plantar.health import TaxelHealth, dead_taxels, fill_from_neighbours, saturated_taxels
+from plantar.health import TaxelHealth, fill_from_neighbours
 from plantar.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.percept_shapes import ShapeMembers
@@ -92,8 +92,9 @@ class Percept(ShapeMembers, VirtualMembers):
     def health(self) -> TaxelHealth:
         """Dead, saturated and stuck taxels; they are left out of every sum."""
         force = self.reading.force
-        stuck = np.zeros(len(force), dtype=bool) if self._stuck is None else self._stuck
-        return TaxelHealth(dead_taxels(force), saturated_taxels(force, self.layout.force_limit), stuck)
+        stuck = np.zeros(force.shape, dtype=bool) if self._stuck is None else self._stuck
+        dead, saturated = self.layout.kernel.faults(force, self.layout.force_limit)
+        return TaxelHealth(dead, saturated, stuck)
 
     @lazy
     def sound_force(self) -> NDArray[np.float64]:

@@ -166,8 +166,7 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
     stack: list[HeightContour] = []
     polygon = np.empty((0, 2))
     before = b""
-    for height in levels:
-        taxels = readings < height
+    for height, taxels in zip(levels, readings < np.array(levels)[:, None], strict=True):
         cells = taxels.tobytes()  # the quickest way to compare two masks
         if cells != before:
             polygon = layout.kernel.hull(taxels)[0]

@@ -67,7 +67,11 @@ class SolePose:
 
     def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
         """Points (..., 3) of the sole frame in the world frame, in m (T 4.25)."""
-        return np.asarray(np.asarray(points, dtype=float) @ self.rotation_sole_to_world.T + self.position_in_world)
+        given = np.asarray(points, dtype=float)
+        turn = self.rotation_sole_to_world.T
+        turned = given.dot(turn) if given.ndim == 1 else given @ turn  # the same, sooner for one point
+        turned += self.position_in_world
+        return np.asarray(turned)
 
     def polygon_to_world(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
         """A polygon (k, 2) of the sole plane seen from above in the world frame, in m."""
@@ -81,7 +85,8 @@ class SolePose:
         given = np.asarray(wrench, dtype=float)
         turn, lever = self._wrench_maps
         turned: NDArray[np.float64] = given.reshape(-1, 3).dot(turn).reshape(given.shape)
-        turned[..., 3:] += given[..., :3].dot(lever)
+        moment = turned[..., 3:]
+        moment += given[..., :3].dot(lever)
         return turned
 
     @lazy

@@ -29,7 +29,8 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
         [0.0, 0.0, 2.5, 29.0, 0.0]
     """
     readings = np.asarray(temperature, dtype=np.float64)
-    excess = np.fmax(readings, threshold) - threshold  # fmax drops NaN
+    excess = np.fmax(readings, threshold)  # drops NaN
+    excess -= threshold
     return np.asarray(np.where(excess < math.inf, np.minimum(excess, max(highest - threshold, 0.0)), 0.0))
 
 
@@ -58,7 +59,7 @@ def temperature_wrench(
     """
     level = layout.temperature_threshold if threshold is None else threshold
     highest = layout.ranges["temperature"][1] if "temperature" in layout.ranges else math.inf
-    return np.asarray(gain * (temperature_measure(temperature, level, highest) @ layout.wrench_map.T))
+    return np.asarray(gain * temperature_measure(temperature, level, highest).dot(layout.wrench_map.T))
 
 
 def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
@@ -76,7 +77,9 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
         [False, True, False, False]
     """
     readings = np.asarray(temperature, dtype=np.float64)
-    return np.asarray((readings >= threshold) & np.isfinite(readings))
+    mask = np.isfinite(readings)
+    mask &= readings >= threshold
+    return np.asarray(mask)
 
 
 def temperature_footprint(

@@ -52,7 +52,7 @@ def virtual_ground_reaction_wrench(
     reach = layout.proximity_range if sensing_range is None else sensing_range
     readings = np.asarray(distance, dtype=np.float64)
     if readings.ndim < 2:
-        return np.asarray(gain * (layout.wrench_map @ proximity_measure(readings, reach)))
+        return np.asarray(gain * layout.wrench_map.dot(proximity_measure(readings, reach)))
     into_wrench = gain * layout.wrench_map.T
     out = np.empty((*readings.shape[:-1], 6))
     for start in range(0, len(readings), _CHUNK):  # what is measured stays in the cache until it is summed

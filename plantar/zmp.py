@@ -32,11 +32,17 @@ def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 
         >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
         [0.03, 0.05]
     """
-    fx, fy, fz, tx, ty, _ = np.asarray(wrench, dtype=float).tolist()
+    point = _zero_moment_point(np.asarray(wrench, dtype=float).tolist(), height, minimum_force)
+    return None if point is None else np.array(point)
+
+
+def _zero_moment_point(wrench: list[float], height: float, minimum_force: float) -> tuple[float, float] | None:
+    """`zmp_in_plane` in plain numbers."""
+    fx, fy, fz, tx, ty, _ = wrench
     if not (fz >= minimum_force and 0.0 < fz < math.inf):
         return None
-    point = ((height * fx - ty) / fz, (height * fy + tx) / fz)
-    return np.array(point) if math.isfinite(point[0]) and math.isfinite(point[1]) else None
+    x, y = (height * fx - ty) / fz, (height * fy + tx) / fz
+    return (x, y) if math.isfinite(x) and math.isfinite(y) else None
 
 
 def zero_moment_wrench(
@@ -58,12 +64,12 @@ def zero_moment_wrench(
         >>> point.tolist(), moved.tolist()
         ([0.02, 0.05, 0.0], [10.0, 0.0, 100.0, 0.0, 0.0, 0.8])
     """
-    given = np.asarray(wrench, dtype=float)
-    at = zmp_in_plane(given, height, minimum_force)
+    given: list[float] = np.asarray(wrench, dtype=float).tolist()
+    at = _zero_moment_point(given, height, minimum_force)
     if at is None:
         return None
-    x, y = at.tolist()
-    fx, fy, fz, _, _, tz = given.tolist()
+    x, y = at
+    fx, fy, fz, _, _, tz = given
     return np.array([x, y, height]), np.array([fx, fy, fz, 0.0, 0.0, tz - (x * fy - y * fx)])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -24,33 +25,26 @@ def numbers(value: Any) -> Array:
 
     Example:
         >>> numbers([np.eye(2), (1.5, None), np.array([True])]).tolist()
-        [1.5, 1.0, 0.0, 0.0, 1.0]
+        [1.0, 0.0, 0.0, 1.0, 1.5]
     """
-    if isinstance(value, list):  # of one kind of result, as a rule: no look at each
-        kinds = set(map(type, value))
-        if kinds == {float}:
-            return np.array(value)
-        if kinds == {np.ndarray} and value[0].dtype.kind == "f":
-            return np.concatenate(value, axis=None)
-    floats: list[float] = []
-    arrays: list[Array] = []
-    _gather((value,), floats, arrays)
-    return np.concatenate([np.array(floats), *arrays], axis=None)
+    found: list[Array] = []
+    _gather([value], found)
+    return np.concatenate(found, axis=None) if found else np.empty(0)
 
 
-def _gather(values: Sequence[Any], floats: list[float], arrays: list[Array]) -> None:
-    for value in values:
-        if value is None:
-            continue
-        if isinstance(value, np.ndarray):
-            if value.dtype.kind == "f":
-                arrays.append(value)
-        elif isinstance(value, float):
-            floats.append(value)
-        elif isinstance(value, (tuple, list)):
-            _gather(value, floats, arrays)
-        elif hasattr(value, "points"):
-            arrays.append(value.points)
+def _gather(values: Sequence[Any], found: list[Array]) -> None:
+    """Gather kind by kind, not value by value: of many results, as a rule of one kind, none is looked at alone."""
+    kinds: list[Any] = list(dict.fromkeys(map(type, values)))
+    for kind in kinds:
+        mine: Sequence[Any] = values if len(kinds) == 1 else [v for v in values if type(v) is kind]
+        if issubclass(kind, np.ndarray):
+            found.extend([v for v in mine if v.dtype.kind == "f"])
+        elif issubclass(kind, float):
+            found.append(np.array(mine))
+        elif issubclass(kind, (tuple, list)):
+            _gather(mine[0] if len(mine) == 1 else list(chain.from_iterable(mine)), found)
+        elif hasattr(mine[0], "points"):
+            found.extend([v.points for v in mine])
 
 
 def not_finite(values: Sequence[Any]) -> list[bool]:
@@ -66,7 +60,7 @@ def not_finite(values: Sequence[Any]) -> list[bool]:
         >>> not_finite([np.zeros(2), None, (1.0, np.array([np.nan]))])
         [False, False, True]
     """
-    if np.isfinite(numbers([v for v in values if v is not None])).all():
+    if np.isfinite(numbers(values)).all():
         return [False] * len(values)
     return [not np.isfinite(numbers(v)).all() for v in values]
 
@@ -88,10 +82,10 @@ def differing(
         >>> differing([np.zeros(2), None, np.zeros(1)], [np.zeros(2), None, np.zeros((1, 1))])
         [False, False, True]
     """
-    shapes = [[getattr(v, "shape", None) for v in values] for values in (one, other)]
+    shapes = [[None if v is None else v.shape for v in values] for values in (one, other)]
     if shapes[0] == shapes[1]:
         a, b = (
-            np.concatenate([np.empty(0), *(v for v in values if v is not None)], axis=None) for values in (one, other)
+            np.concatenate([np.empty(0), *[v for v in values if v is not None]], axis=None) for values in (one, other)
         )
         if np.array_equal(a, b, equal_nan=equal_nan):
             return [False] * len(shapes[0])

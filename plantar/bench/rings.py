@@ -32,9 +32,10 @@ class Rings:
         most = max(1, int(self.size.max(initial=1)))
         flat = np.concatenate([np.zeros((1, 2)), *polygons])
         start = 1 + np.cumsum(self.size) - self.size
-        column = np.where(np.arange(most) < self.size[:, None], np.arange(most), 0)
         # Polygon beside polygon (2, most, count), which numpy adds and compares fastest; seen as (count, most, 2).
-        place = np.ascontiguousarray(flat.T)[:, np.where(self.size[:, None] > 0, start[:, None] + column, 0).T]
+        column = np.arange(most)[:, None]
+        row = start + np.where(column < self.size, column, 0)
+        place = np.take(flat.T, np.where(self.size > 0, row, 0), axis=1)
         low, high = place.min(axis=1), place.max(axis=1)
         edge = np.concatenate([place[:, 1:], place[:, :1]], axis=1) - place
         self.points: Array = place.T
@@ -80,24 +81,30 @@ class Rings:
         ex, ey, x, y, blocked, order, real = self._edges
         px, py = (np.ascontiguousarray(points[order, :, axis].T) for axis in (0, 1))
         least = np.full(px.shape, np.inf)
-        for k, n in enumerate(real):
-            across = ex[k, :n] * (py[:, :n] - y[k, :n]) - ey[k, :n] * (px[:, :n] - x[k, :n]) + blocked[k, :n]
+        for k, (n, barred) in enumerate(zip(real, blocked, strict=True)):
+            across = py[:, :n] - y[k, :n]
+            across *= ex[k, :n]
+            away = px[:, :n] - x[k, :n]
+            away *= ey[k, :n]
+            across -= away
+            if barred is not None:
+                across += barred
             np.minimum(least[:, :n], across, out=least[:, :n])
         back = np.empty(points.shape[:2])
         back[order] = least.T
         return back
 
     @cached_property
-    def _edges(self) -> tuple[Array, Array, Array, Array, Array, NDArray[np.intp], list[int]]:
-        """Edge by edge, the polygons with most of them first: direction, start, inf where it has no length; which
-        polygon stands where, and how many have so many edges."""
+    def _edges(self) -> tuple[Array, Array, Array, Array, list[Array | None], NDArray[np.intp], list[int]]:
+        """Edge by edge, the polygons with most of them first: direction, start, inf where it has no length, None where
+        all have one; which polygon stands where, and how many have so many edges."""
         order = np.argsort(-self.size, kind="stable")
         length, edge, points = self.length[order].T, self.edge[order].T, self.points[order].T
         usable = length > 0.0
         direction = edge / np.where(usable, length, 1.0)
-        blocked = np.where(usable, 0.0, np.inf)
         real = (self.size > np.arange(len(length))[:, None]).sum(axis=1).tolist()
-        ex, ey, x, y, blocked = (np.ascontiguousarray(a) for a in (*direction, *points, blocked))
+        blocked = [None if u[:n].all() else np.where(u[:n], 0.0, np.inf) for u, n in zip(usable, real, strict=True)]
+        ex, ey, x, y = (np.ascontiguousarray(a) for a in (*direction, *points))
         return ex, ey, x, y, blocked, order, real
 
     def distance(self, points: Array) -> Array:

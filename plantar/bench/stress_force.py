@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from plantar import activation, batch, force, health, pressure_wrench, sole_pose, zmp
 from plantar.bench import references as exact
 from plantar.bench.results import differing, not_finite
-from plantar.bench.stress_soles import Block
+from plantar.bench.stress_soles import Block, unit_wrenches
 from plantar.bench.tally import Tally
 from plantar.feet import FeetPercept
 from plantar.foot_tick import walking_tick
@@ -23,22 +23,6 @@ __all__ = ["FORCE_CHECKS", "LAST_CHECKS"]
 Array = NDArray[np.float64]
 _SUM = 1e-14
 """Allowed error of a sum of up to 51 terms, over the sum of their absolute values."""
-
-
-def _columns(block: Block) -> Array:
-    """Wrench (n, 6) of 1 N on each taxel, one cross product at a time."""
-    out = np.empty((len(block.layout), 6))
-    for i, (place, turn) in enumerate(zip(block.layout.positions, block.layout.rotations, strict=True)):
-        normal = turn @ [0.0, 0.0, 1.0]
-        out[i] = [*normal, *np.cross(place, normal)]
-    return out
-
-
-def _sums(block: Block) -> tuple[Array, Array]:
-    """Wrenches (readings, 6) in extended precision, and the sums of the terms' absolute values."""
-    kept = np.where(block.active, block.force, 0.0).astype(np.longdouble)
-    columns = _columns(block).astype(np.longdouble)
-    return np.asarray(kept @ columns, dtype=float), np.asarray(np.abs(kept) @ np.abs(columns), dtype=float)
 
 
 def _error(got: Array, wanted: Array, scale: Array) -> Array:
@@ -56,10 +40,10 @@ def _percept_loads(block: Block, tally: Tally) -> None:
     percepts = block.percepts
     active = np.array([p.active for p in percepts])
     tally.add("Percept.active", block, (active != block.active).any(axis=1))
-    wanted, scale = _sums(block)
+    wanted, scale = block.wrenches
     got = np.array([p.wrench_in_sole for p in percepts])
     tally.add("Percept.wrench_in_sole", block, _error(got, wanted, scale), _SUM)
-    rows, columns = range(0, len(block), 100), _columns(block)
+    rows, columns = range(0, len(block), 100), unit_wrenches(block.layout)
     right = np.array([exact.wrench_exact(columns, np.where(active[i], block.force[i], 0.0)) for i in rows])
     tally.add("Percept.wrench_in_sole: math.fsum", block, _error(got[::100], right, scale[::100]), _SUM, len(right))
     vertical = np.array([p.vertical_force for p in percepts])
@@ -147,7 +131,7 @@ def _percept_faults(block: Block, tally: Tally) -> None:
 def _batch_functions(block: Block, tally: Tally) -> None:
     """The batch functions against the percepts, reading by reading."""
     layout, percepts = block.layout, block.percepts
-    wanted, scale = _sums(block)
+    wanted, scale = block.wrenches
     tally.add("batch.wrenches", block, _error(batch.wrenches(layout, block.force), wanted, scale), _SUM)
     strided = np.repeat(block.force, 2, axis=0)[::2][::-1]
     tally.add("batch.wrenches: strided", block, _error(batch.wrenches(layout, strided)[::-1], wanted, scale), _SUM)

@@ -43,8 +43,15 @@ def _slack(rings: Rings) -> Array:
 
 def _shapes(corners: Sequence[Array], count: int) -> Array:
     """Corners of shapes (readings, count, 2); of those of empty polygons NaN-free zeros."""
-    none = np.zeros((count, 2))
-    return np.concatenate([c if len(c) else none for c in corners]).reshape(-1, count, 2)
+    if not all(map(len, corners)):
+        none = np.zeros((count, 2))
+        corners = [c if len(c) else none for c in corners]
+    return np.concatenate(corners).reshape(-1, count, 2)
+
+
+def _are_none(corners: Sequence[Array]) -> NDArray[np.bool_]:
+    """Which shapes (readings,) have no corners."""
+    return np.asarray(np.fromiter(map(len, corners), dtype=np.intp, count=len(corners)) == 0)
 
 
 def _areas(corners: Array) -> Array:
@@ -55,8 +62,7 @@ def _areas(corners: Array) -> Array:
 def _percept_support(block: Block, tally: Tally) -> None:
     """Support polygon of each percept: convex exactly, around all corners, its area and centroid."""
     layout, percepts = block.layout, block.percepts
-    hulls = [p.support_polygon_in_sole for p in percepts]
-    rings = Rings(hulls)
+    hulls, rings = [p.support_polygon_in_sole for p in percepts], block.hulls
     tally.add("Percept.support_polygon_in_sole: convex", block, rings.not_convex())
     used = np.zeros((len(block), len(layout.vertices)), dtype=bool)
     for i in range(len(layout)):
@@ -130,7 +136,7 @@ def _percept_outline(block: Block, tally: Tally) -> None:
 def _percept_shapes(block: Block, tally: Tally) -> None:
     """The members that are shapes, on the sole as it is."""
     percepts = block.percepts
-    hulls = Rings([p.support_polygon_in_sole for p in percepts])
+    hulls = block.hulls
     _inside(
         block, tally, "Percept.inscribed_triangle_in_sole", hulls, [p.inscribed_triangle_in_sole for p in percepts], 3
     )
@@ -193,9 +199,7 @@ def _inside(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequen
     """A shape inside convex polygons: corners within, area within the bounds that theorems give."""
     shape = _shapes(corners, count)
     filled = rings.size > 0
-    tally.add(
-        f"{name}: none for an empty polygon", block, [bool(len(c)) != f for c, f in zip(corners, filled, strict=True)]
-    )
+    tally.add(f"{name}: none for an empty polygon", block, _are_none(corners) == filled)
     out = np.where(filled, np.maximum(-rings.depth(shape).min(axis=1), 0.0), 0.0)
     out = np.where(np.isfinite(out), out, 0.0)
     error = np.where(filled, out / np.maximum(_slack(rings), 1e-300), 0.0) + np.where(
@@ -214,25 +218,28 @@ def _inside(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequen
 
 
 def _largest_triangles(rings: Rings) -> Array:
-    """Area of the largest triangle on vertices, all of them tried (readings,)."""
+    """Area of the largest triangle on vertices, all of them tried (readings,); of rings that are the same once."""
     best = np.zeros(len(rings.size))
     for size in np.unique(rings.size).tolist():
         rows = np.flatnonzero(rings.size == size)
-        x, y = rings.points[rows, :size].T
+        place: dict[bytes, int] = {}
+        same = [place.setdefault(ring.tobytes(), len(place)) for ring in rings.points[rows, :size]]
+        first = rows[np.unique(same, return_index=True)[1]]
+        x, y = rings.points[first, :size].T
+        most = np.zeros(len(first))
         for a in range(size - 2):
             dx, dy = x[a + 1 :] - x[a], y[a + 1 :] - y[a]
             cross = dx[:, None] * dy
             twice = cross - cross.transpose(1, 0, 2)  # each triangle with both signs
-            best[rows] = np.maximum(best[rows], 0.5 * twice.max(axis=(0, 1)))
+            most = np.maximum(most, 0.5 * twice.max(axis=(0, 1)))
+        best[rows] = most[same]
     return best
 
 
 def _around(block: Block, tally: Tally, name: str, rings: Rings, corners: Sequence[Array]) -> None:
     """A shape around convex polygons: holds every vertex, area within the bounds that theorems give."""
     filled = rings.size > 0
-    tally.add(
-        f"{name}: none for an empty polygon", block, [bool(len(c)) != f for c, f in zip(corners, filled, strict=True)]
-    )
+    tally.add(f"{name}: none for an empty polygon", block, _are_none(corners) == filled)
     shape = _shapes(corners, 4)
     box = Rings(list(shape))
     slack = np.maximum(_slack(rings) + _slack(box), 1e-300)
@@ -321,10 +328,11 @@ def _plane_polygons(block: Block, tally: Tally) -> None:
         8.0,
     )
     _points(block, tally, cloud, rings, middle)
-    _offsets(block, tally, cloud, rings)
+    circles = [inscribed.inscribed_circle(c) for c in cloud]
+    _offsets(block, tally, cloud, rings, circles)
     _inside(block, tally, "safe_rectangle", rings, [safe_rectangle(c, 0.01) for c in cloud], 4)
     some = slice(block.number % 4, None, 4)  # the percepts call the same functions with every reading
-    _all_shapes(block, tally, cloud[some], hulls[some])
+    _all_shapes(block, tally, cloud[some], hulls[some], circles[some])
 
 
 def _points(block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings, middle: Array) -> None:
@@ -360,14 +368,16 @@ def _points(block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings, mi
     )
 
 
-def _offsets(block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings) -> None:
+def _offsets(
+    block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings, circles: Sequence[inscribed.Circle | None]
+) -> None:
     """Inner offsets: every vertex at the distance exactly, or the deepest point, as deep as the largest circle."""
     distance = rings.extent * block.rng.choice([0.0, 1e-6, 0.03, 0.1, 0.3, 2.0], len(block))
     smaller = [polygon.inner_offset(c, float(d)) for c, d in zip(cloud, distance, strict=True)]
     inner = Rings(smaller)
     solid = rings.size > 2
     depth = rings.depth(inner.points)
-    radius = np.array([0.0 if (c := inscribed.inscribed_circle(h)) is None else c.radius for h in cloud])
+    radius = np.array([0.0 if c is None else c.radius for c in circles])
     wanted = np.where((inner.size == 1) & (radius < distance), radius, distance)
     flat = np.abs(rings.area) / np.maximum(rings.extent**2, 1e-300) < 1e-7  # a needle: its depth is rounding
     error = np.where(solid[:, None] & ~flat[:, None], np.abs(depth - wanted[:, None]), 0.0).max(axis=1)
@@ -381,7 +391,13 @@ def _offsets(block: Block, tally: Tally, cloud: Sequence[Array], rings: Rings) -
     tally.add("inner_offset: empty", block, (inner.size == 0) != (np.array([len(c) for c in cloud]) == 0))
 
 
-def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Sequence[Array]) -> None:
+def _all_shapes(
+    block: Block,
+    tally: Tally,
+    cloud: Sequence[Array],
+    hulls: Sequence[Array],
+    circles: Sequence[inscribed.Circle | None],
+) -> None:
     """The inscribed and enclosing shapes of odd polygons."""
     rings = Rings(hulls)
     functions: tuple[tuple[str, Callable[[Array], Array], int], ...] = (
@@ -401,7 +417,7 @@ def _all_shapes(block: Block, tally: Tally, cloud: Sequence[Array], hulls: Seque
         [inscribed.inscribed_rectangle_any_angle(c) for c in cloud],
         4,
     )
-    _circles(block, tally, "inscribed_circle", rings, [inscribed.inscribed_circle(c) for c in cloud])
+    _circles(block, tally, "inscribed_circle", rings, circles)
     for name, around in (
         ("bounding_box", enclosing.bounding_box),
         ("oriented_box", enclosing.oriented_box),

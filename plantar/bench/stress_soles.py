@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.bench.rings import Rings
 from plantar.bench.soles import foot_outline, sole_of
 from plantar.cell_layout import joined_layout, layout_of_cells
 from plantar.curved_sole import laid_over
@@ -20,7 +21,7 @@ from plantar.reading import Reading
 from plantar.sole_pose import SolePose
 from plantar.tiling import grid_layout, hex_layout
 
-__all__ = ["Block", "blocks_of", "stress_soles"]
+__all__ = ["Block", "blocks_of", "stress_soles", "unit_wrenches"]
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -68,6 +69,13 @@ class Block:
         return finite & ~(known <= self.layout.force_threshold) & ~(known >= self.layout.force_limit)
 
     @cached_property
+    def wrenches(self) -> tuple[Array, Array]:
+        """Wrenches (readings, 6) in extended precision, and the sums of the terms' absolute values."""
+        kept = np.where(self.active, self.force, 0.0).astype(np.longdouble)
+        columns = unit_wrenches(self.layout).astype(np.longdouble)
+        return np.asarray(kept @ columns, dtype=float), np.asarray(np.abs(kept) @ np.abs(columns), dtype=float)
+
+    @cached_property
     def readings(self) -> list[Reading]:
         """The readings, some without proximity, temperature or acceleration."""
         return [
@@ -85,6 +93,28 @@ class Block:
     def percepts(self) -> list[Percept]:
         """A percept a reading."""
         return [Percept(self.layout, reading) for reading in self.readings]
+
+    @cached_property
+    def hulls(self) -> Rings:
+        """The percepts' support polygons."""
+        return Rings([p.support_polygon_in_sole for p in self.percepts])
+
+
+@cache
+def unit_wrenches(layout: SoleLayout) -> Array:
+    """Wrench of 1 N on each taxel of a sole, one cross product at a time.
+
+    Args:
+        layout: The sole, n taxels.
+
+    Returns:
+        Wrenches (n, 6) about the sole frame's origin.
+    """
+    out = np.empty((len(layout), 6))
+    for i, (place, turn) in enumerate(zip(layout.positions, layout.rotations, strict=True)):
+        normal = turn @ [0.0, 0.0, 1.0]
+        out[i] = [*normal, *np.cross(place, normal)]
+    return out
 
 
 def stress_soles() -> list[SoleLayout]:

@@ -74,13 +74,15 @@ class Tally:
             readings: How many readings were tried; as many as there are errors where None.
         """
         values = np.asarray(errors, dtype=float).reshape(-1)
-        tested = self.tested.setdefault(name, Tested(bound))
+        tested = self.tested.get(name)
+        if tested is None:
+            tested = self.tested[name] = Tested(bound)
         tested.readings += len(values) if readings is None else readings
-        bad = ~(values <= bound)
-        if len(values):
-            worst = float(values.max())
-            tested.worst = max(tested.worst, math.inf if math.isnan(worst) else worst)
-        if bad.any():
+        worst = float(values.max(initial=-math.inf))
+        if not worst <= tested.worst:
+            tested.worst = math.inf if math.isnan(worst) else worst
+        if not worst <= bound:
+            bad = ~(values <= bound)
             tested.failures += int(bad.sum())
             for i in np.flatnonzero(bad)[: max(0, _KEPT - len(tested.examples))].tolist():
                 self._example(tested, block, f"value {i} of {len(values)}: error {values[i]:.3g}, allowed {bound:.3g}")

@@ -58,7 +58,7 @@ cdef class AnyAngle:
     cdef void _seed(self, double[::1] points, Py_ssize_t n, double[::1] out) except *
 
     cdef void _march(self, double[::1] out) except *
-    cdef bint _is_skipped(self, double angle, double skip, double[::1] out) except -1
+    cdef double _behind(self, double angle, double most, double[::1] out) except -1
 
     @cython.locals(
         outline=concave.OutlineRectangles, stack="double[::1]", turn="double[::1]", k=Py_ssize_t,
@@ -73,3 +73,7 @@ cdef class AnyAngle:
     @cython.locals(way=int, beyond=bint)
     cdef void _climb(self, double middle, double area, double[::1] out) except *
     cdef double _lower(self, double area, double turn) noexcept
+
+cdef double _slope(double area, double before, double back, double lean) noexcept
+cdef double _reach(double slope, double curve, double gap) noexcept
+cdef double _step(double slope, double curve, double gap, double lean) noexcept

@@ -171,10 +171,17 @@ class AnyAngle:
                 self.best_angle = self.direction[k]
 
     def _march(self, out):
-        """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best."""
+        """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best.
+
+        Towards a summit that rises to the best in a corner the steps get ever shorter, and the slope that they know
+        leads beyond the best behind it. So the bound of an angle a little ahead is followed backwards once, and where
+        the steps have come to what that clears they go on behind it.
+        """
         angle = 0.0
         last = 0.0
         before = 0.0
+        clear_from = 0.0
+        clear_to = 0.0
         for _ in range(_STEPS):
             if angle >= _QUARTER:
                 return
@@ -193,37 +200,31 @@ class AnyAngle:
             if not 0.0 < back < 0.3 * lean:
                 back = min(0.25 * lean, max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve))))
                 before = self._largest(angle - back, 0.0, out)
-            bend = back * 2.0 / math.sin(2.0 * (lean - back))
-            slope = (math.log(area / max(1e-300, before)) + 0.5 * bend * bend) / back
+            slope = _slope(area, before, back, lean)
             last = angle
             before = area
-            slope = min(slope, math.sqrt(curve))
-            root = math.sqrt(slope * slope + 2.0 * curve * gap)
-            step = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
-            step = min(_LONGEST, min(step, 0.9 * lean))
-            # Less, since the bound's curve rises; integrated twice it is this logarithm.
-            cotangent = 2.0 * math.cos(2.0 * lean) / math.sin(2.0 * lean)
-            while (
-                slope * step - math.log(math.sin(2.0 * (lean - step)) / math.sin(2.0 * lean)) - cotangent * step > gap
-            ):
-                step *= 0.9
+            step = _step(slope, curve, gap, lean)
             skip = math.sqrt(0.7 * _CLOSE / curve)
-            if step < skip and self._is_skipped(angle, skip, out):
-                step = skip
-            angle += max(step, _LEAST)
+            if step < skip and clear_to <= angle:
+                clear_to = angle + skip
+                clear_from = clear_to - self._behind(clear_to, skip, out)
+            angle += step
+            if clear_from <= angle < clear_to:
+                angle = clear_to
 
-    def _is_skipped(self, angle, skip, out):
-        """Whether nothing above the best stands a little behind an angle, by the bound from there backwards."""
-        after = self._largest(angle + 2.0 * skip, 0.0, out)
-        ahead = self._largest(angle + skip, 0.0, out)
-        if ahead <= 0.0:
-            return False
-        lean = rectangle.lean(out) - skip
+    def _behind(self, angle, most, out):
+        """How far before an angle, up to some distance, nothing above the best stands, by its bound backwards."""
+        after = self._largest(angle + most, 0.0, out)
+        area = self._largest(angle, 0.0, out)
+        if not 0.0 < area <= self.best * (1.0 + _CLOSE):
+            return 0.0
+        lean = rectangle.lean(out) - most
         if lean <= 0.0:
-            return False
-        bend = skip * 2.0 / math.sin(2.0 * lean)
-        rise = math.log(ahead / max(1e-300, after)) + bend * bend
-        return math.log(self.best * (1.0 + _CLOSE) / ahead) >= max(0.0, rise)
+            return 0.0
+        curve = 2.0 / math.sin(2.0 * lean)
+        curve *= curve
+        gap = math.log(self.best * (1.0 + _CLOSE) / area)
+        return min(most, _reach(math.log(area / max(1e-300, after)) / most + 0.5 * curve * most, curve, gap))
 
     def _search(self, out):
         """Search all angles of a quarter turn in an outline for more than the best so far."""
@@ -418,3 +419,29 @@ class AnyAngle:
     def _lower(self, area, turn):
         """Area below which nothing matters so far from an angle with an area."""
         return max(0.5 * area, area - self.outline.diameter2 * abs(turn)) if not self.convex else 0.0
+
+
+def _slope(area, before, back, lean):
+    """What the slope of a ring's bound at an angle is at most, from an area a little before and a bit for the bend."""
+    curve = 2.0 / math.sin(2.0 * lean)
+    bend = back * 2.0 / math.sin(2.0 * (lean - back))
+    return min((math.log(area / max(1e-300, before)) + 0.5 * bend * bend) / back, curve)
+
+
+def _reach(slope, curve, gap):
+    """Where what rises with a slope that rises itself gains a gap."""
+    root = math.sqrt(slope * slope + 2.0 * curve * gap)
+    return 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
+
+
+def _step(slope, curve, gap, lean):
+    """How far a ring's bound stays below the best from an angle on, in rad."""
+    step = min(_LONGEST, min(_reach(slope, curve, gap), 0.9 * lean))
+    # Less, since the bound's curve rises; integrated twice it is this logarithm. What rises is convex, so it stays below
+    # the chord from here: where it ends little above the gap, as much less of a step is enough.
+    cotangent = 2.0 * math.cos(2.0 * lean) / math.sin(2.0 * lean)
+    while True:
+        rise = slope * step - math.log(math.sin(2.0 * (lean - step)) / math.sin(2.0 * lean)) - cotangent * step
+        if not rise > gap:
+            return max(step, _LEAST)
+        step *= max(0.9, min(gap / rise, 1.0 - 1e-9))

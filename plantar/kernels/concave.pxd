@@ -83,9 +83,11 @@ cdef class OutlineRectangles:
     @cython.locals(
         slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
         path="Py_ssize_t[::1]", reach="double[::1]", left="double[::1]", right="double[::1]", trapezoid="double[::1]",
-        count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint
+        count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint,
+        x=double, width=double, height=double, left_low=double, left_high=double, low_y=double, high_y=double
     )
     cdef double _enumerate(self, double angle, double floor, double[::1] out) except -1
+    @cython.locals(area=double)
     cdef bint _may_hold(self, double width, double height) noexcept
     cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
 

@@ -340,44 +340,47 @@ class OutlineRectangles:
                     else:
                         self._offer(line[i], line[i + 1], max(below, low_right), min(above, high_right))
                 top = 0
-                if low_right >= left[2 * start] and high_right <= left[2 * start + 1]:
+                left_low = left[2 * start]
+                left_high = left[2 * start + 1]
+                if low_right >= left_low and high_right <= left_high:
                     continue
-                if self._may_hold(reach[start] - line[i], high_right - low_right):
+                x = line[i]
+                if self._may_hold(reach[start] - x, high_right - low_right):
                     path[0] = start
                     stack[0] = low_right
                     stack[1] = high_right
                     top = 1
                 while top > 0:
                     top -= 1
-                    t = path[top]
+                    k = slab[path[top]] + 1
                     low_y = stack[2 * top]
                     high_y = stack[2 * top + 1]
-                    if not self._may_hold(reach[t] - line[i], high_y - low_y):
-                        continue
-                    k = slab[t] + 1
                     if k >= slabs:
                         continue
+                    width = line[k + 1] - x
                     for t in range(first[k], first[k + 1]):
                         bottom_y = max(low_y, trapezoid[4 * t])
                         top_y = min(high_y, trapezoid[4 * t + 1])
-                        if top_y <= bottom_y:
+                        height = top_y - bottom_y
+                        if height <= 0.0:
                             continue
-                        if bottom_y >= left[2 * start] and top_y <= left[2 * start + 1]:
+                        if bottom_y >= left_low and top_y <= left_high:
                             continue
-                        if self._may_hold(line[k + 1] - line[i], top_y - bottom_y):
+                        if self._may_hold(width, height):
                             if exact:
                                 if bottom_y < right[2 * t] or top_y > right[2 * t + 1]:
                                     self._solve(i, k, bottom_y, top_y, start, t)
                             else:
-                                self._offer(line[i], line[k], max(bottom_y, below), min(top_y, above))
+                                self._offer(x, line[k], max(bottom_y, below), min(top_y, above))
                         bottom_y = max(bottom_y, trapezoid[4 * t + 2])
                         top_y = min(top_y, trapezoid[4 * t + 3])
-                        if top_y <= bottom_y:
+                        height = top_y - bottom_y
+                        if height <= 0.0:
                             continue
                         if not exact:
                             self._offer(line[i + 1], line[k + 1], bottom_y, top_y)
-                            self._offer(line[i], line[k + 1], max(bottom_y, below), min(top_y, above))
-                        if self._may_hold(reach[t] - line[i], top_y - bottom_y):
+                            self._offer(x, line[k + 1], max(bottom_y, below), min(top_y, above))
+                        if self._may_hold(reach[t] - x, height):
                             path[top] = t
                             stack[2 * top] = bottom_y
                             stack[2 * top + 1] = top_y
@@ -388,9 +391,10 @@ class OutlineRectangles:
 
     def _may_hold(self, width, height):
         """Whether a box may hold more than the best so far, or what turns into more than the target."""
-        if width * height <= self.best:
+        area = width * height
+        if area <= self.best:
             return False
-        return self.half == 0.0 or width * height + self.half * (width * width + height * height) > self.target
+        return self.half == 0.0 or area + self.half * (width * width + height * height) > self.target
 
     def _offer(self, x1, x2, y1, y2):
         """Keep a rectangle if it is larger than the best so far."""

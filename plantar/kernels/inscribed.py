@@ -157,13 +157,13 @@ def largest_parallelogram(ring, n, out):
         ax = ring[2 * a]
         ay = ring[2 * a + 1]
         # B starts at A on edge a; C = D is the first vertex farthest from this edge. Edges count on from a.
-        i = (a + 1) % n
+        i = a + 1 if a + 1 < n else 0
         ux = ring[2 * i] - ax
         uy = ring[2 * i + 1] - ay
         far = 1
         height = 0.0
         for k in range(2, n):
-            i = (a + k) % n
+            i = a + k if a + k < n else a + k - n
             reach = ux * (ring[2 * i + 1] - ay) - uy * (ring[2 * i] - ax)
             if reach > height * (1.0 + 1e-12):
                 height = reach
@@ -175,20 +175,20 @@ def largest_parallelogram(ring, n, out):
         steps = 8 * n
         while b < n and d < n and c >= b and steps > 0:
             steps -= 1
-            i = (a + b) % n
-            j = (i + 1) % n
+            i = a + b if a + b < n else a + b - n
+            j = i + 1 if i + 1 < n else 0
             b0x = ring[2 * i] - ax
             b0y = ring[2 * i + 1] - ay
             bx = ring[2 * j] - ring[2 * i]
             by = ring[2 * j + 1] - ring[2 * i + 1]
-            i = (a + c) % n
-            j = (i + 1) % n
+            i = a + c if a + c < n else a + c - n
+            j = i + 1 if i + 1 < n else 0
             c0x = ring[2 * i] - ax
             c0y = ring[2 * i + 1] - ay
             cx = ring[2 * j] - ring[2 * i]
             cy = ring[2 * j + 1] - ring[2 * i + 1]
-            i = (a + d) % n
-            j = (i + 1) % n
+            i = a + d if a + d < n else a + d - n
+            j = i + 1 if i + 1 < n else 0
             d0x = ring[2 * i] - ax
             d0y = ring[2 * i + 1] - ay
             dx = ring[2 * j] - ring[2 * i]

@@ -36,6 +36,8 @@ cdef class SoleKernel:
     cdef list hulls
     cdef object mask_room
     cdef unsigned char[::1] mask
+    cdef object other_mask_room
+    cdef unsigned char[::1] other_mask
     cdef object sums_room
     cdef double[::1] sums
     cdef double[:, :, ::1] rings
@@ -47,6 +49,9 @@ cdef class SoleKernel:
     cdef void _activate(
         self, const double[:] force, double threshold, double saturation, unsigned char[::1] out
     ) noexcept
+
+    @cython.locals(i=Py_ssize_t, finite=bint)
+    cpdef faults(self, const double[:] force, double saturation)
 
     cpdef loads(self, const double[:] force, const unsigned char[:] active)
 

@@ -99,6 +99,8 @@ class SoleKernel:
         self.hulls = [polygon[:size] for size in range(len(order) + 1)]  # a copy of one is the cheapest new array
         self.mask_room = np.zeros(self.taxels, dtype=bool)
         self.mask = self.mask_room
+        self.other_mask_room = np.zeros(self.taxels, dtype=bool)
+        self.other_mask = self.other_mask_room
         self.sums_room = np.zeros(9)
         self.sums = self.sums_room
         self.rings = np.zeros((3, 2 * len(order) + 8, 3))
@@ -122,6 +124,22 @@ class SoleKernel:
         """`active` into an array."""
         for i in range(self.taxels):
             out[i] = (force[i] > threshold) & (force[i] < saturation)
+
+    def faults(self, force, saturation):
+        """Dead and saturated taxels, as `plantar.health.dead_taxels` and `saturated_taxels`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            saturation: A taxel from this on, up to the largest finite number, is saturated; in N.
+
+        Returns:
+            Masks (n,): taxels that read NaN or inf, and saturated ones.
+        """
+        for i in range(self.taxels):
+            finite = -_INFINITE < force[i] < _INFINITE
+            self.mask[i] = not finite
+            self.other_mask[i] = finite and force[i] >= saturation
+        return self.mask_room.copy(), self.other_mask_room.copy()
 
     def loads(self, force, active):
         """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import HexLattice, hex_layout
+from plantar.health import dead_taxels, saturated_taxels
 from plantar.kernels.sole import SoleKernel
 from plantar.polygon import area, centroid, convex_hull
 
@@ -128,3 +129,13 @@ def test_a_sole_without_taxels():
     kernel = SoleKernel(np.empty((0, 3)), np.empty((0, 3)), [], np.empty((0, 2)), [0], [])
     assert kernel.hull(np.empty(0, dtype=bool))[0].shape == (0, 2)
     assert kernel.loads(np.empty(0), np.empty(0, dtype=bool))[:7].tolist() == [0.0] * 7
+
+
+@pytest.mark.parametrize("limit", [785.0, math.inf, -1.0])
+def test_faults_are_the_dead_and_the_saturated_taxels(limit):
+    values = np.array([np.nan, np.inf, -np.inf, 785.0, np.nextafter(785.0, 0.0), 1e300, 0.0, -0.0, -5.0])
+    layout = LAYOUTS["clipped"]
+    force = np.resize(values, len(layout))
+    dead, saturated = layout.kernel.faults(force, limit)
+    assert dead.tolist() == dead_taxels(force).tolist()
+    assert saturated.tolist() == saturated_taxels(force, limit).tolist()
