@@ -70,7 +70,13 @@ cdef class AnyAngle:
     @cython.locals(before="double[::1]", i=Py_ssize_t)
     cdef _widen(self)
 
-    @cython.locals(way=int, beyond=bint)
+    # All of them: where one is a Python object, so is whatever it meets.
+    @cython.locals(
+        way=int, beyond=bint, mine=double, at=double, side=double, beside=double, low=double, at_low=double,
+        beyond_low=double, at_beyond_low=double, reach=double, high=double, at_high=double, beyond_high=double,
+        at_beyond_high=double, missed=double, steep=double, width=double, angle=double, promised=double, summit=double,
+        p=double, q=double, bend=double, trial=double, least=double, here=double, there=double, gap=double
+    )
     cdef void _climb(self, double middle, double area, double[::1] out) except *
     cdef double _lower(self, double area, double turn) noexcept
 

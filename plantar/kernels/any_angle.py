@@ -437,8 +437,8 @@ def _reach(slope, curve, gap):
 def _step(slope, curve, gap, lean):
     """How far a ring's bound stays below the best from an angle on, in rad."""
     step = min(_LONGEST, min(_reach(slope, curve, gap), 0.9 * lean))
-    # Less, since the bound's curve rises; integrated twice it is this logarithm. What rises is convex, so it stays below
-    # the chord from here: where it ends little above the gap, as much less of a step is enough.
+    # Less, since the bound's curve rises; integrated twice it is this logarithm. What rises is convex, so it stays
+    # below the chord from here: where it ends little above the gap, as much less of a step is enough.
     cotangent = 2.0 * math.cos(2.0 * lean) / math.sin(2.0 * lean)
     while True:
         rise = slope * step - math.log(math.sin(2.0 * (lean - step)) / math.sin(2.0 * lean)) - cotangent * step

@@ -114,7 +114,7 @@ cdef class OutlineRectangles:
     )
     cdef Py_ssize_t _cut(self, double angle) except -1
 
-    @cython.locals(ring="double[::1]", trapezoid="double[::1]")
+    @cython.locals(ring="double[::1]", trapezoid="double[::1]", cut=bint, gone=bint, other_gone=bint, has_two=bint)
     cdef Py_ssize_t _octagon(
         self, Py_ssize_t i, Py_ssize_t k, double low, double high, Py_ssize_t start, Py_ssize_t end
     ) noexcept

@@ -153,6 +153,7 @@ def largest_parallelogram(ring, n, out):
     size = 0.0
     for i in range(2 * n):
         size = max(size, abs(ring[i]))
+    slack = 1e-11 * size * size
     for a in range(n):
         ax = ring[2 * a]
         ay = ring[2 * a + 1]
@@ -241,57 +242,65 @@ def largest_parallelogram(ring, n, out):
             py = d0y + e0 * dy
             q1 = bx * py - by * px + e1 * (b0x * dy - b0y * dx)
             q2 = e1 * (bx * dy - by * dx)
-            # At both ends and at the summit; D from its edge, then C from its own: where C's and D's edges are almost
-            # parallel, rounding moves one of them off, and only what stays on the boundary counts.
-            for trial in range(6):
-                s = t
-                if trial >= 4:
-                    if q2 >= 0.0:
-                        break
-                    s = -0.5 * q1 / q2
-                    if not t < s < end:
-                        break
-                elif trial >= 2:
-                    s = end
-                ux = b0x + s * bx
-                uy = b0y + s * by
-                if trial % 2 == 0:
-                    e = min(1.0, max(0.0, e0 + e1 * s))
-                    if trial == 2 and event == 1:
-                        e = 1.0
-                    vx = d0x + e * dx
-                    vy = d0y + e * dy
-                    value = ux * vy - uy * vx
-                    if value <= best:
-                        continue
-                    wx = vx + ux - c0x
-                    wy = vy + uy - c0y
-                    off = wx * cy - wy * cx
-                    along = (wx * cx + wy * cy) / (cx * cx + cy * cy)
-                    limit = 1e-14 * size * (abs(cx) + abs(cy))
-                else:
-                    g = min(1.0, max(0.0, g0 + g1 * s))
-                    if trial == 3 and event == 2:
-                        g = 1.0
-                    elif trial == 3 and event == 3:
-                        g = 0.0
-                    vx = c0x + g * cx - ux
-                    vy = c0y + g * cy - uy
-                    value = ux * vy - uy * vx
-                    if value <= best:
-                        continue
-                    wx = vx - d0x
-                    wy = vy - d0y
-                    off = wx * dy - wy * dx
-                    along = (wx * dx + wy * dy) / (dx * dx + dy * dy)
-                    limit = 1e-14 * size * (abs(dx) + abs(dy))
-                if abs(off) <= limit and -1e-13 <= along <= 1.0 + 1e-13:
-                    best = value
-                    best_a = a
-                    best_bx = ux
-                    best_by = uy
-                    best_dx = vx
-                    best_dy = vy
+            # No place is looked at where the parabola stays below the best by more than rounding moves it.
+            here = t * (q1 + q2 * t)
+            there = end * (q1 + q2 * end)
+            if there > here:
+                here = there
+            if q2 < 0.0 and t < -0.5 * q1 / q2 < end:
+                here = -0.25 * q1 * q1 / q2
+            if here + b0x * py - b0y * px + slack > best or turn <= 1e-3 * (abs(cx) + abs(cy)) * (abs(dx) + abs(dy)):
+                # At both ends and at the summit; D from its edge, then C from its own: where C's and D's edges are
+                # almost parallel, rounding moves one of them off, and only what stays on the boundary counts.
+                for trial in range(6):
+                    s = t
+                    if trial >= 4:
+                        if q2 >= 0.0:
+                            break
+                        s = -0.5 * q1 / q2
+                        if not t < s < end:
+                            break
+                    elif trial >= 2:
+                        s = end
+                    ux = b0x + s * bx
+                    uy = b0y + s * by
+                    if trial % 2 == 0:
+                        e = min(1.0, max(0.0, e0 + e1 * s))
+                        if trial == 2 and event == 1:
+                            e = 1.0
+                        vx = d0x + e * dx
+                        vy = d0y + e * dy
+                        value = ux * vy - uy * vx
+                        if value <= best:
+                            continue
+                        wx = vx + ux - c0x
+                        wy = vy + uy - c0y
+                        off = wx * cy - wy * cx
+                        along = (wx * cx + wy * cy) / (cx * cx + cy * cy)
+                        limit = 1e-14 * size * (abs(cx) + abs(cy))
+                    else:
+                        g = min(1.0, max(0.0, g0 + g1 * s))
+                        if trial == 3 and event == 2:
+                            g = 1.0
+                        elif trial == 3 and event == 3:
+                            g = 0.0
+                        vx = c0x + g * cx - ux
+                        vy = c0y + g * cy - uy
+                        value = ux * vy - uy * vx
+                        if value <= best:
+                            continue
+                        wx = vx - d0x
+                        wy = vy - d0y
+                        off = wx * dy - wy * dx
+                        along = (wx * dx + wy * dy) / (dx * dx + dy * dy)
+                        limit = 1e-14 * size * (abs(dx) + abs(dy))
+                    if abs(off) <= limit and -1e-13 <= along <= 1.0 + 1e-13:
+                        best = value
+                        best_a = a
+                        best_bx = ux
+                        best_by = uy
+                        best_dx = vx
+                        best_dy = vy
             t = end
             if event == 0:
                 b += 1
