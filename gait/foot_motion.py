@@ -116,6 +116,7 @@ class FootMotion:
         self.surprise = 0.0
         self._lowered = self._lowering = 0.0
         self._touch = (0.0, 0.0)
+        self._rises_first: set[Side] = set()
 
     @property
     def last_side(self) -> Side | None:
@@ -220,7 +221,9 @@ class FootMotion:
             phase.end - phase.start,
             approach_height=self._landing.approach_height,
             approach_speed=self._landing.approach_speed,
+            rises_first=side in self._rises_first,
         )
+        self._rises_first.discard(side)
         self._step = phase.step
         self._start = phase.start
         self.surprise = 0.0
@@ -243,6 +246,7 @@ class FootMotion:
         self._height = min(height, _RETAKE_HEIGHT)
         self._begin(Phase(PhaseKind.SINGLE_SUPPORT, self._step, time, time + duration, step.side), step.side, frame)
         self._expected, self._height = expected, height
+        self._rises_first.add(step.side)  # what it has met stands beside it then
 
     def _comply(
         self,

@@ -26,6 +26,9 @@ _RISE_SHARE = 0.28
 _HIGH_SHARE = 0.34
 """Share of such a swing after which it comes down: what moves under the foot meanwhile has to pass below it."""
 
+_FIRST_SHARE = 0.14
+"""Share of such a swing after which one that rises first moves horizontally: half of its height."""
+
 _SKEW = 0.8
 """Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
 
@@ -61,6 +64,8 @@ class SwingTrajectory:
         approach_height: Height in m above the end at which a slow approach begins, 0.44 of the duration before its end;
             0 comes down in one move.
         approach_speed: Speed in m/s of the approach, which goes on below the end; raised where it would not reach it.
+        rises_first: Whether the foot is up before it moves horizontally, for something that stands beside it; only
+            of a swing with a slow approach.
     """
 
     start: NDArray[np.float64]
@@ -73,6 +78,7 @@ class SwingTrajectory:
     lateral_hold: float = 0.06
     approach_height: float = 0.0
     approach_speed: float = 0.06
+    rises_first: bool = False
 
     @property
     def lifted(self) -> float:
@@ -92,7 +98,8 @@ class SwingTrajectory:
         first = self.lateral_hold * self.duration
         share = (time - first) / (self.arrived - first)
         if self.approach_height > 0.0:
-            share = max(0.0, time / self.arrived) ** _SKEW
+            first = _FIRST_SHARE * self.duration if self.rises_first else 0.0
+            share = max(0.0, (time - first) / (self.arrived - first)) ** _SKEW
         blend, _ = minimum_jerk(share)
         position = self.start + blend * (self.end - self.start)
         position[2] = self._height(time)

@@ -98,3 +98,22 @@ def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, sp
             break
     assert spikes == 3
     assert motion.landed == landed
+
+
+def test_a_foot_that_met_something_rises_first_in_its_next_step() -> None:
+    """What a foot refused stands beside it when it goes on; a swing that moved at once would hit it."""
+    feet, steps = straight_plan(3)
+    schedule = WalkSchedule(steps, Timing())
+    motion = FootMotion(feet, schedule, PERIOD, 0.05, Landing(approach_height=0.015))
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    ahead: dict[int, list[float]] = {0: [], 1: [], 2: []}
+    for k in range(round(schedule.end / PERIOD)):
+        time = k * PERIOD
+        phase = schedule.at(time)
+        began = motion.update(phase, time, {"left": 400.0, "right": 400.0}, frame)
+        if began and phase.step == 0:
+            motion.retake(time, phase.end - time, frame)
+        if phase.swing is not None and time - phase.start < 0.13 * (phase.end - phase.start):
+            ahead[phase.step].append(float(motion.ahead[0]))
+    assert np.ptp(ahead[2]) == 0.0
+    assert np.ptp(ahead[1]) > 0.005

@@ -1,4 +1,5 @@
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -43,13 +44,21 @@ def test_turns_the_short_way() -> None:
     assert abs(yaw - 3.0) < 0.3
 
 
-def slow(**options: float) -> tuple[np.ndarray, np.ndarray]:
+def slow(**options: Any) -> tuple[np.ndarray, np.ndarray]:
     swing = SwingTrajectory(np.array([0.0, 0.1, 0.0]), np.array([0.4, 0.1, 0.0]), 0.0, 0.2, 0.05, 0.9, **options)
     time = np.linspace(0.0, 0.9, 1801)
     return time, np.array([swing.at(t)[0] for t in time])
 
 
-@pytest.mark.parametrize("options", [{}, {"approach_height": 0.015}, {"approach_height": 0.03, "approach_speed": 0.1}])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"approach_height": 0.015},
+        {"approach_height": 0.03, "approach_speed": 0.1},
+        {"approach_height": 0.015, "rises_first": True},
+    ],
+)
 def test_speed_does_not_jump(options: dict[str, float]) -> None:
     time, track = slow(**options)
     speed = np.diff(track, axis=0) / (time[1] - time[0])
@@ -75,3 +84,13 @@ def test_a_toe_is_above_the_next_stone_when_it_comes_to_it() -> None:
     ahead = 0.109  # m from the toe of a sole of 0.241 m to a stone 0.4 m further on, 50 mm larger at each end
     height = track[np.searchsorted(track[:, 0], ahead), 2]
     assert height > 0.035  # the stones of `uneven` differ by up to 30 mm
+
+
+def test_a_foot_that_rises_first_is_half_up_before_it_moves_and_arrives_with_the_others() -> None:
+    time, track = slow(approach_height=0.015)
+    _, first = slow(approach_height=0.015, rises_first=True)
+    assert (first[:, 2] == track[:, 2]).all()
+    heights = [rows[np.argmax(rows[:, 0] > 0.005), 2] for rows in (first, track)]  # where it has moved by 5 mm
+    assert heights[0] > 0.6 * 0.05
+    assert heights[1] < 0.1 * 0.05
+    assert np.allclose(first[time >= 0.62 * 0.9, :2], [0.4, 0.1])
