@@ -80,7 +80,7 @@ class GroundMap:
         self._most = float(gains.readings_moving)
         self._noise = _LEAST_NOISE
         self._rising = False
-        self._stood: float | None = None
+        self._stood: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
         self._liftoff: float | None = None
         self._poses: deque[tuple[float, NDArray[np.float64], NDArray[np.float64]]] = deque(maxlen=_REMEMBERED)
         self._rise = np.zeros(len(layout))  # of each taxel from the last pose but one to the last
@@ -97,7 +97,8 @@ class GroundMap:
         self._read = -math.inf
         self._poses.clear()
         self._rising = True
-        self._liftoff, self._stood = self._stood, None
+        self._liftoff = None if self._stood is None else self._height(*self._stood)
+        self._stood = None
 
     def stand(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> None:
         """The sole carries load here: it lifts off from the last height at which it did.
@@ -106,7 +107,7 @@ class GroundMap:
             position: Sole position (3,) in the world as estimated in m.
             rotation: Rotation (3, 3) from the sole to the world as estimated.
         """
-        self._stood = self._height(position, rotation)
+        self._stood = (position, rotation)
 
     def look(
         self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
