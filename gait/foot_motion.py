@@ -107,6 +107,7 @@ class FootMotion:
         self._landing = landing
         self._compliance = compliance
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in _SIDES}
+        self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
         self._expected = float(np.mean([feet[s].z for s in _SIDES]))
         self._swing: SwingTrajectory | None = None
@@ -139,8 +140,14 @@ class FootMotion:
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
-        level = level_rotation(self.footholds[side][1])
-        return level if self._compliance is None else np.asarray(level.dot(self._tilts[side]))
+        yaw, tilt = self.footholds[side][1], self._tilts[side]
+        known = self._rotations.get(side)
+        if known is None or known[0] != yaw or known[1] is not tilt:
+            level = level_rotation(yaw)
+            rotation = level if self._compliance is None else np.asarray(level.dot(tilt))
+            rotation.flags.writeable = False  # shared until the foot moves
+            known = self._rotations[side] = (yaw, tilt, rotation)
+        return known[2]
 
     def turn_standing(self, side: Side, turn: NDArray[np.float64], pivot: NDArray[np.float64]) -> None:
         """Turn the sole of a foot that stands a little further.
