@@ -38,7 +38,6 @@ class LegServos:
         self._period = period
         self._last: NDArray[np.float64] | None = None
         self._controls = world.data.ctrl
-        self._servos = _as_slice(world.servos)
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
         self.out_of_reach_since: float | None = None
@@ -53,7 +52,7 @@ class LegServos:
         self._last = joints.copy()
         self._setpoint = joints + torques / self._world.stiffness
         self._rate = np.zeros_like(joints)
-        self._controls[self._servos] = self._setpoint
+        self._controls[self._world.servos] = self._setpoint
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad."""
@@ -80,12 +79,5 @@ class LegServos:
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""
-        self._controls[self._servos] = self._setpoint
+        self._controls[self._world.servos] = self._setpoint
         self._setpoint = self._setpoint + self._rate
-
-
-def _as_slice(indices: NDArray[np.int64]) -> slice | NDArray[np.int64]:
-    """Indices (k,) as a slice where they are in a row, which writes in a third of the time."""
-    first = int(indices[0])
-    in_a_row = np.array_equal(indices, np.arange(first, first + len(indices)))
-    return slice(first, first + len(indices)) if in_a_row else indices

@@ -26,7 +26,7 @@ def cast_rays(starts, ways, reach, ids, kinds, sizes, bounds, positions, frames,
         bounds: Radius (k,) in m of the sphere about a solid's middle that holds it; not read for a plane.
         positions: Middles (m, 3) in the world in m.
         frames: Rotations (m, 9) from a solid to the world, row by row.
-        lengths: Receives the lengths (n,) in m; -1 for a ray that meets nothing within `reach`, or possibly beyond it.
+        lengths: Receives the lengths (n,) in m; -1 where a ray meets nothing; beyond `reach` it may be left out.
     """
     n = starts.shape[0]
     x = y = z = 0.0
