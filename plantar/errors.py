@@ -9,7 +9,8 @@
     ├── FootError                a foot's geometry cannot carry a shoe
     ├── RobotError               a robot description is not valid
     ├── SceneError               a scene description is not valid
-    └── DependencyError          an optional library is missing; holds the command that installs it
+    ├── WorkerError              the workers of a sweep cannot run or went away; the command line exits 1
+    └── DependencyError          an optional library is missing (holds the command that installs it) or cannot be loaded
 
 Each message says what is wrong and what is allowed, in one line.
 """
@@ -27,6 +28,7 @@ __all__ = [
     "RecordingError",
     "RobotError",
     "SceneError",
+    "WorkerError",
 ]
 
 
@@ -66,19 +68,30 @@ class SceneError(PlantarError):
     """A scene description is not valid."""
 
 
+class WorkerError(PlantarError):
+    """What shall run a sweep cannot, or went away; nothing is wrong with what was asked."""
+
+
 class DependencyError(PlantarError):
-    """An optional library is missing.
+    """An optional library is missing or cannot be loaded.
 
     Args:
         library: Name of the library as it is imported.
         extra: Name of the Plantar extra that brings it.
+        reason: Why it cannot be loaded where it is installed; None where it is not.
     """
 
-    def __init__(self, library: str, extra: str) -> None:
-        super().__init__(f"{library} is not installed; install it with: pip install 'plantar[{extra}]'")
+    def __init__(self, library: str, extra: str, reason: str | None = None) -> None:
+        if reason is None:
+            text = f"{library} is not installed; install it with: pip install 'plantar[{extra}]'"
+        else:
+            reason = " ".join(reason.split())[:300]
+            text = f"{library} is installed but cannot be loaded ({reason}); repair it or what it needs"
+        super().__init__(text)
         self.library = library
         self.extra = extra
+        self.reason = reason
 
-    def __reduce__(self) -> tuple[type[DependencyError], tuple[str, str]]:
-        """Rebuild from both arguments, so that the error crosses to another process."""
-        return type(self), (self.library, self.extra)
+    def __reduce__(self) -> tuple[type[DependencyError], tuple[str, str, str | None]]:
+        """Rebuild from the arguments, so that the error crosses to another process."""
+        return type(self), (self.library, self.extra, self.reason)

@@ -1,9 +1,11 @@
-"""Members of an object that are computed when they are first asked for, and kept."""
+"""Members of an object that are computed when they are first asked for, and kept; arrays among them read-only."""
 
 from __future__ import annotations
 
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+from plantar.arrays import read_only
 
 __all__ = ["lazy"]
 
@@ -13,6 +15,8 @@ else:
 
     class lazy(cached_property):
         """`cached_property` without the lock that Python 3.11 takes at each first use, half of a cheap member.
+
+        What is kept is handed out again: an array, also one in a tuple, is closed to writing.
 
         Example:
             >>> class Squares:
@@ -30,5 +34,5 @@ else:
             """Compute the member and keep it in the instance, which is where Python looks first from then on."""
             if instance is None:
                 return self
-            value = instance.__dict__[self.attrname] = self.func(instance)
+            value = instance.__dict__[self.attrname] = read_only(self.func(instance))
             return value

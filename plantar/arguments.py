@@ -1,0 +1,180 @@
+"""Single arguments as callers hand them over, checked once where they come in: numbers, objects, lists of objects.
+
+`plantar.arrays` is the same for arrays, `plantar.plane_points` for points of the plane, `plantar.taxel_values` for what
+belongs to the taxels of a layout. Every public function takes its arguments through them, so that all accept and refuse
+the same, with an error that names the argument, what it is and what is allowed.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable
+from typing import TypeVar
+
+import numpy as np
+
+from plantar.errors import InputError, PlantarError
+
+__all__ = ["LARGEST", "does", "instance", "integer", "items", "number"]
+
+LARGEST = 1e100
+"""Largest absolute value of a number that has to be finite: products of a few of them are finite too."""
+
+_SINGULAR = {"are": "is", "have": "has", "hold": "holds"}
+_Kind = TypeVar("_Kind")
+_Value = TypeVar("_Value")
+
+
+def number(
+    value: object, name: str, error: type[PlantarError] = InputError, *, finite: bool = False, nan: bool = False
+) -> float:
+    """One real number.
+
+    Args:
+        value: What a caller handed over.
+        name: What it is, the subject of an error.
+        error: Which error to raise.
+        finite: Refuse inf, and what is beyond `LARGEST`.
+        nan: Let NaN pass.
+
+    Returns:
+        It as a float.
+
+    Raises:
+        PlantarError: If it is no real number, NaN, or not finite where it has to be.
+
+    Example:
+        >>> number(np.float32(0.5), "threshold"), number(np.array(2), "threshold")
+        (0.5, 2.0)
+        >>> number("1", "threshold")
+        Traceback (most recent call last):
+        plantar.errors.InputError: threshold is '1'; expected a number
+    """
+    kind = type(value)
+    plain: float = value if kind is float or kind is np.float64 else _float(value, name, error)  # type: ignore[assignment]
+    if not -LARGEST <= plain <= LARGEST:
+        if plain != plain and not nan:
+            raise error(f"{does(name, 'are')} NaN; expected a number")
+        if finite:
+            raise error(f"{does(name, 'are')} {plain}; expected a finite number")
+    return plain
+
+
+def integer(value: object, name: str, low: int, high: int | None = None, error: type[PlantarError] = InputError) -> int:
+    """One whole number in a range.
+
+    Args:
+        value: What a caller handed over.
+        name: What it is, the subject of an error.
+        low: Smallest that is allowed.
+        high: Largest that is allowed; no end where None.
+        error: Which error to raise.
+
+    Returns:
+        It as an int.
+
+    Raises:
+        PlantarError: If it is no whole number, or out of the range.
+
+    Example:
+        >>> integer(np.int64(3), "frame", 0, 9)
+        3
+    """
+    try:
+        whole = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        whole = low - 1
+    if isinstance(value, bool | np.bool_) or whole < low or (high is not None and whole > high):
+        span = f"{low} or more" if high is None else f"{low} to {high}"
+        raise error(f"{does(name, 'are')} {_short(value)}; allowed: a whole number, {span}")
+    return whole
+
+
+def instance(value: _Kind, kind: type, name: str, error: type[PlantarError] = InputError) -> _Kind:
+    """An object of a class.
+
+    Args:
+        value: What a caller handed over.
+        kind: The class.
+        name: What it is, the subject of an error.
+        error: Which error to raise.
+
+    Returns:
+        The object.
+
+    Raises:
+        PlantarError: If it is of another class.
+
+    Example:
+        >>> instance(3, str, "name")
+        Traceback (most recent call last):
+        plantar.errors.InputError: name is 3; expected a str
+    """
+    if not isinstance(value, kind):
+        raise error(f"{does(name, 'are')} {_short(value)}; expected a {kind.__name__}")
+    return value
+
+
+def items(value: Iterable[_Value], name: str, error: type[PlantarError] = InputError) -> tuple[_Value, ...]:
+    """Several objects in a row.
+
+    Args:
+        value: What a caller handed over.
+        name: What they are, the subject of an error.
+        error: Which error to raise.
+
+    Returns:
+        They as a tuple.
+
+    Raises:
+        PlantarError: If it is nothing that can be gone through.
+
+    Example:
+        >>> items(range(2), "poses")
+        (0, 1)
+    """
+    try:
+        return tuple(value)
+    except TypeError:
+        raise error(f"{does(name, 'are')} {_short(value)}; expected a list") from None
+
+
+def does(name: str, verb: str) -> str:
+    """Subject and verb of an error.
+
+    Args:
+        name: What a caller handed over; a plural where it, or what stands before "of", ends in s.
+        verb: "are", "have" or "hold".
+
+    Returns:
+        Both, in agreement.
+
+    Example:
+        >>> does("forces", "are"), does("polygon", "have"), does("mask of taxels", "hold")
+        ('forces are', 'polygon has', 'mask of taxels holds')
+    """
+    return f"{name} {verb if name.partition(' of ')[0].endswith('s') else _SINGULAR[verb]}"
+
+
+def _float(value: object, name: str, error: type[PlantarError]) -> float:
+    """What a number that is not a float yet is as one."""
+    try:
+        if isinstance(value, int):
+            return float(value)
+        held = np.asarray(value)
+        if held.ndim == 0 and held.dtype.kind in "fiub" and not np.ma.is_masked(value):
+            return float(held)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise error(f"{does(name, 'are')} {_short(value)}; expected a number")
+
+
+def _short(value: object) -> str:
+    """A value in an error: as it is written where that is short, else what it is."""
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    if value is None or isinstance(value, str | int | float | complex | np.generic):
+        text = repr(value)
+        if len(text) <= 40 and text.isprintable():
+            return text
+    return f"a {type(value).__name__}"

@@ -1,0 +1,72 @@
+"""Points of the plane as callers hand them over, checked once where they come in."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import LARGEST, does
+from plantar.arrays import not_finite, numbers
+from plantar.errors import InputError
+from plantar.kernels.limits import points_within
+
+__all__ = ["plane_point", "plane_points"]
+
+_FLOAT = np.dtype(np.float64)
+
+
+def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -> NDArray[np.float64]:
+    """Points of the plane; an empty list is no points.
+
+    Args:
+        value: What a caller handed over.
+        name: What it is, the subject of an error.
+        finite: Refuse NaN, inf, and what is beyond `LARGEST`.
+
+    Returns:
+        Points (k, 2), not copied where they are an array of float64.
+
+    Raises:
+        InputError: If these are not (k, 2) real numbers, or not finite where they have to be.
+
+    Example:
+        >>> plane_points([]).shape
+        (0, 2)
+        >>> plane_points([[0.0, 0.0, 1.0]])
+        Traceback (most recent call last):
+        plantar.errors.InputError: polygon has shape (1, 3); expected (k, 2)
+    """
+    points = value if type(value) is np.ndarray and value.dtype is _FLOAT else numbers(value, name)
+    if points.ndim != 2 or points.shape[1] != 2:
+        if points.shape == (0,):
+            return points.reshape(0, 2)
+        raise InputError(f"{does(name, 'have')} shape {points.shape}; expected (k, 2)")
+    if finite and not points_within(points, LARGEST):
+        raise not_finite(points, name)
+    return points
+
+
+def plane_point(value: object, name: str = "point") -> tuple[float, float]:
+    """One point of the plane, NaN or not.
+
+    Args:
+        value: What a caller handed over.
+        name: What it is, the subject of an error.
+
+    Returns:
+        Its x and y.
+
+    Raises:
+        InputError: If these are not two real numbers.
+
+    Example:
+        >>> plane_point([1, 2])
+        (1.0, 2.0)
+    """
+    if type(value) is tuple and len(value) == 2 and type(value[0]) is float and type(value[1]) is float:
+        return value
+    given = numbers(value, name)
+    if given.shape != (2,):
+        raise InputError(f"{does(name, 'have')} shape {given.shape}; expected (2,)")
+    x, y = given.tolist()
+    return x, y
