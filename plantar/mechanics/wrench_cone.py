@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 
-__all__ = ["FootContact", "Rectangle", "cone_rows", "wrench_cone"]
+__all__ = ["Rectangle", "cone_rows", "wrench_cone"]
 
 
 class Rectangle(NamedTuple):
@@ -34,38 +33,6 @@ class Rectangle(NamedTuple):
     def center(self) -> tuple[float, float]:
         """Its middle (x, y) in m."""
         return 0.5 * (self.x_min + self.x_max), 0.5 * (self.y_min + self.y_max)
-
-
-@dataclass(frozen=True)
-class FootContact:
-    """A contact of one foot with the ground. Give the same object while nothing changes: programs keep what it made.
-
-    Attributes:
-        position: Origin (3,) of the contact frame in the world in m, for example the sole frame's.
-        rotation: Rotation (3, 3) from the contact to the world frame.
-        rectangle: The contact area in the contact frame.
-        friction: Coefficient of the friction pyramid, above 0.
-        preferred: Point (x, y) of the contact frame in m at which the foot likes its centre of pressure; the
-            rectangle's middle where None.
-    """
-
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    rectangle: Rectangle
-    friction: float = 0.6
-    preferred: tuple[float, float] | None = None
-
-    @property
-    def limits(self) -> tuple[Rectangle, float, tuple[float, float] | None]:
-        """What does not depend on where the contact is."""
-        return self.rectangle, self.friction, self.preferred
-
-    @cached_property
-    def center_in_world(self) -> tuple[float, float, float]:
-        """The preferred centre of pressure in the world frame in m."""
-        x, y = self.preferred or self.rectangle.center
-        point = self.position + self.rotation @ np.array([x, y, 0.0])
-        return float(point[0]), float(point[1]), float(point[2])
 
 
 def wrench_cone(rectangle: Rectangle, friction: float) -> NDArray[np.float64]:

@@ -1,10 +1,11 @@
 import math
+import re
+from pathlib import Path
 
 import pytest
 
-from gait.lip import GRAVITY, pendulum_frequency
 from plantar.errors import InputError
-from plantar.zmp import divergent_component
+from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
 
 
 def test_frequency_is_that_of_the_pendulum() -> None:
@@ -26,3 +27,12 @@ def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there() -> None:
         x += dt * v
     assert x == pytest.approx(xi + (start - xi) * math.exp(-omega * 0.5), abs=1e-5)
     assert divergent_component(x, v, omega) == pytest.approx(xi, abs=1e-5)
+
+
+def test_free_fall_stands_in_one_place() -> None:
+    root = Path(__file__).resolve().parents[3]
+    folders = ("plantar", "gait", "wholebody", "sim", "shoes")
+    files = [path for folder in folders for path in (root / folder).rglob("*.py")]
+    # 9.80665 in plantar/formats/units.py is the definition of a unit.
+    found = {p.relative_to(root).as_posix() for p in files if re.search(r"\b9\.81", p.read_text(encoding="utf-8"))}
+    assert found == {"plantar/mechanics/lip.py"}

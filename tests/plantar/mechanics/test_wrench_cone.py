@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from gait.wrench_cone import Rectangle, wrench_cone
 from plantar.errors import InputError
+from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 
 ASYMMETRIC = Rectangle(-0.08, 0.13, -0.03, 0.09)
 

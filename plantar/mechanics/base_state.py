@@ -1,0 +1,36 @@
+"""State of a floating base with its contacts, as an estimator gives it to all who plan and balance."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["BaseState"]
+
+
+@dataclass(frozen=True)
+class BaseState:
+    """Estimated state, world frame. Contacts have names, the feet of a biped "left" and "right".
+
+    Attributes:
+        rotation_base_to_world: Rotation (3, 3).
+        position_base: Base position (3,) in m.
+        com: CoM (3,) in m.
+        com_velocity: CoM velocity (3,) in m/s.
+        zmp: Composite ZMP (2,) in m of what the contacts carry, or None without load.
+        loads: Vertical force on each contact in N, less its tare.
+        positions_sole: Contact frame's origin (3,) of each, for example a sole's, in m.
+        rotations_sole: Rotation (3, 3) from each contact frame to the world frame.
+    """
+
+    rotation_base_to_world: NDArray[np.float64]
+    position_base: NDArray[np.float64]
+    com: NDArray[np.float64]
+    com_velocity: NDArray[np.float64]
+    zmp: NDArray[np.float64] | None
+    loads: Mapping[str, float]
+    positions_sole: Mapping[str, NDArray[np.float64]]
+    rotations_sole: Mapping[str, NDArray[np.float64]]

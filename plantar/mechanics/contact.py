@@ -1,0 +1,64 @@
+"""Contacts of a robot with the world: feet, hands, whatever touches; each with a name, any number of them.
+
+Where several matter, they come as an ordered mapping from name to contact. What is computed from them keeps the order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.mechanics.wrench import wrench_in_frame
+from plantar.mechanics.wrench_cone import Rectangle
+
+__all__ = ["Contact", "Contacts"]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A contact of a flat part of the robot. Give the same object while nothing changes: programs keep what it made.
+
+    Attributes:
+        position: Origin (3,) of the contact frame in the world in m, for example the sole frame's.
+        rotation: Rotation (3, 3) from the contact to the world frame.
+        rectangle: The contact area in the contact frame.
+        friction: Coefficient of the friction pyramid, above 0.
+        preferred: Point (x, y) of the contact frame in m at which it likes its centre of pressure; the rectangle's
+            middle where None.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    rectangle: Rectangle
+    friction: float = 0.6
+    preferred: tuple[float, float] | None = None
+
+    @property
+    def limits(self) -> tuple[Rectangle, float, tuple[float, float] | None]:
+        """What does not depend on where the contact is."""
+        return self.rectangle, self.friction, self.preferred
+
+    @cached_property
+    def center_in_world(self) -> tuple[float, float, float]:
+        """The preferred centre of pressure in the world frame in m."""
+        x, y = self.preferred or self.rectangle.center
+        point = self.position + self.rotation @ np.array([x, y, 0.0])
+        return float(point[0]), float(point[1]), float(point[2])
+
+    def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
+        """A wrench (..., 6) about the contact frame's origin as one about the world's origin, in N and N m.
+
+        Example:
+            >>> hand = Contact(np.array([0.3, 0.0, 1.0]), np.eye(3), Rectangle(-0.04, 0.04, -0.04, 0.04))
+            >>> hand.wrench_in_world([0.0, 0.0, 10.0, 0.0, 0.0, 0.0]).tolist()
+            [0.0, 0.0, 10.0, 0.0, -3.0, 0.0]
+        """
+        return wrench_in_frame(wrench, self.rotation, self.position)
+
+
+Contacts = Mapping[str, Contact]
+"""Contacts by name, in order."""

@@ -1,0 +1,69 @@
+"""Linear inverted pendulum and its divergent component of motion, DCM (T 4.1)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import is_finite, numbers
+from plantar.errors import InputError
+
+__all__ = ["GRAVITY", "divergent_component", "pendulum_frequency"]
+
+GRAVITY = 9.81
+"""Acceleration of free fall in m/s^2, as every part of the distribution takes it."""
+
+
+def pendulum_frequency(com_height: float) -> float:
+    """Natural frequency omega = sqrt(g / z_x) of the pendulum (T 4.1).
+
+    Args:
+        com_height: Height of the CoM above the ground in m, above 0.
+
+    Returns:
+        Frequency in rad/s.
+
+    Raises:
+        InputError: If the height is not a positive finite number.
+
+    Example:
+        >>> round(pendulum_frequency(0.8), 4)
+        3.5018
+    """
+    height = number(com_height, "CoM height", nan=True)
+    if not 0.0 < height < math.inf:
+        raise InputError(f"CoM height is {com_height} m; allowed: a finite value above 0")
+    return math.sqrt(GRAVITY / height)
+
+
+def divergent_component(com: ArrayLike, com_velocity: ArrayLike, omega: float) -> NDArray[np.float64]:
+    """Divergent component of motion xi = x + x' / omega of the CoM (T 4.9, T 4.27).
+
+    Args:
+        com: CoM position (..., d) in m.
+        com_velocity: CoM velocity (..., d) in m/s.
+        omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
+
+    Returns:
+        DCM (..., d) in m.
+
+    Raises:
+        InputError: If omega is not a finite value above 0, or position and velocity differ in shape or are not numeric.
+
+    Example:
+        >>> divergent_component([0.0, 0.1], [0.5, 0.0], 4.0).tolist()
+        [0.125, 0.1]
+    """
+    rate = number(omega, "pendulum frequency", nan=True)
+    if not 0.0 < rate < math.inf:
+        raise InputError(f"pendulum frequency is {omega} rad/s; allowed: a finite value above 0")
+    position, velocity = numbers(com, "CoM"), numbers(com_velocity, "velocity of the CoM")
+    if position.shape != velocity.shape:
+        raise InputError(f"CoM has shape {position.shape}, its velocity {velocity.shape}; expected the same")
+    if is_finite(velocity):
+        return position + velocity / rate
+    with np.errstate(over="ignore", invalid="ignore"):
+        return position + velocity / rate

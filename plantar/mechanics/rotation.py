@@ -1,0 +1,175 @@
+"""Rotations in space, SO(3): exponential and logarithm, heading, level rotations, orthonormalisation.
+
+A rotation is a matrix (3, 3); R_a_to_b takes vectors of frame a into frame b. A rotation vector (3,) is the unit axis
+times the angle in rad; its exponential is the rotation (Rodrigues), and the logarithm leads back.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "heading",
+    "level_rotation",
+    "orthonormalised",
+    "rotation_error",
+    "rotation_from_angles",
+    "rotation_from_vector",
+    "sine_vector",
+    "vector_from_rotation",
+]
+
+_THREE_HALVES = 1.5 * np.eye(3)
+_SMALL = 1e-6
+"""Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms of size
+a^2, 4e-26."""
+
+_NEAR_HALF_TURN = -0.9
+"""Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there."""
+
+
+def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Exponential map: rotation of a rotation vector (Rodrigues), exact to rounding for every angle.
+
+    Args:
+        vector: Axis times angle (3,) in rad.
+
+    Returns:
+        Rotation (3, 3).
+
+    Example:
+        >>> rotation_from_vector(np.array([0.0, 0.0, np.pi / 2])).round(9)[:, 0].tolist()
+        [0.0, 1.0, 0.0]
+    """
+    x, y, z = vector.tolist()
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < _SMALL:
+        s, c = 1.0, 0.5
+    else:
+        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
+    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
+    x, y, z = s * x, s * y, s * z
+    return np.array([[1.0 - yy - zz, xy - z, xz + y], [xy + z, 1.0 - xx - zz, yz - x], [xz - y, yz + x, 1.0 - xx - yy]])
+
+
+def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Axis times sine of the angle: the antisymmetric part of a rotation, its logarithm to first order.
+
+    Args:
+        rotation: Rotation (3, 3).
+
+    Returns:
+        Vector (3,), of length 1 for a quarter turn and 0 again for a half turn.
+
+    Example:
+        >>> sine_vector(level_rotation(np.pi / 2)).tolist()
+        [0.0, 0.0, 1.0]
+    """
+    (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation.tolist()
+    return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])
+
+
+def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Logarithm map: the shortest rotation vector of a rotation, exact to rounding for every angle.
+
+    From R - R^T = 2 sin a [n]x and, near half a turn, where that vanishes, R + R^T - 2 cos a I = 2 (1 - cos a) n n^T.
+
+    Args:
+        rotation: Rotation (3, 3).
+
+    Returns:
+        Axis times angle (3,) in rad, of length 0 to pi; of half a turn, one of its two vectors.
+
+    Example:
+        >>> vector_from_rotation(level_rotation(3.0)).round(9).tolist()
+        [0.0, 0.0, 3.0]
+    """
+    axis = sine_vector(rotation)
+    sine = math.sqrt(float(axis.dot(axis)))
+    cosine = 0.5 * (float(np.trace(rotation)) - 1.0)
+    if cosine < _NEAR_HALF_TURN:
+        outer = 0.5 * (rotation + rotation.T) - cosine * np.eye(3)
+        column = outer[:, int(np.argmax(outer.diagonal()))]
+        unit = column / math.sqrt(float(column.dot(column)))
+        return np.asarray(unit * math.copysign(math.atan2(sine, cosine), float(unit.dot(axis))))
+    if sine < 1e-9:
+        return axis
+    return np.asarray(axis * (math.atan2(sine, cosine) / sine))
+
+
+def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Error of a rotation as a vector of the frame that both lead to, for feedback and Newton steps.
+
+    Its direction is the axis about which `actual` turns the shortest way into `wanted`. Its length is the sine of the
+    angle up to a quarter turn, the angle itself to first order, and 1 beyond: it never vanishes but where both agree.
+
+    Args:
+        wanted: Rotation (3, 3) to a common frame.
+        actual: Rotation (3, 3) to the same frame.
+
+    Returns:
+        Vector (3,) in the common frame.
+
+    Example:
+        >>> rotation_error(level_rotation(0.1), level_rotation(-3.0)).round(9).tolist()
+        [0.0, 0.0, 1.0]
+    """
+    between = wanted.dot(actual.T)
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = between.tolist()
+    if xx + yy + zz >= 1.0:  # up to a quarter turn
+        return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])
+    turn = vector_from_rotation(between)
+    return np.asarray(turn / math.sqrt(float(turn.dot(turn))))
+
+
+def heading(rotation: NDArray[np.float64]) -> float:
+    """Yaw in rad of a rotation (3, 3) to the world: where its x axis points, seen from above."""
+    return math.atan2(rotation[1, 0], rotation[0, 0])
+
+
+def level_rotation(yaw: float) -> NDArray[np.float64]:
+    """Rotation (3, 3) to the world from a level frame with a heading in rad."""
+    c, s = math.cos(yaw), math.sin(yaw)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:
+    """Rotation by roll, then pitch, then yaw, about fixed axes.
+
+    Args:
+        yaw: Angle about z in rad.
+        pitch: Angle about y in rad; positive lowers the front.
+        roll: Angle about x in rad; positive raises the left.
+
+    Returns:
+        Rotation (3, 3) to the world.
+
+    Example:
+        >>> bool(rotation_from_angles(0.0, pitch=0.1)[2, 0] < 0.0)
+        True
+    """
+    cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def orthonormalised(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """One Newton step towards the nearest rotation, R (3 I - R^T R) / 2: an error e becomes 1.5 e^2.
+
+    Enough for a rotation that is updated at every tick and leaves orthonormality by rounding alone.
+
+    Args:
+        rotation: Matrix (3, 3), almost a rotation.
+
+    Returns:
+        Matrix (3, 3), nearer to one.
+    """
+    return np.asarray(rotation.dot(_THREE_HALVES - 0.5 * rotation.T.dot(rotation)))

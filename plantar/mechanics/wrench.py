@@ -1,0 +1,98 @@
+"""Wrenches: force and moment together, and how they go from one frame to another.
+
+A wrench is an array [fx, fy, fz, tx, ty, tz] in N and N m about its frame's origin, exerted BY the world ON the robot.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arrays import array
+
+__all__ = ["Wrench", "wrench_at", "wrench_in_frame"]
+
+
+class Wrench(NamedTuple):
+    """A wrench with named components, where one reads better than an array; numpy takes it for one.
+
+    Attributes:
+        fx: Force along x in N.
+        fy: Force along y in N.
+        fz: Force along z in N.
+        tx: Moment about x in N m.
+        ty: Moment about y in N m.
+        tz: Moment about z in N m.
+
+    Example:
+        >>> Wrench.of([0.0, 0.0, 100.0, 5.0, -2.0, 0.0]).center_of_pressure
+        (0.02, 0.05)
+    """
+
+    fx: float
+    fy: float
+    fz: float
+    tx: float
+    ty: float
+    tz: float
+
+    @classmethod
+    def of(cls, wrench: ArrayLike) -> Wrench:
+        """The wrench of an array (6,)."""
+        return cls._make(np.asarray(wrench, dtype=float).tolist())
+
+    @property
+    def center_of_pressure(self) -> tuple[float, float] | None:
+        """Point (x, y) of the plane z = 0 in m about which nothing tips (T 4.5-4.6); None without load."""
+        return (-self.ty / self.fz, self.tx / self.fz) if self.fz > 0.0 else None
+
+
+def wrench_at(wrench: ArrayLike, point: ArrayLike) -> NDArray[np.float64]:
+    """The same wrench with its moment taken about another point.
+
+    Args:
+        wrench: Wrench (..., 6) about the frame's origin; one that holds NaN or inf gives such moments.
+        point: New reference point (3,) in the same frame in m.
+
+    Returns:
+        Wrench (..., 6) about `point`: tau_p = tau_o - p x f.
+
+    Raises:
+        InputError: If the shapes are others, or the point is not finite.
+
+    Example:
+        >>> wrench_at(np.array([0.0, 0.0, 10.0, 0.0, -2.0, 0.0]), np.array([0.2, 0.0, 0.0])).tolist()
+        [0.0, 0.0, 10.0, 0.0, 0.0, 0.0]
+    """
+    out = array(wrench, "wrench", (..., 6)).copy()
+    px, py, pz = array(point, "point", (3,), finite=True).tolist()
+    fx, fy, fz = out[..., 0], out[..., 1], out[..., 2]
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+        out[..., 3] -= py * fz - pz * fy
+        out[..., 4] -= pz * fx - px * fz
+        out[..., 5] -= px * fy - py * fx
+    return out
+
+
+def wrench_in_frame(
+    wrench: ArrayLike, rotation: NDArray[np.float64], position: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """A wrench of frame a about the origin of frame b, in b's axes: [R f, R tau + p x R f] (E of T 3.21).
+
+    Args:
+        wrench: Wrench (..., 6) about the origin of a.
+        rotation: Rotation R (3, 3) from a to b.
+        position: Origin p (3,) of a in b in m.
+
+    Returns:
+        Wrench (..., 6) about the origin of b.
+
+    Example:
+        >>> wrench_in_frame([0.0, 0.0, 10.0, 0.0, 0.0, 0.0], np.eye(3), np.array([0.2, 0.0, 0.0])).tolist()
+        [0.0, 0.0, 10.0, 0.0, -2.0, 0.0]
+    """
+    given = np.asarray(wrench, dtype=float)
+    force, moment = given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T
+    return np.concatenate([force, moment + np.cross(position, force)], axis=-1)

@@ -1,0 +1,186 @@
+"""Points of the ground that tell balance: zero moment point and centroidal moment pivot.
+
+A wrench is [fx, fy, fz, tx, ty, tz] in N and N m about the frame's origin, exerted BY the world ON the robot, z up.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import items, number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.plane_points import plane_point
+
+__all__ = ["centroidal_moment_pivot", "zero_moment_wrench", "zmp_in_plane", "zmp_of_feet", "zmp_of_wrench"]
+
+
+def zmp_in_plane(wrench: ArrayLike, height: float = 0.0, minimum_force: float = 1.0) -> NDArray[np.float64] | None:
+    """Zero moment point of a wrench in a plane z = height (T 4.5-4.6).
+
+    There the wrench has no moment about x and y: p = [(h fx - ty) / fz, (h fy + tx) / fz].
+
+    Args:
+        wrench: Wrench (6,) about the frame's origin.
+        height: Height h of the plane above the frame's origin in m.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        Position (2,) in m, or None where the vertical force is below `minimum_force` or not above 0, or NaN.
+
+    Raises:
+        InputError: If the wrench is not 6 numbers, or the height or least force no number.
+
+    Example:
+        >>> zmp_in_plane([10.0, 0.0, 100.0, 5.0, -2.0, 0.0], height=0.1).tolist()
+        [0.03, 0.05]
+    """
+    point = _zero_moment_point(array(wrench, "wrench", (6,)).tolist(), height, minimum_force)
+    return None if point is None else np.array(point)
+
+
+def _zero_moment_point(wrench: list[float], height: float, minimum_force: float) -> tuple[float, float] | None:
+    """`zmp_in_plane` of a wrench in plain numbers."""
+    fx, fy, fz, tx, ty, _ = wrench
+    height, minimum_force = _levels(height, minimum_force)
+    if not (fz >= minimum_force and 0.0 < fz < math.inf):
+        return None
+    x, y = (height * fx - ty) / fz, (height * fy + tx) / fz
+    return (x, y) if math.isfinite(x) and math.isfinite(y) else None
+
+
+def _levels(height: float, minimum_force: float) -> tuple[float, float]:
+    """Height of a plane in m and least vertical force in N, checked."""
+    return number(height, "height of the plane", finite=True), number(minimum_force, "minimum force")
+
+
+def zero_moment_wrench(
+    wrench: ArrayLike, height: float = 0.0, minimum_force: float = 1.0
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """The ground reaction force with zero moment: the wrench transferred to its ZMP (T 4.2.4, after 4.23).
+
+    Args:
+        wrench: Wrench (6,) about the frame's origin.
+        height: Height of the plane of the ZMP in m.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        The point (3,) in m and the wrench (6,) about it: the same force, moments 0 about x and y, and the twist about
+        z that is left; None without load.
+
+    Raises:
+        InputError: If the wrench is not 6 numbers, or the height or least force no number.
+
+    Example:
+        >>> point, moved = zero_moment_wrench([10.0, 0.0, 100.0, 5.0, -2.0, 0.3])
+        >>> point.tolist(), moved.tolist()
+        ([0.02, 0.05, 0.0], [10.0, 0.0, 100.0, 0.0, 0.0, 0.8])
+    """
+    given: list[float] = array(wrench, "wrench", (6,)).tolist()
+    at = _zero_moment_point(given, height, minimum_force)
+    if at is None:
+        return None
+    x, y = at
+    fx, fy, fz, _, _, tz = given
+    return np.array([x, y, height]), np.array([fx, fy, fz, 0.0, 0.0, tz - (x * fy - y * fx)])
+
+
+def centroidal_moment_pivot(
+    force: ArrayLike, com: ArrayLike, height: float = 0.0, minimum_force: float = 1.0
+) -> NDArray[np.float64] | None:
+    """Centroidal moment pivot: where the line of the ground reaction force, put through the CoM, meets the ground.
+
+    It coincides with the ZMP where the wrench has no moment about the CoM that tips the robot (Popovic, Goswami and
+    Herr 2005), one of the metrics of balance that T names beside ZMP, GRF and DCM.
+
+    Args:
+        force: Ground reaction force (3,) or wrench (6,) of all feet in N.
+        com: CoM position (3,) in m.
+        height: Height of the ground in m.
+        minimum_force: Vertical force in N below which there is none.
+
+    Returns:
+        Position (2,) in m, or None without load.
+
+    Raises:
+        InputError: If the force is not 3 or 6 numbers, the CoM not 3, or the height or least force no number.
+
+    Example:
+        >>> centroidal_moment_pivot([50.0, 0.0, 500.0], [0.0, 0.1, 0.8]).round(9).tolist()
+        [-0.08, 0.1]
+    """
+    given = array(force, "force", ("3 or 6",))
+    if len(given) not in (3, 6):
+        raise InputError(f"force has shape {given.shape}; expected (3,) or (6,)")
+    fx, fy, fz = given[:3].tolist()
+    x, y, z = array(com, "CoM", (3,)).tolist()
+    height, minimum_force = _levels(height, minimum_force)
+    if not (fz >= minimum_force and 0.0 < fz < math.inf):
+        return None
+    pivot = (x - fx / fz * (z - height), y - fy / fz * (z - height))
+    return np.array(pivot) if math.isfinite(pivot[0]) and math.isfinite(pivot[1]) else None
+
+
+def zmp_of_wrench(wrench: ArrayLike, minimum_force: float = 1.0) -> NDArray[np.float64] | None:
+    """Zero moment point of one wrench in the plane z = 0 of its frame (T 4.5-4.6 for a force-torque sensor).
+
+    Args:
+        wrench: Wrench (6,) about the frame's origin.
+        minimum_force: Vertical force in N below which there is no ZMP.
+
+    Returns:
+        Position (2,) in m, or None, also where the wrench holds NaN or inf.
+
+    Raises:
+        InputError: If the wrench is not 6 numbers, or the least force is not a number above 0.
+
+    Example:
+        >>> zmp_of_wrench(np.array([0, 0, 100.0, 5.0, -2.0, 0])).tolist()
+        [0.02, 0.05]
+    """
+    _, _, fz, tx, ty, _ = array(wrench, "wrench", (6,)).tolist()
+    if not (fz >= number(minimum_force, "minimum force") and 0.0 < fz < math.inf):
+        return None
+    x, y = -ty / fz, tx / fz
+    return np.array([x, y]) if math.isfinite(x) and math.isfinite(y) else None
+
+
+def zmp_of_feet(points: Sequence[ArrayLike | None], vertical_forces: Sequence[float]) -> NDArray[np.float64] | None:
+    """Composite ZMP of the feet (T 4.7-4.8).
+
+    Args:
+        points: ZMP (2,) of each foot in a common frame in m, None for a foot without load.
+        vertical_forces: Vertical force of each foot in N.
+
+    Returns:
+        Position (2,) in the common frame in m, or None where no foot carries load, which a force that is NaN or below 0
+        is not.
+
+    Raises:
+        InputError: If there are not as many points as forces, or one is not numeric or not finite.
+
+    Example:
+        >>> zmp_of_feet([np.array([0.0, 0.1]), np.array([0.0, -0.1])], [300.0, 100.0]).tolist()
+        [0.0, 0.05]
+    """
+    places, forces = items(points, "points"), items(vertical_forces, "vertical forces")
+    if len(places) != len(forces):
+        raise InputError(f"{len(places)} points and {len(forces)} vertical forces; expected one force a point")
+    total = sum_x = sum_y = 0.0
+    for point, given in zip(places, forces, strict=True):
+        force = number(given, "vertical force", nan=True)
+        if point is not None and force > 0.0:
+            x, y = plane_point(point)
+            total += force
+            sum_x += force * x
+            sum_y += force * y
+    if not total > 0.0:
+        return None
+    at = sum_x / total, sum_y / total
+    if not (math.isfinite(at[0]) and math.isfinite(at[1])):
+        raise InputError("the ZMP or the vertical force of a foot is not finite")
+    return np.array(at)

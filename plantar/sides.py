@@ -1,0 +1,29 @@
+"""Left and right: the names of a foot's side, in the order in which both are gone through."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+__all__ = ["SIDES", "Side", "other_side"]
+
+Side = Literal["left", "right"]
+"""Which foot something belongs to."""
+
+SIDES: tuple[Side, Side] = ("left", "right")
+"""Both sides; sums over feet are taken in this order, so that they keep their last bit."""
+
+
+def other_side(side: Side) -> Side:
+    """The side of the other foot.
+
+    Args:
+        side: Which foot.
+
+    Returns:
+        The other one.
+
+    Example:
+        >>> other_side("left"), [other_side(side) for side in SIDES]
+        ('right', ['right', 'left'])
+    """
+    return "right" if side == "left" else "left"
