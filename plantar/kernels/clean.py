@@ -1,0 +1,153 @@
+"""Kernel that cleans a convex ring: the one place where near-duplicates and turns the wrong way are taken out.
+
+What counts of a ring is the convex hull of its vertices. A ring that is exactly convex, goes round once and has no two
+neighbours within `_NEAR` of its size is that hull already, and is used as it is; rounding makes others: of vertices
+that should coincide and lie a unit in the last place apart the edge between them may point anywhere, and its line may
+cut the polygon in two. Of such a ring the hull is taken, with every turn decided exactly.
+
+Plain Python that also compiles ahead of time: `clean.pxd` beside it gives the C types. Polygons are float64 arrays
+(k, 2), strided or not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import hull
+
+__all__ = ["anchor", "clean_ring", "extent", "turning"]
+
+_BOUND = 3.3306690738754716e-16  # Shewchuk's bound A of a turn's rounding, relative to its two products
+_UNDERFLOW = 1e-280  # m^2: products up to this say nothing
+_NEAR = 4.4e-16  # of the ring's size: neighbours within it are one vertex
+_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite, as by `hull`
+_SMALLEST = 1e-100  # m: products of the edges of a smaller ring may underflow
+
+
+def turning(polygon, x0, y0, near):
+    """Which way a clean ring goes round; 0 for a ring that has to be cleaned.
+
+    The coordinates are taken about a point, as the caller goes on with them: subtracting it rounds them.
+
+    Args:
+        polygon: Ring (k, 2) in m.
+        x0: The point in m; likewise y0.
+        near: Neighbours within this distance in m are one, too.
+
+    Returns:
+        1 for counter-clockwise, -1 for clockwise; 0 unless it turns the same way at every vertex by more than
+        rounding, goes round once, and no two neighbours are within the tolerance.
+    """
+    k = polygon.shape[0]
+    if k < 3:
+        return 0
+    ax, ay = polygon[k - 2, 0] - x0, polygon[k - 2, 1] - y0
+    bx, by = polygon[k - 1, 0] - x0, polygon[k - 1, 1] - y0
+    ux, uy = bx - ax, by - ay
+    was_up = uy > 0.0 or (uy == 0.0 and ux > 0.0)
+    left = rounds = 0
+    size = 0.0
+    least = abs(ux) + abs(uy)
+    for i in range(k):
+        cx, cy = polygon[i, 0] - x0, polygon[i, 1] - y0
+        wx, wy = cx - bx, cy - by
+        one, two = ux * wy, uy * wx
+        turn = one - two
+        if not abs(turn) > _BOUND * (abs(one) + abs(two)) + _UNDERFLOW:  # nor for NaN
+            return 0
+        if turn > 0.0:
+            left += 1
+        up = wy > 0.0 or (wy == 0.0 and wx > 0.0)
+        if up and not was_up:
+            rounds += 1
+        was_up = up
+        length = abs(wx) + abs(wy)
+        size += length
+        least = min(least, length)
+        bx, by, ux, uy = cx, cy, wx, wy
+    if not (size > _SMALLEST and least > _NEAR * size and least > near) or rounds != 1:
+        return 0
+    return 1 if left == k else -1 if left == 0 else 0
+
+
+def anchor(polygon):
+    """Index of the first finite vertex of a ring, about which the others are taken; 0 where there is none."""
+    for i in range(polygon.shape[0]):
+        if abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST:  # false for NaN
+            return i
+    return 0
+
+
+def extent(polygon):
+    """Larger side in m of the box around a ring with finite vertices; 0 for none."""
+    k = polygon.shape[0]
+    if k == 0:
+        return 0.0
+    low_x = high_x = polygon[0, 0]
+    low_y = high_y = polygon[0, 1]
+    for i in range(1, k):
+        x, y = polygon[i, 0], polygon[i, 1]
+        low_x, high_x = min(low_x, x), max(high_x, x)
+        low_y, high_y = min(low_y, y), max(high_y, y)
+    return max(high_x - low_x, high_y - low_y)
+
+
+def clean_ring(polygon, x0, y0, near):
+    """The clean ring that counts of a ring: the convex hull of its vertices, without near-duplicates.
+
+    Vertices that are not finite are left out. Reference: the hull in exact fractions, from which no vertex given stands
+    out by more than the tolerance.
+
+    Args:
+        polygon: Ring (k, 2) in m; any points.
+        x0: Point in m about which the coordinates are taken; likewise y0.
+        near: As in `turning`.
+
+    Returns:
+        Vertices (m, 2) in m about that point, counter-clockwise, from the first one given that is left.
+    """
+    k = polygon.shape[0]
+    local = np.empty((k, 2))
+    work = np.empty(4 * k, dtype=np.intp)
+    ring = work[2 * k :]
+    size = _clean(polygon, x0, y0, near, local, work, ring)
+    out = np.empty((size, 2))
+    hull.gather(local, ring, size, out)
+    return out
+
+
+def _clean(polygon, x0, y0, near, local, order, ring):
+    """`clean_ring` as indices of `local`; their number."""
+    for i in range(polygon.shape[0]):
+        local[i, 0], local[i, 1] = polygon[i, 0] - x0, polygon[i, 1] - y0
+    size = hull.hull_of_cloud(local, order, ring)
+    if size < 2:
+        return size
+    # From the first vertex given, so that a ring with little to clean keeps its order.
+    first = 0
+    for i in range(1, size):
+        if ring[i] < ring[first]:
+            first = i
+    span = 0.0
+    a = ring[size - 1]
+    for i in range(size):
+        b = ring[i]
+        span += abs(local[b, 0] - local[a, 0]) + abs(local[b, 1] - local[a, 1])
+        a = b
+    near = max(near, _NEAR * span)
+    for i in range(size):
+        order[i] = ring[first + i if first + i < size else first + i - size]
+    kept = 1
+    ring[0] = a = order[0]
+    for i in range(1, size):
+        b = order[i]
+        if abs(local[b, 0] - local[a, 0]) + abs(local[b, 1] - local[a, 1]) > near:
+            ring[kept] = a = b
+            kept += 1
+    a = ring[0]
+    while kept > 1:
+        b = ring[kept - 1]
+        if abs(local[b, 0] - local[a, 0]) + abs(local[b, 1] - local[a, 1]) > near:
+            break
+        kept -= 1
+    return kept

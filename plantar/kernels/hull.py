@@ -1,0 +1,281 @@
+"""Kernel of the convex hull: every turn decided exactly, so that the ring is exactly convex.
+
+Plain Python that also compiles ahead of time: `hull.pxd` beside it gives the C types. Both forms do the same operations
+in the same order and agree to the last bit. Points are float64 arrays (n, 2), strided or not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["convex_hull", "gather", "hull_of_cloud", "hull_ring", "hull_tolerance", "turn_is_left"]
+
+_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
+_SMALLEST = 1e-100  # points within a box of this size in m are one: the products of their distances would underflow
+_TINY = 1e-120  # coordinates in m up to this count as 0: exact turns are made of products, which must not underflow
+_SHORT = 64  # points up to this number are sorted by insertion
+_INFINITE = float("inf")
+
+
+def hull_tolerance(largest, extent):
+    """How far a corner has to stand out of its neighbours' line to be one.
+
+    Args:
+        largest: Largest absolute coordinate in m: its rounding moves points that were meant to be on one line.
+        extent: Larger side of the points' box in m.
+
+    Returns:
+        Four units in the last place of the largest coordinate, no more than 1e-13 of the extent, in m.
+    """
+    return min(8.9e-16 * largest, 1e-13 * extent)
+
+
+def _product_tail(a, b, product):
+    """What `product` = a * b lost by rounding, exactly (Dekker; Veltkamp's split)."""
+    t = 134217729.0 * a
+    a_high = t - (t - a)
+    a_low = a - a_high
+    t = 134217729.0 * b
+    b_high = t - (t - b)
+    b_low = b - b_high
+    return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+
+
+def _sum_tail(a, b, total):
+    """What `total` = a + b lost by rounding, exactly (Knuth)."""
+    b_part = total - a
+    a_part = total - b_part
+    return (a - a_part) + (b - b_part)
+
+
+def turn_is_left(ax, ay, bx, by, cx, cy):
+    """Whether a, b, c turn left, decided exactly (Shewchuk 1997: the determinant as an expansion of doubles).
+
+    Args:
+        ax: Coordinates in m, up to 1e100; likewise ay, bx, by, cx and cy.
+
+    Returns:
+        True for a left turn, False for a right turn or a straight line.
+    """
+    terms = [0.0] * 16
+    pairs = [bx - ax, 0.0, cy - ay, 0.0, ay - by, 0.0, cx - ax, 0.0]
+    pairs[1] = _sum_tail(bx, -ax, pairs[0])
+    pairs[3] = _sum_tail(cy, -ay, pairs[2])
+    pairs[5] = _sum_tail(ay, -by, pairs[4])
+    pairs[7] = _sum_tail(cx, -ax, pairs[6])
+    size = 0
+    for k in range(0, 8, 4):
+        for i in range(2):
+            for j in range(2):
+                product = pairs[k + i] * pairs[k + 2 + j]
+                tail = _product_tail(pairs[k + i], pairs[k + 2 + j], product)
+                for m in range(size):
+                    total = tail + terms[m]
+                    terms[m] = _sum_tail(tail, terms[m], total)
+                    tail = total
+                terms[size] = tail
+                size += 1
+                for m in range(size):
+                    total = product + terms[m]
+                    terms[m] = _sum_tail(product, terms[m], total)
+                    product = total
+                terms[size] = product
+                size += 1
+    for m in range(size - 1, -1, -1):  # the largest term that is not 0 has the sign of the sum
+        if terms[m] != 0.0:
+            return terms[m] > 0.0
+    return False
+
+
+def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
+    """Whether b is a corner to the left of a and c: it turns left, by more than a rounding unless it is a tip."""
+    dx, dy = bx - ax, by - ay
+    lx, ly = cx - ax, cy - ay
+    one, two = dx * ly, dy * lx
+    turn = one - two
+    bound = 3.330669073875472e-16 * (abs(one) + abs(two))  # Shewchuk's bound A of this difference
+    if turn > bound + tolerance * (abs(lx) + abs(ly)):
+        return True
+    if turn < -bound or dx * (cx - bx) + dy * (cy - by) >= 0.0:
+        return False
+    return turn_is_left(ax, ay, bx, by, cx, cy)
+
+
+def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
+    """Whether b lies between a and c, off their line by a rounding at most."""
+    dx, dy = bx - ax, by - ay
+    lx, ly = cx - ax, cy - ay
+    one, two = dx * ly, dy * lx
+    limit = 3.330669073875472e-16 * (abs(one) + abs(two)) + tolerance * (abs(lx) + abs(ly))
+    return abs(one - two) <= limit and dx * (cx - bx) + dy * (cy - by) >= 0.0
+
+
+def hull_ring(points, way, forth, count, tolerance, ring):
+    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges.
+
+    Each turn is decided by a filtered determinant with an exact one behind it, so the ring is exactly convex. A vertex
+    between its neighbours that stands out of their line by no more than the tolerance is left out; nothing else is.
+
+    Args:
+        points: Points (n, 2) in m, finite.
+        way: Indices (count,): first the points that may lie on the lower chain, sorted by x, then y, from the lowest
+            to the highest of all points; then those that may lie on the upper chain, back to the lowest.
+        forth: How many of them lie on the way forth.
+        count: How many there are.
+        tolerance: See `hull_tolerance`.
+        ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count.
+
+    Returns:
+        Number of corners.
+    """
+    if count == 0:
+        return 0
+    size = base = 1
+    ring[0] = way[0]
+    for step in range(1, count):
+        if step == forth:
+            base = size
+        p = way[step]
+        q = ring[size - 1]
+        cx, cy = points[p, 0], points[p, 1]
+        bx, by = points[q, 0], points[q, 1]
+        if cx == bx and cy == by:
+            continue
+        while size > base:
+            q = ring[size - 2]
+            ax, ay = points[q, 0], points[q, 1]
+            if _is_corner(ax, ay, bx, by, cx, cy, tolerance):
+                break
+            size -= 1
+            bx, by = ax, ay
+        ring[size] = p
+        size += 1
+    if size == 1:
+        return 1
+    size -= 1  # the first point again
+    # The two ends of the chains, where no turn was asked for, may lie on straight edges.
+    if size == 2 or not (
+        _ring_is_straight(points, ring[size - 1], ring[0], ring[1], tolerance)
+        or _ring_is_straight(points, ring[base - 2], ring[base - 1], ring[base if base < size else 0], tolerance)
+    ):
+        return size
+    kept = 0
+    for i in range(size):
+        p = ring[i]
+        while kept >= 2 and _ring_is_straight(points, ring[kept - 2], ring[kept - 1], p, tolerance):
+            kept -= 1
+        ring[kept] = p
+        kept += 1
+    while kept > 2 and _ring_is_straight(points, ring[kept - 2], ring[kept - 1], ring[0], tolerance):
+        kept -= 1
+    while kept > 2 and _ring_is_straight(points, ring[kept - 1], ring[0], ring[1], tolerance):
+        kept -= 1
+        for i in range(kept):
+            ring[i] = ring[i + 1]
+    return kept
+
+
+def _ring_is_straight(points, a, b, c, tolerance):
+    """`_is_straight` of three points by index."""
+    return _is_straight(points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1], tolerance)
+
+
+def convex_hull(points):
+    """Convex hull of any points.
+
+    Reference: gift wrapping in exact fractions. Vertices are input points; no input point lies outside by more than
+    the tolerance of `hull_tolerance` times the number of points left out as straight, in practice a few 1e-16 of the
+    largest coordinate.
+
+    Args:
+        points: Points (n, 2) in m; those that are not finite are left out.
+
+    Returns:
+        Hull (k, 2), counter-clockwise.
+    """
+    n = points.shape[0]
+    work = np.empty(4 * n, dtype=np.intp)
+    ring = work[2 * n :]
+    size = hull_of_cloud(points, work, ring)
+    out = np.empty((size, 2))
+    gather(points, ring, size, out)
+    return out
+
+
+def hull_of_cloud(points, order, ring):
+    """Find the hull of points, of which some may not be finite.
+
+    Args:
+        points: The points (n, 2).
+        order: Room for n indices.
+        ring: Receives the indices of the corners, counter-clockwise.
+
+    Returns:
+        Number of corners.
+    """
+    count = 0
+    tiny = False
+    left = bottom = _INFINITE
+    right = top = -_INFINITE
+    for i in range(points.shape[0]):
+        x, y = points[i, 0], points[i, 1]
+        if (0.0 < abs(x) < _TINY) or (0.0 < abs(y) < _TINY):
+            tiny = True
+        if abs(x) <= _LARGEST and abs(y) <= _LARGEST:  # false for NaN
+            order[count] = i
+            count += 1
+            left, right = min(left, x), max(right, x)
+            bottom, top = min(bottom, y), max(top, y)
+    if tiny:
+        return hull_of_cloud(_without_tiny(points), order, ring)
+    if count == 0:
+        return 0
+    extent = max(right - left, top - bottom)
+    if extent < _SMALLEST:
+        ring[0] = order[0]
+        return 1
+    if count <= _SHORT:
+        for i in range(1, count):
+            p = order[i]
+            x, y = points[p, 0], points[p, 1]
+            j = i
+            while j > 0 and (
+                points[order[j - 1], 0] > x or (points[order[j - 1], 0] == x and points[order[j - 1], 1] > y)
+            ):
+                order[j] = order[j - 1]
+                j -= 1
+            order[j] = p
+    else:
+        _sort_many(points, order, count)
+    largest = max(max(abs(left), abs(right)), max(abs(bottom), abs(top)))
+    for i in range(count - 1):
+        order[count + i] = order[count - 2 - i]
+    return hull_ring(points, order, count, 2 * count - 1, hull_tolerance(largest, extent), ring)
+
+
+def _without_tiny(points):
+    """The points with coordinates of 0 instead of tiny ones."""
+    cloud = np.array(points)
+    cloud[np.abs(cloud) < _TINY] = 0.0
+    return cloud
+
+
+def _sort_many(points, order, count):
+    """Sort the first `count` indices by x, then y."""
+    index = np.asarray(order)[:count]
+    cloud = np.asarray(points)[index]
+    index[:] = index[np.lexsort((cloud[:, 1], cloud[:, 0]))]
+
+
+def gather(points, ring, size, out):
+    """Copy the points of a ring.
+
+    Args:
+        points: The points (n, 2).
+        ring: Indices of those to copy.
+        size: How many they are.
+        out: Receives them (size, 2).
+    """
+    for i in range(size):
+        out[i, 0] = points[ring[i], 0]
+        out[i, 1] = points[ring[i], 1]
