@@ -110,7 +110,7 @@ cdef class OutlineRectangles:
         filled="Py_ssize_t[::1]", edge="double[::1]", trapezoid="double[::1]", slab="Py_ssize_t[::1]", gap=Py_ssize_t,
         lines=Py_ssize_t, slabs=Py_ssize_t, total=Py_ssize_t, across=Py_ssize_t, count=Py_ssize_t, i=Py_ssize_t,
         j=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
-        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t
+        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t, end=Py_ssize_t
     )
     cdef Py_ssize_t _cut(self, double angle) except -1
 

@@ -584,6 +584,11 @@ class OutlineRectangles:
                     trapezoid[4 * count + 1] = edge[3 * p]
                     trapezoid[4 * count + 2] = edge[3 * bottom + 1]
                     trapezoid[4 * count + 3] = edge[3 * p + 1]
+                    for end in range(0, 4, 2):  # where near-duplicates let the edges cross, they meet
+                        if trapezoid[4 * count + end] > trapezoid[4 * count + end + 1]:
+                            middle = 0.5 * (trapezoid[4 * count + end] + trapezoid[4 * count + end + 1])
+                            trapezoid[4 * count + end] = middle
+                            trapezoid[4 * count + end + 1] = middle
                     slab[count] = k
                     count += 1
                 depth += edge[3 * p + 2]

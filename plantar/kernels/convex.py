@@ -1,4 +1,4 @@
-"""Kernels on one convex polygon: hull, area, centroid, closest point, margin, inner offset.
+"""Kernels on one convex polygon: area, centroid, closest point, margin, inner offset.
 
 Plain Python that also compiles ahead of time: `convex.pxd` beside it gives the C types. Both forms do the same
 operations in the same order and agree to the last bit. `plantar.polygon` is the public face, with units and examples;
@@ -11,260 +11,22 @@ import math
 
 import numpy as np
 
+from . import clean
+
 __all__ = [
     "area",
     "area_and_centroid",
     "closest_point",
-    "convex_hull",
-    "hull_ring",
-    "hull_tolerance",
     "inner_offset",
+    "offset",
     "seen_from_above",
     "signed_margin",
-    "turn_is_left",
 ]
 
 _LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
-_SMALLEST = 1e-100  # points within a box of this size in m are one: the products of their distances would underflow
-_SHORT = 64  # points up to this number are sorted by insertion
 _INFINITE = float("inf")
 _NONE = float("nan")
-
-
-def hull_tolerance(largest, extent):
-    """How far a corner has to stand out of its neighbours' line to be one.
-
-    Args:
-        largest: Largest absolute coordinate in m: its rounding moves points that were meant to be on one line.
-        extent: Larger side of the points' box in m.
-
-    Returns:
-        Four units in the last place of the largest coordinate, no more than 1e-13 of the extent, in m.
-    """
-    return min(8.9e-16 * largest, 1e-13 * extent)
-
-
-def _product_tail(a, b, product):
-    """What `product` = a * b lost by rounding, exactly (Dekker; Veltkamp's split)."""
-    t = 134217729.0 * a
-    a_high = t - (t - a)
-    a_low = a - a_high
-    t = 134217729.0 * b
-    b_high = t - (t - b)
-    b_low = b - b_high
-    return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
-
-
-def _sum_tail(a, b, total):
-    """What `total` = a + b lost by rounding, exactly (Knuth)."""
-    b_part = total - a
-    a_part = total - b_part
-    return (a - a_part) + (b - b_part)
-
-
-def turn_is_left(ax, ay, bx, by, cx, cy):
-    """Whether a, b, c turn left, decided exactly (Shewchuk 1997: the determinant as an expansion of doubles).
-
-    Args:
-        ax: Coordinates in m, up to 1e100; likewise ay, bx, by, cx and cy.
-
-    Returns:
-        True for a left turn, False for a right turn or a straight line.
-    """
-    terms = [0.0] * 16
-    pairs = [bx - ax, 0.0, cy - ay, 0.0, ay - by, 0.0, cx - ax, 0.0]
-    pairs[1] = _sum_tail(bx, -ax, pairs[0])
-    pairs[3] = _sum_tail(cy, -ay, pairs[2])
-    pairs[5] = _sum_tail(ay, -by, pairs[4])
-    pairs[7] = _sum_tail(cx, -ax, pairs[6])
-    size = 0
-    for k in range(0, 8, 4):
-        for i in range(2):
-            for j in range(2):
-                product = pairs[k + i] * pairs[k + 2 + j]
-                tail = _product_tail(pairs[k + i], pairs[k + 2 + j], product)
-                for m in range(size):
-                    total = tail + terms[m]
-                    terms[m] = _sum_tail(tail, terms[m], total)
-                    tail = total
-                terms[size] = tail
-                size += 1
-                for m in range(size):
-                    total = product + terms[m]
-                    terms[m] = _sum_tail(product, terms[m], total)
-                    product = total
-                terms[size] = product
-                size += 1
-    for m in range(size - 1, -1, -1):  # the largest term that is not 0 has the sign of the sum
-        if terms[m] != 0.0:
-            return terms[m] > 0.0
-    return False
-
-
-def _is_corner(ax, ay, bx, by, cx, cy, tolerance):
-    """Whether b is a corner to the left of a and c: it turns left, by more than a rounding unless it is a tip."""
-    dx, dy = bx - ax, by - ay
-    lx, ly = cx - ax, cy - ay
-    one, two = dx * ly, dy * lx
-    turn = one - two
-    bound = 3.330669073875472e-16 * (abs(one) + abs(two))  # Shewchuk's bound A of this difference
-    if turn > bound + tolerance * (abs(lx) + abs(ly)):
-        return True
-    if turn < -bound or dx * (cx - bx) + dy * (cy - by) >= 0.0:
-        return False
-    return turn_is_left(ax, ay, bx, by, cx, cy)
-
-
-def _is_straight(ax, ay, bx, by, cx, cy, tolerance):
-    """Whether b lies between a and c, off their line by a rounding at most."""
-    dx, dy = bx - ax, by - ay
-    lx, ly = cx - ax, cy - ay
-    one, two = dx * ly, dy * lx
-    limit = 3.330669073875472e-16 * (abs(one) + abs(two)) + tolerance * (abs(lx) + abs(ly))
-    return abs(one - two) <= limit and dx * (cx - bx) + dy * (cy - by) >= 0.0
-
-
-def hull_ring(points, way, forth, count, tolerance, ring):
-    """Hull of sorted points by Andrew's monotone chain, without vertices on straight edges.
-
-    Each turn is decided by a filtered determinant with an exact one behind it, so the ring is exactly convex. A vertex
-    between its neighbours that stands out of their line by no more than the tolerance is left out; nothing else is.
-
-    Args:
-        points: Points (n, 2) in m, finite.
-        way: Indices (count,): first the points that may lie on the lower chain, sorted by x, then y, from the lowest
-            to the highest of all points; then those that may lie on the upper chain, back to the lowest.
-        forth: How many of them lie on the way forth.
-        count: How many there are.
-        tolerance: See `hull_tolerance`.
-        ring: Receives the indices of the corners, counter-clockwise from the lowest x; room for count.
-
-    Returns:
-        Number of corners.
-    """
-    if count == 0:
-        return 0
-    size = base = 1
-    ring[0] = way[0]
-    for step in range(1, count):
-        if step == forth:
-            base = size
-        p = way[step]
-        q = ring[size - 1]
-        cx, cy = points[p, 0], points[p, 1]
-        bx, by = points[q, 0], points[q, 1]
-        if cx == bx and cy == by:
-            continue
-        while size > base:
-            q = ring[size - 2]
-            ax, ay = points[q, 0], points[q, 1]
-            if _is_corner(ax, ay, bx, by, cx, cy, tolerance):
-                break
-            size -= 1
-            bx, by = ax, ay
-        ring[size] = p
-        size += 1
-    if size == 1:
-        return 1
-    size -= 1  # the first point again
-    # The two ends of the chains, where no turn was asked for, may lie on straight edges.
-    if size == 2 or not (
-        _ring_is_straight(points, ring[size - 1], ring[0], ring[1], tolerance)
-        or _ring_is_straight(points, ring[base - 2], ring[base - 1], ring[base if base < size else 0], tolerance)
-    ):
-        return size
-    kept = 0
-    for i in range(size):
-        p = ring[i]
-        while kept >= 2 and _ring_is_straight(points, ring[kept - 2], ring[kept - 1], p, tolerance):
-            kept -= 1
-        ring[kept] = p
-        kept += 1
-    while kept > 2 and _ring_is_straight(points, ring[kept - 2], ring[kept - 1], ring[0], tolerance):
-        kept -= 1
-    while kept > 2 and _ring_is_straight(points, ring[kept - 1], ring[0], ring[1], tolerance):
-        kept -= 1
-        for i in range(kept):
-            ring[i] = ring[i + 1]
-    return kept
-
-
-def _ring_is_straight(points, a, b, c, tolerance):
-    """`_is_straight` of three points by index."""
-    return _is_straight(points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1], tolerance)
-
-
-def convex_hull(points):
-    """Convex hull of any points.
-
-    Reference: gift wrapping in exact fractions. Vertices are input points; no input point lies outside by more than
-    the tolerance of `hull_tolerance` times the number of points left out as straight, in practice a few 1e-16 of the
-    largest coordinate.
-
-    Args:
-        points: Points (n, 2) in m; those that are not finite are left out.
-
-    Returns:
-        Hull (k, 2), counter-clockwise.
-    """
-    n = points.shape[0]
-    work = np.empty(4 * n, dtype=np.intp)
-    ring = work[2 * n :]
-    size = _hull_of_cloud(points, work, ring)
-    out = np.empty((size, 2))
-    _gather(points, ring, size, out)
-    return out
-
-
-def _hull_of_cloud(points, order, ring):
-    """Sort the finite points, walk them, and return the number of corners in `ring`."""
-    count = 0
-    left = bottom = _INFINITE
-    right = top = -_INFINITE
-    for i in range(points.shape[0]):
-        x, y = points[i, 0], points[i, 1]
-        if abs(x) <= _LARGEST and abs(y) <= _LARGEST:  # false for NaN
-            order[count] = i
-            count += 1
-            left, right = min(left, x), max(right, x)
-            bottom, top = min(bottom, y), max(top, y)
-    if count == 0:
-        return 0
-    extent = max(right - left, top - bottom)
-    if extent < _SMALLEST:
-        ring[0] = order[0]
-        return 1
-    if count <= _SHORT:
-        for i in range(1, count):
-            p = order[i]
-            x, y = points[p, 0], points[p, 1]
-            j = i
-            while j > 0 and (
-                points[order[j - 1], 0] > x or (points[order[j - 1], 0] == x and points[order[j - 1], 1] > y)
-            ):
-                order[j] = order[j - 1]
-                j -= 1
-            order[j] = p
-    else:
-        _sort_many(points, order, count)
-    largest = max(max(abs(left), abs(right)), max(abs(bottom), abs(top)))
-    for i in range(count - 1):
-        order[count + i] = order[count - 2 - i]
-    return hull_ring(points, order, count, 2 * count - 1, hull_tolerance(largest, extent), ring)
-
-
-def _sort_many(points, order, count):
-    """Sort the first `count` indices by x, then y."""
-    index = np.asarray(order)[:count]
-    cloud = np.asarray(points)[index]
-    index[:] = index[np.lexsort((cloud[:, 1], cloud[:, 0]))]
-
-
-def _gather(points, ring, size, out):
-    """Copy the points of a ring."""
-    for i in range(size):
-        out[i, 0] = points[ring[i], 0]
-        out[i, 1] = points[ring[i], 1]
+_NOISE = 1e-15  # of a polygon's extent: corners of its inner offset that are nearer to each other are one
 
 
 def area(polygon):
@@ -322,13 +84,17 @@ def area_and_centroid(polygon):
     return 0.5 * total, x0 + cx / (3.0 * total), y0 + cy / (3.0 * total)
 
 
-def _nearest(polygon, x, y):
-    """Signed margin and closest point (T Algorithm 1) of a polygon with 1 vertex or more, as three numbers."""
+def _nearest(polygon, turn, x, y):
+    """Signed margin and closest point (T Algorithm 1), as three numbers.
+
+    Args:
+        polygon: Ring (k, 2) in m: clean, or of 1 or 2 vertices.
+        turn: 1.0 where it goes round counter-clockwise, else -1.0.
+        x: The point in m; likewise y.
+    """
     k = polygon.shape[0]
     if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
         return _NONE, _NONE, _NONE
-    total = area(polygon)
-    turn = -1.0 if total < 0.0 else 1.0
     inside = k > 2
     deepest = best = _INFINITE
     span = 0.0
@@ -345,8 +111,8 @@ def _nearest(polygon, x, y):
         if length2 > 0.0:
             deepest = min(deepest, -across / math.sqrt(length2))
         ax, ay = bx, by
-    if inside and abs(total) > 1e-14 * span:  # in a polygon without area nothing is inside
-        return deepest, x, y
+    if inside and (deepest * deepest > 1e-27 * k * span or abs(area(polygon)) > 1e-14 * span):
+        return deepest, x, y  # else it has no area, and nothing is inside
     # Every edge counts: where several are on one line, rounding decides which of them a point lies outside of.
     qx, qy = polygon[0, 0], polygon[0, 1]
     ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
@@ -370,22 +136,34 @@ def _nearest(polygon, x, y):
     return -math.sqrt((x - qx) * (x - qx) + (y - qy) * (y - qy)), qx, qy
 
 
+def _nearest_of_any(polygon, x, y):
+    """`_nearest` of the ring that counts of any one (see `clean`); -inf and NaN where nothing is left of it."""
+    turn = clean.turning(polygon, 0.0, 0.0, 0.0)
+    if turn != 0:
+        return _nearest(polygon, turn, x, y)
+    ring = clean.clean_ring(polygon, 0.0, 0.0, 0.0)
+    corners = ring
+    if corners.shape[0] == 0:
+        return -_INFINITE, _NONE, _NONE
+    return _nearest(corners, 1.0, x, y)
+
+
 def closest_point(polygon, x, y):
     """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected: either orientation).
 
-    Reference: the smallest of the distances to all edges, in exact fractions. The error is below 1e-15 of the largest
-    distance between the point and a vertex, and a rounding of the coordinates.
+    Reference: the smallest of the distances to all edges of the vertices' hull, in exact fractions. The error is below
+    1e-15 of the largest distance between the point and a vertex, and a rounding of the coordinates.
 
     Args:
-        polygon: Convex polygon (k, 2) in m, k 1 or more.
+        polygon: Convex polygon (k, 2) in m.
         x: The point in m.
         y: The same.
 
     Returns:
-        The closest point (2,), the point itself where it is inside; NaN where the point is not finite.
+        The closest point (2,), the point itself where it is inside; NaN where the point, or no vertex, is finite.
     """
     out = np.empty(2)
-    _margin, qx, qy = _nearest(polygon, x, y)
+    _margin, qx, qy = _nearest_of_any(polygon, x, y)
     _pair(out, qx, qy)
     return out
 
@@ -400,14 +178,14 @@ def signed_margin(polygon, x, y):
     """Signed distance of a point to the edge of a convex polygon; reference and error as `closest_point`.
 
     Args:
-        polygon: Convex polygon (k, 2) in m, k 1 or more, either orientation.
+        polygon: Convex polygon (k, 2) in m, either orientation.
         x: The point in m.
         y: The same.
 
     Returns:
-        Distance in m, positive inside, negative outside; NaN where the point is not finite.
+        Distance in m, positive inside, negative outside; NaN where the point is not finite, -inf where no vertex is.
     """
-    margin, _qx, _qy = _nearest(polygon, x, y)
+    margin, _qx, _qy = _nearest_of_any(polygon, x, y)
     return margin
 
 
@@ -443,37 +221,60 @@ def inner_offset(polygon, distance):
     in exact fractions. Every vertex keeps the distance to 1e-15 of the polygon's size.
 
     Args:
-        polygon: Convex polygon (k, 2) in m, k 3 or more, either orientation.
+        polygon: Convex polygon (k, 2) in m, either orientation.
         distance: Distance in m, above 0.
 
     Returns:
-        Counter-clockwise polygon (m, 2); where nothing is left, the deepest point (1, 2).
+        Counter-clockwise polygon (m, 2), clean; where nothing is left, the deepest point (1, 2), the middle where the
+        polygon has no area; none (0, 2) where no vertex is finite.
     """
     k = polygon.shape[0]
-    room = 2 * k + 8
-    rings = np.empty((3, room, 3))
-    lines = np.empty((k, 3))
-    size = _inner_offset(polygon, distance, lines, rings)
-    return _shifted(rings, size, polygon)
+    return offset(polygon, distance, np.empty((k, 3)), np.empty((3, 2 * k + 8, 3)))
 
 
-def _shifted(rings, size, polygon):
-    """Ring 0, moved back to the polygon's place; the hull of its corners where rounding far from the origin has turned
-    a sliver over."""
+def offset(polygon, distance, lines, rings):
+    """`inner_offset` with room to work in.
+
+    Args:
+        polygon: As in `inner_offset`, with 1 vertex or more; likewise distance.
+        lines: Room (k, 3).
+        rings: Room (3, 2 k + 8, 3).
+    """
+    i = clean.anchor(polygon)
+    x0, y0 = polygon[i, 0], polygon[i, 1]
+    turn = clean.turning(polygon, x0, y0, 0.0)
+    if turn != 0:
+        near = _NOISE * clean.extent(polygon)
+        size = _inner_offset(polygon, x0, y0, turn < 0, distance, lines, rings)
+    else:
+        ring = clean.clean_ring(polygon, x0, y0, 0.0)
+        corners = ring
+        near = _NOISE * clean.extent(corners)
+        size = corners.shape[0]
+        if size > 2:
+            size = _inner_offset(corners, 0.0, 0.0, False, distance, lines, rings)
+        elif size > 0:
+            rings[0, 0, 0] = 0.5 * (corners[0, 0] + corners[size - 1, 0])
+            rings[0, 0, 1] = 0.5 * (corners[0, 1] + corners[size - 1, 1])
+            size = 1
+    return _shifted(rings, size, x0, y0, near)
+
+
+def _shifted(rings, size, x0, y0, near):
+    """Ring 0, moved back to the polygon's place and clean there: edges that just vanish leave near-duplicates, and
+    rounding far from the origin may turn a sliver over."""
     out = np.empty((size, 2))
     ring = out
     for i in range(size):
-        ring[i, 0] = rings[0, i, 0] + polygon[0, 0]
-        ring[i, 1] = rings[0, i, 1] + polygon[0, 1]
-    return convex_hull(ring) if size > 2 and area(ring) < 0.0 else out
+        ring[i, 0] = rings[0, i, 0] + x0
+        ring[i, 1] = rings[0, i, 1] + y0
+    return out if size < 2 or clean.turning(ring, 0.0, 0.0, near) > 0 else clean.clean_ring(ring, 0.0, 0.0, near)
 
 
-def _inner_offset(polygon, distance, lines, rings):
-    """Offset a polygon into ring 0, about its first vertex; a ring's third column is the line of the edge that starts
-    at the vertex."""
+def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
+    """Offset a clean polygon into ring 0, about a point; a ring's third column is the line of the edge that starts at
+    the vertex."""
     k = polygon.shape[0]
-    backwards = area(polygon) < 0.0
-    x0, y0 = polygon[0, 0], polygon[0, 1]
     reach = 0.0
     for i in range(k):
         j = k - 1 - i if backwards else i
@@ -514,15 +315,7 @@ def _inner_offset(polygon, distance, lines, rings):
             y += rings[0, i, 1] / size
         rings[0, 0, 0], rings[0, 0, 1] = x, y
         return 1
-    size = 0
-    for i in range(left):  # without points that coincide
-        x, y = rings[0, i, 0], rings[0, i, 1]
-        if size == 0 or x != rings[0, size - 1, 0] or y != rings[0, size - 1, 1]:
-            rings[0, size, 0], rings[0, size, 1] = x, y
-            size += 1
-    while size > 1 and rings[0, 0, 0] == rings[0, size - 1, 0] and rings[0, 0, 1] == rings[0, size - 1, 1]:
-        size -= 1
-    return size
+    return left
 
 
 def _keep_lines(lines, used, rings, size):

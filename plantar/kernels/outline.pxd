@@ -16,10 +16,10 @@ cpdef (double, double, double) area_and_centroid(const double[:, :] points, obje
 cpdef list ring_areas(const double[:, :] points, object starts)
 
 cdef class Rings:
-    cdef public object points
-    cdef public object starts
-    cdef public object ring_areas
-    cdef public bint apart
+    cdef readonly object points
+    cdef readonly object starts
+    cdef readonly object ring_areas
+    cdef readonly bint apart
 
 cdef class EdgeTable:
     cdef readonly const Py_ssize_t[::1] cell_start

@@ -78,7 +78,7 @@ def ring_areas(points, starts):
 
 
 class Rings:
-    """Rings around an area of the plane, what `plantar.outline.Outline` adds to.
+    """Rings around an area of the plane, what `plantar.geometry.outline.Outline` adds to and checks.
 
     Args:
         points: Vertices (k, 2) of all rings in m, one ring after another.
@@ -114,7 +114,7 @@ class EdgeTable:
         reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
 
     Example:
-        >>> from plantar.cell_edges import edge_table
+        >>> from plantar.layouts.cell_edges import edge_table
         >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]])
         >>> table.walk(bytes([1]))[1:], table.walk(bytes([0]))[1:]
         (([0, 4], [1.0]), ([0], []))
@@ -172,8 +172,9 @@ class EdgeTable:
         starts = [0]
         areas = []
         found.points = self._trace(active, starts, areas)
-        found.starts = starts
-        found.ring_areas = areas
+        found.points.setflags(write=False)
+        found.starts = tuple(starts)
+        found.ring_areas = tuple(areas)
         found.apart = True
         return found
 

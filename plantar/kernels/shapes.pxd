@@ -1,11 +1,12 @@
 # C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport any_angle, concave, enclosing, inscribed, rectangle, work_arrays
+from . cimport any_angle, clean, concave, convex, enclosing, inscribed, parallelogram, rectangle, work_arrays
 
 cdef double _LARGEST
 cdef double _INF
 cdef double _QUARTER
+cdef double _FLAT
 
 cdef class ConvexShapes:
     cdef bint lists
@@ -18,8 +19,11 @@ cdef class ConvexShapes:
     cdef double y
 
 
-    @cython.locals(k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, n=Py_ssize_t, ring=double[::1])
+    @cython.locals(k=Py_ssize_t, i=Py_ssize_t, turn=int)
     cdef Py_ssize_t _clean(self, const double[:, :] polygon) except -1
+
+    @cython.locals(n=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, ring=double[::1])
+    cdef void _take(self, const double[:, :] polygon, bint backwards, double x0, double y0) except *
 
     @cython.locals(i=Py_ssize_t, corners=double[:, ::1])
     cdef _corners(self, Py_ssize_t count)
@@ -56,6 +60,12 @@ cdef class ConvexShapes:
     @cython.locals(outline=concave.OutlineRectangles, best=double, k=Py_ssize_t)
     cpdef rectangle_in_outline(self, const double[:, :] points, object starts, bint apart, double angle)
     cpdef rectangle_in_outline_at_any_angle(self, const double[:, :] points, object starts, bint apart)
+
+    @cython.locals(
+        k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, ring="double[::1]", size=double, flat=double, x=double, y=double, ux=double,
+        uy=double, wx=double, wy=double, twice=double, depth=double, dx=double, dy=double, across=double
+    )
+    cdef bint _is_convex(self, const double[:, :] points) except -1
 
     @cython.locals(i=Py_ssize_t)
     cdef _placed(self, const double[:, :] points, double area)

@@ -12,13 +12,14 @@ import math
 
 import numpy as np
 
-from . import any_angle, enclosing, inscribed, rectangle, work_arrays
+from . import any_angle, clean, convex, enclosing, inscribed, parallelogram, rectangle, work_arrays
 
 __all__ = ["ConvexShapes"]
 
 _LARGEST = 1e100
 _INF = math.inf
 _QUARTER = 0.5 * math.pi
+_FLAT = 1e-14  # of a ring's extent: a vertex by so much, or some units in the last place, within its hull is no dent
 
 
 class ConvexShapes:
@@ -41,25 +42,35 @@ class ConvexShapes:
         self.y = 0.0
 
     def _clean(self, polygon):
-        """Take a polygon; the number of vertices that count, with those in `ring` (see `inscribed.clean_ring`)."""
+        """Take a polygon; the number of vertices that count, with those in `ring`, clean and counter-clockwise.
+
+        Fewer than 3 count of one without area: its two ends, or what is left of it.
+        """
         k = polygon.shape[0]
         if 2 * k + 2 > len(self.ring):
             self.ring = work_arrays.numbers(4 * k + 2, self.lists)
             self.work = work_arrays.numbers(8 * (2 * k) + 128, self.lists)  # as many as the ring takes
-        # First finite vertex, about which the others are taken.
-        i = 0
-        while i < k and not (abs(polygon[i, 0]) <= _LARGEST and abs(polygon[i, 1]) <= _LARGEST):
-            i += 1
+        i = clean.anchor(polygon)
         self.x = float(polygon[i, 0]) if i < k else 0.0
         self.y = float(polygon[i, 1]) if i < k else 0.0
-        ring = self.ring
-        n = 0
-        for j in range(i, k):
-            ring[2 * n] = float(polygon[j, 0]) - self.x
-            ring[2 * n + 1] = float(polygon[j, 1]) - self.y
-            n += 1
-        self.n = inscribed.clean_ring(ring, n)
+        turn = clean.turning(polygon, self.x, self.y, 0.0)
+        if turn != 0:
+            self._take(polygon, turn < 0, self.x, self.y)
+        else:
+            self._take(clean.clean_ring(polygon, self.x, self.y, 0.0), False, 0.0, 0.0)
+        if self.n > 2:
+            self.n = inscribed.ends_of_flat(self.ring, self.n)
         return self.n
+
+    def _take(self, polygon, backwards, x0, y0):
+        """Copy a clean polygon into `ring`, about a point, from its first vertex on."""
+        ring = self.ring
+        n = polygon.shape[0]
+        for i in range(n):
+            j = n - i if backwards and i > 0 else i
+            ring[2 * i] = float(polygon[j, 0]) - x0
+            ring[2 * i + 1] = float(polygon[j, 1]) - y0
+        self.n = n
 
     def _corners(self, count):
         """The first corners of `out`, where the polygon stands."""
@@ -100,7 +111,7 @@ class ConvexShapes:
         """Corners of the largest parallelogram inside."""
         if self._clean(polygon) < 3:
             return self._flat(4)
-        inscribed.largest_parallelogram(self.ring, self.n, self.out)
+        parallelogram.largest_parallelogram(self.ring, self.n, self.out)
         return self._corners(4)
 
     def circle(self, polygon):
@@ -161,7 +172,55 @@ class ConvexShapes:
 
     def rectangle_in_outline_at_any_angle(self, points, starts, apart):
         """Corners of the largest rectangle in an outline, at any angle."""
+        if len(starts) == 2 and self._is_convex(points):
+            self.turning.in_ring(self.ring, self.n, self.work, self.out)
+            return self._corners(4)
         return self._placed(points, self.turning.in_outline(points, starts, apart, self.out))
+
+    def _is_convex(self, points):
+        """Whether a ring is convex up to rounding; then it stands clean in `ring`.
+
+        It is where its hull has the same area, and has none of its vertices inside.
+        """
+        k = points.shape[0]
+        size = clean.extent(points)
+        flat = max(_FLAT * size, 1e-15 * (abs(points[0, 0]) + abs(points[0, 1]) + size))  # and of the coordinates
+        x = points[k - 1, 0]
+        y = points[k - 1, 1]
+        ux = x - points[k - 2, 0]
+        uy = y - points[k - 2, 1]
+        for i in range(k):
+            wx = points[i, 0] - x
+            wy = points[i, 1] - y
+            if ux * wy - uy * wx < -1e4 * flat * max(abs(ux) + abs(uy), abs(wx) + abs(wy)):
+                return False
+            x = points[i, 0]
+            y = points[i, 1]
+            ux = wx
+            uy = wy
+        if self._clean(points) < 3:
+            return False
+        ring = self.ring
+        twice = 0.0
+        for i in range(self.n):
+            j = i + 1 if i + 1 < self.n else 0
+            twice += (ring[2 * i] - ring[0]) * (ring[2 * j + 1] - ring[1])
+            twice -= (ring[2 * j] - ring[0]) * (ring[2 * i + 1] - ring[1])
+        if abs(convex.area(points) - 0.5 * twice) > flat * size:
+            return False
+        for k in range(points.shape[0]):
+            x = points[k, 0] - self.x
+            y = points[k, 1] - self.y
+            depth = _INF
+            for i in range(self.n):
+                j = i + 1 if i + 1 < self.n else 0
+                dx = ring[2 * j] - ring[2 * i]
+                dy = ring[2 * j + 1] - ring[2 * i + 1]
+                across = dx * (y - ring[2 * i + 1]) - dy * (x - ring[2 * i])
+                depth = min(depth, across / (abs(dx) + abs(dy)))
+            if depth > flat:
+                return False
+        return True
 
     def _placed(self, points, area):
         """The corners of `out` about the first point; all of them there where they hold no area."""
