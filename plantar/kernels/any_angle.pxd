@@ -8,6 +8,7 @@ cdef double _GOLDEN
 cdef double _WIDEST
 cdef double _SHARE
 cdef double _LEAST
+cdef double _SLIM
 cdef int _STEPS
 cdef int _MOST
 cdef int _SEEDS
@@ -32,6 +33,7 @@ cdef class AnyAngle:
     cdef Py_ssize_t n
     cdef double best
     cdef double best_angle
+    cdef double fine
     cdef double[::1] stack
     cdef double[::1] direction
     cdef double[::1] ring
@@ -45,12 +47,15 @@ cdef class AnyAngle:
     @cython.locals(outline=concave.OutlineRectangles, parts=Py_ssize_t, best_part=Py_ssize_t, k=Py_ssize_t)
     cpdef double in_outline(self, const double[:, :] points, object starts, bint apart, double[::1] out) except -1
 
+    @cython.locals(i=Py_ssize_t, dx=double, dy=double, twice=double, reach2=double)
+    cdef void _measure(self, double[::1] points, Py_ssize_t n) noexcept
+
     cdef _take_ring(self, double[::1] points, Py_ssize_t n)
     cdef double _largest(self, double angle, double floor, double[::1] out) except -1
 
     @cython.locals(
         direction="double[::1]", count=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, known=bint, angle=double, dx=double,
-        dy=double
+        dy=double, same=double
     )
     cdef Py_ssize_t _find_directions(self, double[::1] points, Py_ssize_t n) noexcept
 
@@ -82,4 +87,4 @@ cdef class AnyAngle:
 
 cdef double _slope(double area, double before, double back, double lean) noexcept
 cdef double _reach(double slope, double curve, double gap) noexcept
-cdef double _step(double slope, double curve, double gap, double lean) noexcept
+cdef double _step(double slope, double curve, double gap, double lean, double least) noexcept

@@ -18,7 +18,8 @@ _QUARTER = 0.5 * math.pi
 _GOLDEN = 0.3819660112501051
 _WIDEST = 0.2  # rad of the widest interval that the search in an outline starts with, or so many times A / d^2
 _SHARE = 1.2
-_LEAST = 1e-10  # rad of the least step: summits that are narrower, of needles, are looked for at edges alone
+_LEAST = 1e-10  # rad of the least step: summits that are narrower are looked for at edges alone
+_SLIM = 1e2  # times its area over its diameter squared a ring is slim below 1, and all angles are as much finer
 _STEPS = 1000  # steps along a ring's angles; some 20 are the rule, needles may want more
 _MOST = 20000  # angles that are looked at for an island, which only slivers with more bays than area need
 _SEEDS = 6  # directions of edges that are looked at first
@@ -58,6 +59,7 @@ class AnyAngle:
         self.n = 0
         self.best = 0.0
         self.best_angle = 0.0
+        self.fine = 1.0
         self.stack = work_arrays.numbers(512, self.lists)
         self.room = work_arrays.numbers(512, self.lists)
         self.direction = work_arrays.numbers(_SEEDS + 2, self.lists)
@@ -81,6 +83,7 @@ class AnyAngle:
         self.work = work
         self.best = 0.0
         self.best_angle = 0.0
+        self._measure(ring, n)
         self._seed(ring, n, out)
         if self.best > 0.0:
             self._climb(self.best_angle, self.best, out)
@@ -102,6 +105,7 @@ class AnyAngle:
         self.convex = False
         self.best = 0.0
         self.best_angle = 0.0
+        self.fine = 1.0
         outline = self.outline
         parts = outline.take(points, starts, apart)
         best_part = 0
@@ -120,6 +124,7 @@ class AnyAngle:
                 self._take_ring(outline.points, outline.m)
                 self._march(out)
                 self.convex = False
+                self.fine = 1.0
             else:
                 outline.measure()
                 self._search(out)
@@ -127,6 +132,18 @@ class AnyAngle:
                 best_part = k
         outline.choose(best_part)
         return self._largest(self.best_angle, _ALMOST * self.best, out)
+
+    def _measure(self, points, n):
+        """Measure how slim a ring is: the summits of one that is become as narrow."""
+        twice = 0.0
+        reach2 = 0.0
+        for i in range(1, n):
+            dx = points[2 * i] - points[0]
+            dy = points[2 * i + 1] - points[1]
+            reach2 = max(reach2, dx * dx + dy * dy)
+            if i + 1 < n:
+                twice += dx * (points[2 * i + 3] - points[1]) - (points[2 * i + 2] - points[0]) * dy
+        self.fine = min(1.0, _SLIM * 0.5 * twice / reach2)
 
     def _take_ring(self, points, n):
         """Look at a convex part of an outline as a ring."""
@@ -136,6 +153,7 @@ class AnyAngle:
         self.ring = points
         self.n = n
         self.work = self.room
+        self._measure(points, n)
 
     def _largest(self, angle, floor, out):
         """Largest rectangle at one angle; the floor where it is not above it."""
@@ -146,6 +164,7 @@ class AnyAngle:
     def _find_directions(self, points, n):
         """Find the directions of some edges, within a quarter turn; their number."""
         direction = self.direction
+        same = 1e-6 * self.fine
         count = 0
         for i in range(n - 1):
             dx = points[2 * i + 2] - points[2 * i]
@@ -153,7 +172,7 @@ class AnyAngle:
             angle = (math.atan2(dy, dx) + 4.0 * _QUARTER) % _QUARTER
             known = False
             for k in range(count):
-                if abs(direction[k] - angle) < 1e-6 or abs(direction[k] - angle) > _QUARTER - 1e-6:
+                if abs(direction[k] - angle) < same or abs(direction[k] - angle) > _QUARTER - same:
                     known = True
             if not known:
                 direction[count] = angle
@@ -203,7 +222,7 @@ class AnyAngle:
             slope = _slope(area, before, back, lean)
             last = angle
             before = area
-            step = _step(slope, curve, gap, lean)
+            step = _step(slope, curve, gap, lean, _LEAST * self.fine)
             skip = math.sqrt(0.7 * _CLOSE / curve)
             if step < skip and clear_to <= angle:
                 clear_to = angle + skip
@@ -293,10 +312,10 @@ class AnyAngle:
         """Climb to the summit beside an angle; the best so far where it is higher."""
         mine = area
         at = middle
-        side = middle + _STEP
+        side = middle + _STEP * self.fine
         beside = self._largest(side, area, out)
         if beside <= area:
-            side = middle - _STEP
+            side = middle - _STEP * self.fine
             beside = self._largest(side, area, out)
         if beside > area:  # else the summit itself, as edges and corners that touch make them
             low = middle
@@ -305,7 +324,7 @@ class AnyAngle:
             at_beyond_low = area
             at = side
             mine = beside
-            reach = _STRIDE if side > middle else -_STRIDE
+            reach = _STRIDE * self.fine if side > middle else -_STRIDE * self.fine
             high = at + reach
             at_high = self._largest(high, self._lower(mine, high - at), out)
             while at_high > mine and abs(reach) < _QUARTER:
@@ -327,7 +346,7 @@ class AnyAngle:
             steep = 1.0
             for _ in range(_SECTIONS):
                 width = abs(high - low)
-                if width < 3e-8 or mine - min(at_low, at_high) < _SLACK * mine:
+                if width < 3e-8 * self.fine or mine - min(at_low, at_high) < _SLACK * mine:
                     break
                 angle = at + _GOLDEN * ((high if abs(high - at) > abs(at - low) else low) - at)
                 promised = 0.0
@@ -434,7 +453,7 @@ def _reach(slope, curve, gap):
     return 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / curve
 
 
-def _step(slope, curve, gap, lean):
+def _step(slope, curve, gap, lean, least):
     """How far a ring's bound stays below the best from an angle on, in rad."""
     step = min(_LONGEST, min(_reach(slope, curve, gap), 0.9 * lean))
     # Less, since the bound's curve rises; integrated twice it is this logarithm. What rises is convex, so it stays
@@ -443,5 +462,5 @@ def _step(slope, curve, gap, lean):
     while True:
         rise = slope * step - math.log(math.sin(2.0 * (lean - step)) / math.sin(2.0 * lean)) - cotangent * step
         if not rise > gap:
-            return max(step, _LEAST)
+            return max(step, least)
         step *= max(0.9, min(gap / rise, 1.0 - 1e-9))

@@ -16,8 +16,9 @@ cpdef void wrenches(
 ) noexcept
 
 @cython.locals(
-    columns="const double[:, ::1]", areas="const double[::1]", k=Py_ssize_t, i=Py_ssize_t, f=double, fx=double,
-    fy=double, fz=double, tx=double, ty=double, tz=double, area=double, sx=double, sy=double
+    n=Py_ssize_t, columns="const double[:, ::1]", areas="const double[::1]", k=Py_ssize_t, i=Py_ssize_t,
+    lever_x="const double[::1]", lever_y="const double[::1]", kept="double[::1]", covered="double[::1]", f=double,
+    part=double, fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double, sx=double, sy=double
 )
 cpdef void loads(
     SoleKernel sole, const double[:, ::1] force, double threshold, double saturation, double[:, ::1] out

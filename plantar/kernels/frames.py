@@ -68,7 +68,10 @@ def wrenches(sole, force, threshold, saturation, out):
 
 
 def loads(sole, force, threshold, saturation, out):
-    """Wrench, contact area and CoP of each frame; reference and error as `SoleKernel.loads`.
+    """Wrench, contact area and CoP of each frame: to the last bit what `SoleKernel.loads` gives.
+
+    A taxel that is not active adds a 0, which changes no sum and costs less than asking each one. On a flat sole the
+    moments are those of the CoP already.
 
     Args:
         sole: The `SoleKernel`.
@@ -77,12 +80,28 @@ def loads(sole, force, threshold, saturation, out):
         saturation: Forces from this on are left out; in N.
         out: Receives (frames, 9): wrench about the sole frame's origin, area in m^2, CoP in m, NaN where there is none.
     """
+    n = sole.taxels
     columns, areas = sole.columns, sole.areas
+    lever_x, lever_y, kept, covered = sole.lever_x, sole.lever_y, sole.kept, sole.covered
     for k in range(force.shape[0]):
+        for i in range(n):
+            f, part = force[k, i], areas[i]
+            part = part if f > threshold else 0.0
+            covered[i] = part if f < saturation else 0.0
+            f = f if f > threshold else 0.0
+            kept[i] = f if f < saturation else 0.0
         fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
-        for i in range(sole.taxels):
-            f = force[k, i]
-            if threshold < f < saturation:
+        if sole.flat:
+            for i in range(n):
+                fz += kept[i]
+                tx += kept[i] * lever_x[i]
+                ty += kept[i] * lever_y[i]
+                area += covered[i]
+            sx = 0.0 - ty
+            sy = tx
+        else:
+            for i in range(n):
+                f = kept[i]
                 fx += f * columns[i, 0]
                 fy += f * columns[i, 1]
                 fz += f * columns[i, 2]
@@ -91,7 +110,7 @@ def loads(sole, force, threshold, saturation, out):
                 tz += f * columns[i, 5]
                 sx += f * columns[i, 6]
                 sy += f * columns[i, 7]
-                area += areas[i]
+                area += covered[i]
         out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5], out[k, 6] = fx, fy, fz, tx, ty, tz, area
         if 0.0 < fz < _INFINITE:
             out[k, 7], out[k, 8] = sx / fz, sy / fz

@@ -12,6 +12,217 @@ import math
 __all__ = ["largest_rectangle", "lean", "write_corners"]
 
 
+class _Gap:
+    """The gap between the upper and the lower chain of a rotated ring, seen by a rectangle of some width.
+
+    Attributes:
+        x: Where the rectangle begins.
+        height: Height of the gap there: min(top(x), top(x + w)) - max(bottom(x), bottom(x + w)).
+        slope: How the largest height of a width changes with the width, by the cut (tangent) taken last.
+        top: Upper side of the rectangle.
+        bottom: Its lower side.
+    """
+
+    def start(self, work, upper, tops, lower, bottoms):
+        """Begin with the chains that stand in work (x, y, slope of each vertex): where each begins, and its length."""
+        self.work = work
+        self.upper = upper
+        self.tops = tops
+        self.lower = lower
+        self.bottoms = bottoms
+        self.first = max(work[lower], work[upper])
+        self.last = min(work[lower + 3 * bottoms - 3], work[upper + 3 * tops - 3])
+        self.size = self.last - self.first + abs(work[lower + 1]) + abs(work[upper + 1])
+        self.over = 0  # the chains' edges over and under x and x + w, walked from where they stood
+        self.over_end = 0
+        self.under = 0
+        self.under_end = 0
+        self.x = 0.0
+        self.height = 0.0
+        self.slope = 0.0
+        self.top = 0.0
+        self.bottom = 0.0
+        self.in_x = 0.0
+        self.in_w = 0.0
+
+    def edge_at(self, at, count, edge, x):
+        """Edge at an x of the chain that begins at a place in work, walked from one of its edges."""
+        while edge > 0 and self.work[at + 3 * edge] > x:
+            edge -= 1
+        while edge < count - 2 and self.work[at + 3 * edge + 3] < x:
+            edge += 1
+        return edge
+
+    def measure(self, x, w):
+        """Height of the gap at x, and its slopes in x and in w."""
+        y = x + w
+        self.over = self.edge_at(self.upper, self.tops, self.over, x)
+        self.over_end = self.edge_at(self.upper, self.tops, self.over_end, y)
+        self.under = self.edge_at(self.lower, self.bottoms, self.under, x)
+        self.under_end = self.edge_at(self.lower, self.bottoms, self.under_end, y)
+        a = self.upper + 3 * self.over
+        b = self.upper + 3 * self.over_end
+        c = self.lower + 3 * self.under
+        d = self.lower + 3 * self.under_end
+        self.x = x
+        self.top = self.work[a + 1] + (x - self.work[a]) * self.work[a + 2]
+        p = self.work[b + 1] + (y - self.work[b]) * self.work[b + 2]
+        self.in_x = self.work[a + 2]
+        self.in_w = 0.0
+        if p < self.top:
+            self.top = p
+            self.in_x = self.work[b + 2]
+            self.in_w = self.in_x
+        self.bottom = self.work[c + 1] + (x - self.work[c]) * self.work[c + 2]
+        p = self.work[d + 1] + (y - self.work[d]) * self.work[d + 2]
+        if p > self.bottom:
+            self.bottom = p
+            self.in_x -= self.work[d + 2]
+            self.in_w -= self.work[d + 2]
+        else:
+            self.in_x -= self.work[c + 2]
+        self.height = self.top - self.bottom
+
+    def find_highest(self, w):
+        """Go to the highest gap of a width, from where x stands, and take a cut through it.
+
+        Two cuts, one that rises with x and one that falls, bracket the maximum; where they meet is the next x.
+        """
+        rise = fall = 0.0  # slopes in x of the two cuts
+        rise_w = fall_w = 0.0  # and in w
+        rise_x = self.first
+        fall_x = max(self.last - w, self.first)
+        rise_height = fall_height = 0.0
+        rise_top = fall_top = 0.0
+        rise_bottom = fall_bottom = 0.0
+        has_rise = False
+        has_fall = False
+        mixed = 0.0
+        expected = 0.0
+        x = min(max(self.x, rise_x), fall_x)
+        for _ in range(60):
+            self.measure(x, w)
+            self.slope = self.in_w
+            if self.in_x == 0.0:
+                return
+            if has_rise and has_fall and self.height >= expected - 1e-15 * self.size:
+                self.slope = mixed  # on both cuts: the optimum
+                return
+            if self.in_x > 0.0:
+                rise_x = x
+                rise_height = self.height
+                rise = self.in_x
+                rise_w = self.in_w
+                rise_top = self.top
+                rise_bottom = self.bottom
+                has_rise = True
+                if not has_fall:
+                    if x >= self.last - w:
+                        self.slope = self.in_w - self.in_x
+                        return
+                    x = self.last - w
+                    continue
+            else:
+                fall_x = x
+                fall_height = self.height
+                fall = self.in_x
+                fall_w = self.in_w
+                fall_top = self.top
+                fall_bottom = self.bottom
+                has_fall = True
+                if not has_rise:
+                    if x <= self.first:
+                        return
+                    x = self.first
+                    continue
+            mixed = (rise * fall_w - fall * rise_w) / (rise - fall)
+            x = rise_x + (fall_height - rise_height + fall * (rise_x - fall_x)) / (rise - fall)
+            expected = rise_height + rise * (x - rise_x)
+            if not rise_x < x < fall_x:
+                self.slope = mixed  # the cuts meet where one was taken
+                if rise_height >= fall_height:
+                    self.keep(rise_x, rise_height, rise_top, rise_bottom)
+                else:
+                    self.keep(fall_x, fall_height, fall_top, fall_bottom)
+                return
+
+    def keep(self, x, height, top, bottom):
+        """Take a gap that was measured before."""
+        self.x = x
+        self.height = height
+        self.top = top
+        self.bottom = bottom
+
+
+class _Widths:
+    """Bracket of the largest rectangle's width: a cut h <= height + slope (w' - w) on its left and on its right."""
+
+    def start(self, reach):
+        """Begin with all widths from 0 to the largest."""
+        self.left = 0.0
+        self.left_height = 0.0
+        self.left_slope = 0.0
+        self.has_left = False
+        self.right = reach
+        self.right_height = 0.0
+        self.right_slope = 0.0
+        self.has_right = False
+
+    def cut(self, w, height, slope):
+        """Take in a cut at a width; False where the area has its maximum there."""
+        rate = height + slope * w  # of the area
+        if rate > 0.0:
+            self.left = w
+            self.left_height = height
+            self.left_slope = slope
+            self.has_left = True
+        elif rate < 0.0:
+            self.right = w
+            self.right_height = height
+            self.right_slope = slope
+            self.has_right = True
+        else:
+            return False
+        return True
+
+    def under_left(self, w):
+        """What the left cut leaves of the height at a width."""
+        return self.left_height + self.left_slope * (w - self.left)
+
+    def under_right(self, w):
+        """What the right cut leaves of the height at a width."""
+        return self.right_height + self.right_slope * (w - self.right)
+
+    def next_width(self, best):
+        """Width of the largest area that the cuts leave; below 0 where that is no more than the best one."""
+        w = 0.0
+        bound = -1.0
+        if self.has_left:
+            w = self.right
+            if self.left_slope < 0.0:
+                w = min(w, 0.5 * (self.left - self.left_height / self.left_slope))
+            bound = w * self.under_left(w)
+            if self.has_right and self.under_right(w) < self.under_left(w):
+                w = 0.5 * (self.right - self.right_height / self.right_slope) if self.right_slope < 0.0 else self.left
+                w = max(w, self.left)
+                if self.left_slope > self.right_slope and self.under_left(w) < self.under_right(w):
+                    w = (
+                        self.right_height
+                        - self.left_height
+                        + self.left_slope * self.left
+                        - self.right_slope * self.right
+                    ) / (self.left_slope - self.right_slope)
+                bound = w * self.under_right(w)
+        else:
+            if self.right_slope >= 0.0:  # only where the ring is not convex
+                return -1.0
+            w = 0.5 * (self.right - self.right_height / self.right_slope)
+            bound = w * self.under_right(w)
+        if bound <= best * (1.0 + 1e-15) or not (self.left < w <= self.right) or (w == self.right and self.has_right):
+            return -1.0
+        return w
+
+
 def largest_rectangle(ring, n, angle, floor, work, out):
     """Largest rectangle in a clean ring whose first side stands at an angle.
 
@@ -43,208 +254,59 @@ def largest_rectangle(ring, n, angle, floor, work, out):
             high = i
     tolerance = 1e-14 * (work[2 * high] - work[2 * low])
     lower = 2 * n
-    bottom = _chain(work, n, low, high, 1, tolerance, lower)
-    upper = lower + 3 * bottom
-    top = _chain(work, n, low, high, -1, tolerance, upper)
-    x_first = max(work[lower], work[upper])
-    x_last = min(work[lower + 3 * bottom - 3], work[upper + 3 * top - 3])
-    reach = x_last - x_first
+    bottoms = _chain(work, n, low, high, 1, tolerance, lower)
+    upper = lower + 3 * bottoms
+    tops = _chain(work, n, low, high, -1, tolerance, upper)
+    gap = _Gap()
+    gap.start(work, upper, tops, lower, bottoms)
+    widths = _Widths()
+    widths.start(gap.last - gap.first)
     best = floor
     best_x = 0.0
     best_w = -1.0
     best_b = 0.0
     best_t = 0.0
-    # Bracket of w: cuts h <= height + slope (w' - w) on its left and right.
-    w_left = 0.0
-    h_left = 0.0
-    s_left = 0.0
-    has_left = False
-    w_right = reach
-    h_right = 0.0
-    s_right = 0.0
-    has_right = False
-    w = 0.5 * reach
-    x = 0.5 * (x_first + x_last) - 0.5 * w
-    size = reach + abs(work[lower + 1]) + abs(work[upper + 1])
-    u1 = 0  # the chains' edges under x and x + w, walked from where they stood
-    u2 = 0
-    l1 = 0
-    l2 = 0
+    w = 0.5 * widths.right
+    gap.x = 0.5 * (gap.first + gap.last) - 0.5 * w
     for _ in range(60):
-        # Highest gap of this width, and a cut through it.
-        xa = x_first
-        xb = x_last - w
-        if xb < xa:
-            xb = xa
-        has_a = False
-        has_b = False
-        va = 0.0
-        ga = 0.0
-        da = 0.0
-        top_a = 0.0
-        bottom_a = 0.0
-        vb = 0.0
-        gb = 0.0
-        db = 0.0
-        top_b = 0.0
-        bottom_b = 0.0
-        if x < xa:
-            x = xa
-        elif x > xb:
-            x = xb
-        height = 0.0
-        slope = 0.0
-        mixed = 0.0
-        expected = 0.0
-        t = 0.0
-        b = 0.0
-        for _ in range(60):
-            y = x + w
-            while u1 > 0 and work[upper + 3 * u1] > x:
-                u1 -= 1
-            while u1 < top - 2 and work[upper + 3 * u1 + 3] < x:
-                u1 += 1
-            while u2 > 0 and work[upper + 3 * u2] > y:
-                u2 -= 1
-            while u2 < top - 2 and work[upper + 3 * u2 + 3] < y:
-                u2 += 1
-            while l1 > 0 and work[lower + 3 * l1] > x:
-                l1 -= 1
-            while l1 < bottom - 2 and work[lower + 3 * l1 + 3] < x:
-                l1 += 1
-            while l2 > 0 and work[lower + 3 * l2] > y:
-                l2 -= 1
-            while l2 < bottom - 2 and work[lower + 3 * l2 + 3] < y:
-                l2 += 1
-            t = work[upper + 3 * u1 + 1] + (x - work[upper + 3 * u1]) * work[upper + 3 * u1 + 2]
-            p = work[upper + 3 * u2 + 1] + (y - work[upper + 3 * u2]) * work[upper + 3 * u2 + 2]
-            gx = work[upper + 3 * u1 + 2]  # slope of the gap in x, and in w
-            gw = 0.0
-            if p < t:
-                t = p
-                gx = work[upper + 3 * u2 + 2]
-                gw = gx
-            b = work[lower + 3 * l1 + 1] + (x - work[lower + 3 * l1]) * work[lower + 3 * l1 + 2]
-            p = work[lower + 3 * l2 + 1] + (y - work[lower + 3 * l2]) * work[lower + 3 * l2 + 2]
-            if p > b:
-                b = p
-                gx -= work[lower + 3 * l2 + 2]
-                gw -= work[lower + 3 * l2 + 2]
-            else:
-                gx -= work[lower + 3 * l1 + 2]
-            height = t - b
-            slope = gw
-            if gx == 0.0:
-                break
-            if has_a and has_b and height >= expected - 1e-15 * size:
-                slope = mixed  # on both cuts: the optimum
-                break
-            if gx > 0.0:
-                xa = x
-                va = height
-                ga = gx
-                da = gw
-                top_a = t
-                bottom_a = b
-                has_a = True
-                if not has_b:
-                    if x >= x_last - w:
-                        slope = gw - gx
-                        break
-                    x = x_last - w
-                    continue
-            else:
-                xb = x
-                vb = height
-                gb = gx
-                db = gw
-                top_b = t
-                bottom_b = b
-                has_b = True
-                if not has_a:
-                    if x <= x_first:
-                        break
-                    x = x_first
-                    continue
-            mixed = (ga * db - gb * da) / (ga - gb)
-            x = xa + (vb - va + gb * (xa - xb)) / (ga - gb)
-            expected = va + ga * (x - xa)
-            if not xa < x < xb:
-                slope = mixed  # the cuts meet where one was taken
-                if va >= vb:
-                    x = xa
-                    height = va
-                    t = top_a
-                    b = bottom_a
-                else:
-                    x = xb
-                    height = vb
-                    t = top_b
-                    b = bottom_b
-                break
-        area = w * height
+        gap.find_highest(w)
+        area = w * gap.height
         if area > best:
             best = area
-            best_x = x
+            best_x = gap.x
             best_w = w
-            best_b = b
-            best_t = t
-        if height + slope * w > 0.0:
-            w_left = w
-            h_left = height
-            s_left = slope
-            has_left = True
-        elif height + slope * w < 0.0:
-            w_right = w
-            h_right = height
-            s_right = slope
-            has_right = True
-        else:
+            best_b = gap.bottom
+            best_t = gap.top
+        if not widths.cut(w, gap.height, gap.slope):
             break
-        # Best product that the cuts leave.
-        w = 0.0
-        bound = -1.0
-        if has_left:
-            w = w_right
-            if s_left < 0.0:
-                p = 0.5 * (w_left - h_left / s_left)
-                if p < w:
-                    w = p
-            bound = w * (h_left + s_left * (w - w_left))
-            if has_right and h_right + s_right * (w - w_right) < h_left + s_left * (w - w_left):
-                w = 0.5 * (w_right - h_right / s_right) if s_right < 0.0 else w_left
-                if w < w_left:
-                    w = w_left
-                if s_left > s_right and h_left + s_left * (w - w_left) < h_right + s_right * (w - w_right):
-                    w = (h_right - h_left + s_left * w_left - s_right * w_right) / (s_left - s_right)
-                bound = w * (h_right + s_right * (w - w_right))
-        else:
-            if s_right >= 0.0:  # only where the ring is not convex
-                break
-            w = 0.5 * (w_right - h_right / s_right)
-            bound = w * (h_right + s_right * (w - w_right))
-        if bound <= best * (1.0 + 1e-15) or not (w_left < w <= w_right) or (w == w_right and has_right):
+        w = widths.next_width(best)
+        if w < 0.0:
             break
     if best_w < 0.0:
         return best
-    # What the sides left out at upright edges: each side goes out to the edges' lines at the height of its corners.
-    x = work[2 * low]
-    y = work[2 * high]
-    for i in range(n):
-        j = i + 1 if i + 1 < n else 0
-        dx = work[2 * j] - work[2 * i]
-        dy = work[2 * j + 1] - work[2 * i + 1]
-        if dy < 0.0:
-            x = max(x, work[2 * i] + (best_b - work[2 * i + 1]) * dx / dy)
-            x = max(x, work[2 * i] + (best_t - work[2 * i + 1]) * dx / dy)
-        elif dy > 0.0:
-            y = min(y, work[2 * i] + (best_b - work[2 * i + 1]) * dx / dy)
-            y = min(y, work[2 * i] + (best_t - work[2 * i + 1]) * dx / dy)
+    x = max(work[2 * low], _edge_out(work, n, best_b, best_t, work[2 * low], -1.0))
+    y = min(work[2 * high], _edge_out(work, n, best_b, best_t, work[2 * high], 1.0))
     x = min(x, best_x)
     y = max(y, best_x + best_w)
     best = (y - x) * (best_t - best_b)
     write_corners(out, cosine, sine, x, y, best_b, best_t)
     return best
+
+
+def _edge_out(work, n, bottom, top, x, way):
+    """How far out a side may go, to the left (way -1) or right (1), to the ring's edges at the height of its corners.
+
+    Chains leave upright edges out; a side found on them stands a little inside the ring.
+    """
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        dx = work[2 * j] - work[2 * i]
+        dy = work[2 * j + 1] - work[2 * i + 1]
+        if way * dy > 0.0:
+            low = work[2 * i] + (bottom - work[2 * i + 1]) * dx / dy
+            high = work[2 * i] + (top - work[2 * i + 1]) * dx / dy
+            x = min(x, low, high) if way > 0.0 else max(x, low, high)
+    return x
 
 
 def write_corners(out, cosine, sine, x1, x2, y1, y2):

@@ -1,6 +1,6 @@
 # C types of sole.py. Without a compiler this file is not read.
 cimport cython
-from . cimport convex
+from . cimport convex, hull
 
 cdef double _NONE
 cdef double _INFINITE
@@ -24,6 +24,7 @@ cdef class SoleKernel:
     cdef public double tolerance
     cdef public bint flat
     cdef public double[::1] kept
+    cdef public double[::1] covered
     cdef const Py_ssize_t[::1] corner_level
     cdef const Py_ssize_t[::1] first_end
     cdef const Py_ssize_t[::1] last_begin
@@ -65,8 +66,8 @@ cdef class SoleKernel:
     cpdef hull(self, const unsigned char[:] active)
 
     @cython.locals(
-        corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, left=Py_ssize_t,
-        area=double, cx=double, cy=double, qx=double, qy=double, _margin=double
+        corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, area=double, cx=double, cy=double, qx=double,
+        qy=double, _margin=double
     )
     cpdef tick(
         self, const double[:] force, double threshold, double saturation, double offset, double x, double y

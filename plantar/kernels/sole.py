@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import convex
+from . import convex, hull
 
 __all__ = ["SoleKernel"]
 
@@ -56,7 +56,7 @@ class SoleKernel:
         self.corners = len(order)
         largest = float(np.abs(vertices).max(initial=0.0))
         extent = float(np.ptp(vertices, axis=0).max()) if len(vertices) else 0.0
-        self.tolerance = convex.hull_tolerance(largest, extent)
+        self.tolerance = hull.hull_tolerance(largest, extent)
         starts = np.asarray(corner_start, dtype=np.intp).tolist()
         rings = [corner_vertex[starts[i] : starts[i + 1]] for i in range(self.taxels)]
         rows = _rows_of_copies([vertices[ring] for ring in rings], self.tolerance)
@@ -85,6 +85,7 @@ class SoleKernel:
         ).astype(np.uint8)
         self.corner_start = np.array(starts, dtype=np.intp)
         self.kept = np.zeros(self.taxels)
+        self.covered = np.zeros(self.taxels)
         new = np.ones(len(order), dtype=bool)  # x that differ, to the last bit: on a lattice few of them
         new[1:] = ordered[1:, 0] != ordered[:-1, 0]
         level = np.cumsum(new) - 1
@@ -184,7 +185,7 @@ class SoleKernel:
 
         Only the ends of each row of copies are looked at, and of their corners the lowest at each x for the lower
         chain, the highest for the upper; they come sorted. Reference: the monotone chain over all corners of all
-        active cells in exact fractions; errors as `convex.convex_hull`, `convex.area`, `convex.area_and_centroid`.
+        active cells in exact fractions; errors as `hull.convex_hull`, `convex.area`, `convex.area_and_centroid`.
 
         Args:
             active: Mask (n,).
@@ -219,17 +220,14 @@ class SoleKernel:
         if size == 0 or offset <= 0.0:
             safe = np.empty((size, 2))
             self.copy_hull(size, safe)
-        elif size > 2:
-            left = convex._inner_offset(self.polygon[:size], offset, self.lines, self.rings)
-            safe = convex._shifted(self.rings, left, self.polygon)
         else:
-            safe = np.array([[cx, cy]])
+            safe = convex.offset(self.polygon[:size], offset, self.lines, self.rings)
         corners = safe
         nearest = np.empty(2)
         point = nearest
         qx = qy = _NONE
         if size > 0:
-            _margin, qx, qy = convex._nearest(corners, x, y)
+            _margin, qx, qy = convex._nearest_of_any(corners, x, y)
         point[0], point[1] = qx, qy
         return self.mask_room.copy(), self.sums_room.copy(), self.hulls[size].copy(), area, cx, cy, safe, nearest
 
@@ -292,7 +290,7 @@ class SoleKernel:
             highest[left] = -1
         way[count] = way[0]
         count += 1
-        size = convex.hull_ring(self.points, way, forth, count, self.tolerance, self.ring)
+        size = hull.hull_ring(self.points, way, forth, count, self.tolerance, self.ring)
         for i in range(size):
             v = self.ring[i]
             self.polygon[i, 0] = self.points[v, 0]
