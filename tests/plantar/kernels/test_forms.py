@@ -12,10 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
-from plantar.kernels import convex, frames, sole
+from plantar.bench.dirty_rings import dirty_ring
+from plantar.kernels import clean, convex, frames, hull, sole
 
 ROOT = Path(__file__).resolve().parents[3]
-CONVEX, FRAMES, SOLE = (kernels.python_form(name) for name in ("convex", "frames", "sole"))
+CLEAN, CONVEX, FRAMES, HULL, SOLE = map(kernels.python_form, ("clean", "convex", "frames", "hull", "sole"))
 seeds = st.integers(0, 2**32 - 1)
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 LAYOUTS = [
@@ -45,7 +46,7 @@ def same(a, b):
 
 
 def test_the_forms_come_from_one_source():
-    for module, form in ((convex, CONVEX), (frames, FRAMES), (sole, SOLE)):
+    for module, form in ((clean, CLEAN), (convex, CONVEX), (frames, FRAMES), (hull, HULL), (sole, SOLE)):
         assert Path(form.__file__).suffix == ".py"
         assert Path(form.__file__).parent == Path(module.__file__).parent
         assert form is not module
@@ -58,20 +59,37 @@ def test_the_forms_come_from_one_source():
 def test_convex_kernels_agree_to_the_last_bit(seed):
     cloud = cloud_of(seed)
     rng = np.random.default_rng(seed)
-    hull = convex.convex_hull(cloud)
-    assert same(hull, CONVEX.convex_hull(cloud))
-    if len(hull) == 0:
+    ring = hull.convex_hull(cloud)
+    assert same(ring, HULL.convex_hull(cloud))
+    if len(ring) == 0:
         return
     if rng.random() < 0.3:
-        hull = hull[::-1]
-    assert convex.area(hull) == CONVEX.area(hull)
-    assert same(convex.area_and_centroid(hull), CONVEX.area_and_centroid(hull))
-    x, y = (hull.mean(axis=0) + rng.normal(size=2) * np.ptp(hull) * rng.choice([0.0, 0.1, 1.0])).tolist()
-    assert same(convex.closest_point(hull, x, y), CONVEX.closest_point(hull, x, y))
-    assert same(convex.signed_margin(hull, x, y), CONVEX.signed_margin(hull, x, y))
-    if len(hull) > 2:
-        distance = float(np.ptp(hull, axis=0).max() * rng.choice([1e-9, 0.1, 0.3, 2.0]))
-        assert same(convex.inner_offset(hull, distance), CONVEX.inner_offset(hull, distance))
+        ring = ring[::-1]
+    assert convex.area(ring) == CONVEX.area(ring)
+    assert same(convex.area_and_centroid(ring), CONVEX.area_and_centroid(ring))
+    x, y = (ring.mean(axis=0) + rng.normal(size=2) * np.ptp(ring) * rng.choice([0.0, 0.1, 1.0])).tolist()
+    assert same(convex.closest_point(ring, x, y), CONVEX.closest_point(ring, x, y))
+    assert same(convex.signed_margin(ring, x, y), CONVEX.signed_margin(ring, x, y))
+    if len(ring) > 2:
+        distance = float(np.ptp(ring, axis=0).max() * rng.choice([1e-9, 0.1, 0.3, 2.0]))
+        assert same(convex.inner_offset(ring, distance), CONVEX.inner_offset(ring, distance))
+
+
+@given(seeds)
+@settings(max_examples=100)
+def test_dirty_rings_agree_to_the_last_bit(seed):
+    rng = np.random.default_rng(seed)
+    ring = dirty_ring(rng)
+    x, y = ring[rng.integers(len(ring))].tolist()
+    for x0, y0, near in ((0.0, 0.0, 0.0), (x, y, 0.0), (x, y, float(np.ptp(ring)) * 1e-3)):
+        assert clean.turning(ring, x0, y0, near) == CLEAN.turning(ring, x0, y0, near)
+        assert same(clean.clean_ring(ring, x0, y0, near), CLEAN.clean_ring(ring, x0, y0, near))
+    assert clean.extent(ring) == CLEAN.extent(ring)
+    x, y = (ring.mean(axis=0) + rng.normal(size=2) * np.ptp(ring)).tolist()
+    assert same(convex.closest_point(ring, x, y), CONVEX.closest_point(ring, x, y))
+    assert convex.signed_margin(ring, x, y) == CONVEX.signed_margin(ring, x, y)
+    distance = float(np.ptp(ring, axis=0).max() * rng.choice([1e-9, 0.1, 2.0]))
+    assert same(convex.inner_offset(ring, distance), CONVEX.inner_offset(ring, distance))
 
 
 @given(seeds, st.sampled_from(LAYOUTS))
@@ -107,7 +125,7 @@ def test_the_interpreted_form_divides_by_nothing():
         warnings.simplefilter("error")
         for ring in ([[0.0, 0.0]], [[0.0, 0.0], [0.0, 0.0]], [[1.0, 1.0]] * 3, [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]):
             polygon = np.array(ring)
-            CONVEX.convex_hull(polygon)
+            HULL.convex_hull(polygon)
             CONVEX.area_and_centroid(polygon)
             CONVEX.closest_point(polygon, 0.0, 0.0)
             if len(polygon) > 2:

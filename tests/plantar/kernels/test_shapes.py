@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.cell_edges import edge_table
+from plantar.geometry.polygon import convex_hull
 from plantar.kernels import is_compiled, outline, python_form, shapes
-from plantar.polygon import convex_hull
+from plantar.layouts.cell_edges import edge_table
 
 pytestmark = pytest.mark.skipif(not is_compiled("shapes"), reason="without a compiler there is one form only")
 

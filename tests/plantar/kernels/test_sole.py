@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import HexLattice, hex_layout
-from plantar.health import dead_taxels, saturated_taxels
+from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.kernels.sole import SoleKernel
-from plantar.polygon import area, centroid, convex_hull
+from plantar.sensing.health import dead_taxels, saturated_taxels
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 LAYOUTS = {

@@ -1,0 +1,52 @@
+import math
+
+import numpy as np
+import pytest
+
+from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, convex_ring, dirty_ring, vanishing_depths
+from plantar.bench.references import area_exact
+
+
+def test_a_ring_stands_for_its_hull():
+    eps = math.ulp(1.0)
+    ring = np.array([[2.0, 1.0], [4.0, 1.0], [4.0, 2.0], [4.0, 2.0 - eps], [3.0, 2.0 - eps], [2.0, 2.0]])
+    exact = ExactRing.of(ring[::-1])
+    assert exact.polygon.tolist() == [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]]
+    assert (exact.origin, exact.size) == ((2, 1), 2)
+    assert exact.local(ring[:2]).tolist() == [[0.0, 0.0], [1.0, 0.0]]
+    assert exact.place(np.array([1.0, 0.5])).tolist() == [4.0, 2.0]
+    assert exact.depth(np.array([[0.5, 0.25], [0.5, 1.0]])).tolist() == [0.25, -0.5]
+    assert exact.step == 2.0 * eps
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_rounding_spoils_a_ring_by_little(seed):
+    ring = dirty_ring(np.random.default_rng(seed))
+    exact = ExactRing.of(ring)
+    assert exact.step <= 1e-6
+    local = exact.local(ring)
+    assert -exact.depth(local).min() <= 2e-11  # what stands for it holds it
+    whole, hull = area_exact([local]), area_exact([exact.polygon])
+    assert abs(abs(whole) - hull) <= 2e-11 * len(ring) + 8.0 * len(ring) * exact.step
+    assert len(ring) > len(exact.polygon)
+
+
+def test_rings_of_all_kinds_come():
+    rings = [dirty_ring(np.random.default_rng(seed)) for seed in range(200)]
+    exact = [ExactRing.of(ring) for ring in rings]
+    assert {int(np.sign(area_exact([ring]))) for ring in rings} == {-1, 1}
+    sizes = np.array([float(e.size) for e in exact])
+    assert sizes.min() < 1e-5
+    assert sizes.max() > 100.0
+    assert max(float(np.abs(ring).max()) for ring in rings) > 1e5
+    narrow = [float(np.ptp(e.polygon @ [[0.0], [1.0]])) for e in exact]
+    assert min(narrow) < 1e-5
+    assert any(len(convex_ring(np.random.default_rng(seed))) > 10 for seed in range(20))
+
+
+def test_edges_vanish_where_three_lines_meet():
+    square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
+    assert vanishing_depths(square).tolist() == [0.5, 0.5, 1.0, 1.0]
+    cut = chamfered_rectangle(np.random.default_rng(8))
+    assert len(cut) == 8
+    assert 0.0 < vanishing_depths(cut)[0] < 0.5
