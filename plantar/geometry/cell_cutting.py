@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.kernels.cut_cells import cut_cells
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["CellCutter"]
 

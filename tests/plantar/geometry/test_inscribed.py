@@ -22,8 +22,8 @@ from plantar import (
     rectangle_in_outline_any_angle,
 )
 from plantar.bench.soles import contacts
+from plantar.geometry.polygon import area, convex_hull
 from plantar.kernels import is_compiled
-from plantar.polygon import area, convex_hull
 
 seeds = st.integers(0, 2**32 - 1)
 CONVEX = [inscribed_triangle, inscribed_parallelogram, inscribed_rectangle, inscribed_rectangle_any_angle]
@@ -246,6 +246,26 @@ def test_rectangle_at_any_angle_is_the_best_of_a_dense_scan(seed):
     assert gap_outside(hull, corners) < 1e-14
     best = max(area(inscribed_rectangle(hull, a)) for a in np.linspace(0.0, math.pi / 2, 300))
     assert area(corners) >= best * (1 - 1e-6)
+
+
+@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-8])
+@settings(max_examples=20)
+@given(seeds)
+def test_rectangle_at_any_angle_of_a_needle(width, seed):
+    """Its summits are as narrow as the needle is slim; the reference is a scan about its length, ever finer."""
+    rng = np.random.default_rng(seed)
+    needle = convex_hull(rng.uniform(0.0, 1.0, (int(rng.integers(3, 9)), 2)) * [1.0, width])
+    angles = np.linspace(-3.0 * width, 3.0 * width, 121)
+    best = 0.0
+    for _ in range(6):
+        areas = [area(inscribed_rectangle(needle, float(angle))) for angle in angles]
+        best = max(best, *areas)
+        step = angles[1] - angles[0]
+        angles = angles[int(np.argmax(areas))] + step * np.linspace(-2.0, 2.0, 41)
+    turn = rng.uniform(0.0, 1.5)
+    turned = needle @ np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    for ring in (needle, turned):
+        assert area(inscribed_rectangle_any_angle(ring)) >= best * (1.0 - 1e-6 - 1e-15 / width)
 
 
 @given(seeds, st.floats(-4.0, 4.0))

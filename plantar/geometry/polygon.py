@@ -2,7 +2,7 @@
 
 A polygon is an array (k, 2) of vertices in m without a repeated last point; an empty polygon has k = 0. What comes
 back is counter-clockwise; what is handed in may be clockwise. Points that coincide or lie on one line give a polygon of
-1 or 2 vertices and area 0. The work is done in `plantar.kernels.convex`, compiled where a compiler was there.
+1 or 2 vertices and area 0. The work is done in `plantar.kernels`, compiled where a compiler was there.
 """
 
 from __future__ import annotations
@@ -12,7 +12,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import number
 from plantar.kernels import convex as _kernel
+from plantar.kernels import hull as _hull
+from plantar.plane_points import plane_point, plane_points
 
 __all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "signed_margin"]
 
@@ -30,13 +33,16 @@ def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
     Returns:
         Hull (k, 2), counter-clockwise from the lowest x (to that rounding); vertices are input points.
 
+    Raises:
+        InputError: If these are not (n, 2) real numbers.
+
     Example:
         >>> convex_hull([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0.5]]).tolist()
         [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
         >>> convex_hull([]).shape
         (0, 2)
     """
-    hull: NDArray[np.float64] = _kernel.convex_hull(np.asarray(points, dtype=float).reshape(-1, 2))
+    hull: NDArray[np.float64] = _hull.convex_hull(plane_points(points, "points", finite=False))
     return hull
 
 
@@ -51,11 +57,14 @@ def area(polygon: ArrayLike) -> float:
     Returns:
         The area; 0 for fewer than 3 vertices.
 
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers.
+
     Example:
         >>> area(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]))
         2.0
     """
-    return float(_kernel.area(_ring(polygon)))
+    return float(_kernel.area(plane_points(polygon)))
 
 
 def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
@@ -67,11 +76,14 @@ def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
     Returns:
         Position (2,) in m; the mean of the vertices where the area is 0; None for an empty polygon.
 
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers.
+
     Example:
         >>> centroid(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]])).tolist()
         [1.0, 0.5]
     """
-    ring = _ring(polygon)
+    ring = plane_points(polygon)
     if len(ring) == 0:
         return None
     _area, x, y = _kernel.area_and_centroid(ring)
@@ -92,14 +104,17 @@ def closest_point(polygon: ArrayLike, point: ArrayLike) -> NDArray[np.float64] |
         The point itself when it is inside, else the closest point (2,) on the boundary; None for an empty polygon;
         NaN for a point that is not finite, to which nothing is closest.
 
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers, or the point not two numbers.
+
     Example:
         >>> closest_point(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [2.0, 0.5]).tolist()
         [1.0, 0.5]
     """
-    ring = _ring(polygon)
+    ring = plane_points(polygon)
+    x, y = plane_point(point)
     if len(ring) == 0:
         return None
-    x, y = np.asarray(point, dtype=float).tolist()
     nearest: NDArray[np.float64] = _kernel.closest_point(ring, x, y)
     return nearest
 
@@ -114,14 +129,17 @@ def signed_margin(polygon: ArrayLike, point: ArrayLike) -> float:
     Returns:
         The distance; -inf for an empty polygon, NaN for a point that is not finite.
 
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers, or the point not two numbers.
+
     Example:
         >>> signed_margin(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), [0.5, 0.25])
         0.25
     """
-    ring = _ring(polygon)
+    ring = plane_points(polygon)
+    x, y = plane_point(point)
     if len(ring) == 0:
         return -math.inf
-    x, y = np.asarray(point, dtype=float).tolist()
     return float(_kernel.signed_margin(ring, x, y))
 
 
@@ -137,20 +155,18 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         point that is deepest inside (1, 2), the middle for a polygon of 1 or 2 vertices; an empty polygon for an empty
         one, and a copy for a distance of 0.
 
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers, or the distance no number.
+
     Example:
         >>> inner_offset(np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), 0.25).tolist()
         [[0.25, 0.75], [0.25, 0.25], [0.75, 0.25], [0.75, 0.75]]
     """
-    ring = _ring(polygon)
+    ring = plane_points(polygon)
+    distance = number(distance, "distance", nan=True)
     if len(ring) == 0 or distance <= 0.0:
         return ring[:: -1 if area(ring) < 0.0 else 1].copy()
     if len(ring) < 3:
         return np.asarray(ring.mean(axis=0, keepdims=True))
     smaller: NDArray[np.float64] = _kernel.inner_offset(ring, distance)
     return smaller
-
-
-def _ring(polygon: ArrayLike) -> NDArray[np.float64]:
-    """A polygon as the kernels take it: float64 (k, 2), not copied where it is one."""
-    ring = np.asarray(polygon, dtype=np.float64)
-    return ring if ring.ndim == 2 else ring.reshape(-1, 2)

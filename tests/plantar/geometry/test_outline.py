@@ -1,4 +1,6 @@
+import copy
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -6,10 +8,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import Outline, concave_outline, feet_outline, hex_layout
-from plantar.cell_edges import edge_table
-from plantar.errors import ReadingError
-from plantar.layout import SoleLayout
+from plantar import Outline, concave_outline, feet_outline, hex_layout, kernels, rectangle_in_outline
+from plantar.errors import InputError, ReadingError
+from plantar.layouts.cell_edges import edge_table
+from plantar.layouts.layout import SoleLayout
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -206,9 +208,6 @@ def test_a_mask_that_does_not_fit_is_refused(sole):
 
 
 def test_a_layout_that_has_been_outlined_can_be_copied(sole):
-    import copy
-    import pickle
-
     concave_outline(sole, np.ones(len(sole), dtype=bool))
     assert sole.kernel is not None  # compiled objects do not pickle; they are made anew
     for twin in (pickle.loads(pickle.dumps(sole)), copy.deepcopy(sole)):
@@ -234,3 +233,97 @@ def test_feet_that_overlap_count_once():
     assert feet_outline([left, right]).area == pytest.approx(0.035, rel=1e-12)
     assert feet_outline([left, Outline.of_rings([])]).area == pytest.approx(0.02, rel=1e-12)
     assert len(feet_outline([])) == 0
+
+
+SQUARE = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+
+
+@pytest.mark.parametrize(
+    ("points", "starts", "areas", "text"),
+    [
+        (SQUARE, [0, 100], [1.0], r"offsets of an outline are \[0, 100\]; expected 0 to 4"),
+        (SQUARE, [0, 4, 10**9], [1.0, 1.0], "offsets"),
+        (SQUARE, [-5, 4], [1.0], "offsets"),
+        (SQUARE, [0, 4, 4], [1.0, 0.0], "offsets"),
+        (SQUARE, [4, 0], [1.0], "offsets"),
+        (SQUARE, [0], [], "offsets"),
+        (SQUARE, [], [], "offsets"),
+        (SQUARE, [0, 4.0], [1.0], "whole numbers"),
+        (SQUARE, None, [1.0], "whole numbers"),
+        (SQUARE, [0, 4], [2.0], "areas of an outline are .2.; those of its rings are .1."),
+        (SQUARE, [0, 4], [np.nan], "not finite"),
+        (SQUARE, [0, 4], 1.0, "areas of an outline have shape"),
+        ([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], [0, 3], [0.0], "areas"),
+        (np.zeros((4, 3)), [0, 4], [1.0], "points of an outline have shape"),
+        ([*SQUARE[:3], [0.0, np.nan]], [0, 4], [1.0], "not finite"),
+        (None, [0, 4], [1.0], "not numeric"),
+        ([], [0, 4], [1.0], "offsets"),
+    ],
+)
+def test_an_outline_made_by_hand_is_checked(points, starts, areas, text):
+    """Compiled kernels go where the offsets say: they once read what is not there, and the process died."""
+    with pytest.raises(InputError, match=text):
+        Outline(points, starts, areas)
+
+
+def test_an_outline_made_by_hand_is_one():
+    made, right = Outline(SQUARE, [0, 4], [1.0]), Outline.of_rings([SQUARE])
+    assert made.points.tolist() == right.points.tolist()
+    assert (made.area, made.starts, made.apart, made.centroid.tolist()) == (1.0, (0, 4), False, [0.5, 0.5])
+    assert rectangle_in_outline(made).tolist() == rectangle_in_outline(right).tolist()
+
+
+def outlines(sole):
+    given = np.array(SQUARE)
+    yield "of rings", Outline.of_rings([given])
+    yield "by hand", Outline(given, [0, 4], [1.0])
+    yield "of a contact", concave_outline(sole, np.ones(len(sole), dtype=bool))
+    yield "moved", Outline.of_rings([given]).moved(np.eye(2), [1.0, 0.0])
+    yield "of feet", feet_outline([Outline.of_rings([given])])
+    given[:] = 7.0  # a change to what an outline was made of
+
+
+def test_outlines_and_their_copies_are_read_only(sole):
+    for name, outline in outlines(sole):
+        for one in (outline, copy.copy(outline), copy.deepcopy(outline), pickle.loads(pickle.dumps(outline))):
+            assert one.points.tolist() == outline.points.tolist(), name
+            assert (one.starts, one.ring_areas, one.apart) == (outline.starts, outline.ring_areas, outline.apart), name
+            for array in (one.points, *one.rings, one.centroid, *one.islands[0]):
+                with pytest.raises(ValueError, match="read-only"):
+                    array[0] = 0.0
+            with pytest.raises(TypeError, match="item assignment"):
+                one.starts[1] = 10**6
+
+
+@pytest.mark.skipif(not kernels.is_compiled("outline"), reason="plain Python cannot keep others from assigning")
+def test_an_outline_keeps_what_it_is(sole):
+    outline = Outline.of_rings([SQUARE])
+    for name in ("points", "starts", "ring_areas", "apart"):
+        with pytest.raises(AttributeError):
+            setattr(outline, name, None)
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: Outline.of_rings([np.zeros((4, 3))]), r"ring has shape \(4, 3\)"),
+        (lambda: Outline.of_rings(None), "rings are None"),
+        (lambda: Outline.of_rings([[[0, 0], [1, 0], [np.inf, 1]]]), "not finite"),
+        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(4), [0, 0]), "rotation"),
+        (lambda: Outline.of_rings([SQUARE]).moved([[1.0, 0.0]], [0, 0]), "rotation"),
+        (lambda: Outline.of_rings([SQUARE]).moved(2.0 * np.eye(2), [0, 0]), "rotation"),
+        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0]), "translation"),
+        (lambda: Outline.of_rings([SQUARE]).moved(np.eye(2), [0.0, np.nan]), "translation"),
+        (lambda: feet_outline([SQUARE]), "outline is a list; expected a Outline"),
+        (lambda: feet_outline(None), "outlines are None"),
+    ],
+)
+def test_wrong_arguments_are_refused_by_name(call, text):
+    with pytest.raises(InputError, match=text):
+        call()
+
+
+@pytest.mark.parametrize("mask", [np.ones((1, 5)), "all", None, [0, 4], np.ones((5, 1), dtype=bool)])
+def test_a_mask_has_one_truth_value_a_taxel(sole, mask):
+    with pytest.raises(ReadingError, match="mask of active taxels"):
+        concave_outline(sole, mask)

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from plantar import bounding_box, inscribed_rectangle, safe_rectangle
 from plantar.errors import InputError
-from plantar.polygon import convex_hull
+from plantar.geometry.polygon import convex_hull
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import shapely
 
-import plantar.cell_cutting
-from plantar.cell_cutting import CellCutter
-from plantar.cell_layout import layout_of_cells
+import plantar.geometry.cell_cutting
+from plantar.geometry.cell_cutting import CellCutter
 from plantar.kernels import python_form
+from plantar.layouts.cell_layout import layout_of_cells
 
 
 def comb(teeth: int) -> list[tuple[float, float]]:
@@ -23,7 +23,7 @@ def comb(teeth: int) -> list[tuple[float, float]]:
 @pytest.mark.parametrize("form", ["compiled", "interpreted"])
 def test_cells_of_any_shape_keep_what_shapely_keeps(form: str, monkeypatch: pytest.MonkeyPatch) -> None:
     if form == "interpreted":
-        monkeypatch.setattr(plantar.cell_cutting, "cut_cells", python_form("cut_cells").cut_cells)
+        monkeypatch.setattr(plantar.geometry.cell_cutting, "cut_cells", python_form("cut_cells").cut_cells)
     cells = [comb(9), [(0.3, 0.0), (0.4, 0.0), (0.4, 0.1)]]
     cutter = CellCutter(layout_of_cells(cells))
     rng = np.random.default_rng(1)

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.convex_shapes import convex_shapes, points_of
-from plantar.outline import Outline
+from plantar.geometry.convex_shapes import convex_shapes, points_of
+from plantar.geometry.outline import Outline
 
 __all__ = [
     "Circle",

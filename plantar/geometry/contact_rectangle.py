@@ -7,9 +7,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.enclosing import bounding_box
+from plantar.arguments import number
 from plantar.errors import InputError
-from plantar.inscribed import inscribed_rectangle
+from plantar.geometry.enclosing import bounding_box
+from plantar.geometry.inscribed import inscribed_rectangle
 
 __all__ = ["safe_rectangle"]
 
@@ -32,13 +33,15 @@ def safe_rectangle(
         would pass each other meet in the middle. No corners (0, 2) for an empty polygon.
 
     Raises:
-        InputError: If the offset is not finite and 0 or more, or the method is neither.
+        InputError: If the polygon is not (k, 2) numbers, the offset is not finite and 0 or more, or the method is
+            neither.
 
     Example:
         >>> safe_rectangle([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]], 0.01).round(9).tolist()
         [[0.01, 0.01], [0.19, 0.01], [0.19, 0.09], [0.01, 0.09]]
     """
-    if not 0.0 <= offset < np.inf:
+    inwards = number(offset, "safety offset", nan=True)
+    if not 0.0 <= inwards < np.inf:
         raise InputError(f"safety offset is {offset} m; allowed: finite, 0 or more")
     if method not in ("inscribed", "bounding"):
         raise InputError(f"method is {method!r}; allowed: inscribed, bounding")
@@ -47,5 +50,5 @@ def safe_rectangle(
         return box
     low, high = box[0], box[2]
     middle = 0.5 * (low + high)
-    (x1, y1), (x2, y2) = np.minimum(low + offset, middle), np.maximum(high - offset, middle)
+    (x1, y1), (x2, y2) = np.minimum(low + inwards, middle), np.maximum(high - inwards, middle)
     return np.array([[x1, y1], [x2, y1], [x2, y2], [x1, y2]])

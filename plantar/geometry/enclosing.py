@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.convex_shapes import convex_shapes, points_of
+from plantar.geometry.convex_shapes import convex_shapes, points_of
 
 __all__ = ["bounding_box", "enclosing_parallelogram", "oriented_box"]
 

@@ -8,8 +8,20 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
-from plantar import HexLattice
-from plantar.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
+from plantar import (
+    HexLattice,
+    InputError,
+    bounding_box,
+    enclosing_parallelogram,
+    feet_support_polygon,
+    inscribed_circle,
+    inscribed_parallelogram,
+    inscribed_rectangle,
+    inscribed_triangle,
+    oriented_box,
+    safe_rectangle,
+)
+from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 seeds = st.integers(0, 2**32 - 1)
@@ -108,6 +120,17 @@ def test_hull_does_not_depend_on_the_order_of_the_points(seed):
 )
 def test_hull_of_degenerate_points(cloud, expected):
     assert convex_hull(cloud).reshape(-1, 2).tolist() == expected
+
+
+@given(seeds, st.sampled_from([5e-324, 1e-308, 1e-200, 1e-130, 1e-17]))
+def test_hull_keeps_its_corners_beside_tiny_coordinates(seed, tiny):
+    """Next to 0 comes 5e-324: products of such a difference are 0, and a turn made of them says nothing."""
+    rng = np.random.default_rng(seed)
+    between = np.column_stack([tiny * rng.integers(-3, 4, 4), rng.uniform(0.0, 1.0, 4)])
+    cloud = np.concatenate([SQUARE, between, between[:, ::-1]])
+    hull = convex_hull(cloud)
+    assert area(hull) == pytest.approx(1.0, rel=1e-12)
+    assert {(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)} <= {(round(x, 12), round(y, 12)) for x, y in hull.tolist()}
 
 
 # --- area and centroid --------------------------------------------------------------------------------------------
@@ -335,3 +358,49 @@ def test_points_that_are_not_finite_are_left_out():
         assert math.isnan(signed_margin(SQUARE, [x, 0.0]))
     assert inner_offset(SQUARE, math.nan).tolist() == [[0.5, 0.5]]
     assert inner_offset(SQUARE, math.inf) == pytest.approx(np.array([[0.5, 0.5]]))
+
+
+# --- what is no polygon --------------------------------------------------------------------------------------------
+
+EVERY = {
+    "convex_hull": convex_hull,
+    "area": area,
+    "centroid": centroid,
+    "closest_point": lambda p: closest_point(p, (0.0, 0.0)),
+    "signed_margin": lambda p: signed_margin(p, (0.0, 0.0)),
+    "inner_offset": lambda p: inner_offset(p, 0.1),
+    "feet_support_polygon": lambda p: feet_support_polygon([p, p]),
+    **{f.__name__: f for f in (bounding_box, oriented_box, enclosing_parallelogram)},
+    **{f.__name__: f for f in (inscribed_triangle, inscribed_parallelogram, inscribed_circle, inscribed_rectangle)},
+    "safe_rectangle": lambda p: safe_rectangle(p, 0.0),
+}
+
+
+@pytest.mark.parametrize("function", EVERY.values(), ids=EVERY)
+@pytest.mark.parametrize(
+    "value", [np.zeros((4, 3)), np.zeros((3, 4)), np.zeros(8), 1.0, None, [[0, 0], [1]], ["ab", "cd"], [[0, 1j]]]
+)
+def test_what_is_no_polygon_is_refused(function, value):
+    """Points in space and flat lists were once read as other points of the plane."""
+    with pytest.raises(InputError, match=r"^(polygon|points?) (has|have|is|are) "):
+        function(value)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e101])
+def test_a_vertex_that_is_not_finite_is_refused_where_it_counts(bad):
+    ring = SQUARE.copy()
+    ring[2, 1] = bad
+    for name in ("area", "centroid", "closest_point", "signed_margin", "inner_offset", "feet_support_polygon"):
+        with pytest.raises(InputError, match=r"not finite|allowed: up to"):
+            EVERY[name](ring)
+    assert convex_hull(ring).tolist() == [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+
+
+def test_a_point_is_checked_also_beside_an_empty_polygon():
+    for function in (closest_point, signed_margin):
+        for point in (np.zeros(3), [0.0], None, "ab"):
+            for ring in ([], SQUARE):
+                with pytest.raises(InputError, match="point"):
+                    function(ring, point)
+    with pytest.raises(InputError, match="distance is None"):
+        inner_offset([], None)

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.cell_edges import EdgeTable, edge_table
-from plantar.enclosing import bounding_box
-from plantar.errors import ReadingError
-from plantar.kernels.outline import Rings, area_and_centroid, ring_areas
-from plantar.layout import SoleLayout
+from plantar.arguments import instance, items
+from plantar.arrays import array, integers, own, read_only
+from plantar.errors import InputError
+from plantar.geometry.enclosing import bounding_box
+from plantar.kernels.outline import Rings, area_and_centroid
+from plantar.kernels.outline import ring_areas as areas_of_rings
+from plantar.layouts.cell_edges import EdgeTable, edge_table
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
+from plantar.plane_points import plane_points
 
 __all__ = ["Outline", "concave_outline", "feet_outline"]
 
 
 class Outline(Rings):
-    """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise.
+    """Rings around an area of the plane: rims of islands counter-clockwise, rims of holes clockwise. All is read-only.
 
     Attributes:
         points: Vertices (k, 2) of all rings in m, one ring after another, no ring with a repeated last point.
@@ -29,6 +33,10 @@ class Outline(Rings):
         ring_areas: Signed area of each ring in m^2, below 0 for a hole.
         apart: Whether islands are known to meet in points at most, so that what lies in the area lies in one of them.
         area: Area in m^2, holes left out; exact to 1e-12 of it.
+
+    Raises:
+        InputError: If the points are not (k, 2) finite numbers, the offsets do not cut them into rings of 3 points or
+            more, or the areas are not those of the rings.
 
     Example:
         >>> square = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
@@ -43,12 +51,27 @@ class Outline(Rings):
         ring_areas: Sequence[float]
         apart: bool
 
-        def __init__(
-            self, points: NDArray[np.float64], starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
-        ) -> None: ...
-
         @property
         def area(self) -> float: ...
+
+    def __init__(
+        self, points: ArrayLike, starts: Sequence[int], ring_areas: Sequence[float], apart: bool = False
+    ) -> None:
+        # Kernels go where the offsets say.
+        kept = own(plane_points(points, "points of an outline"))
+        offsets = tuple(integers(starts, "offsets of an outline", ("r + 1",)).tolist())
+        if not offsets or offsets[0] != 0 or offsets[-1] != len(kept) or any(b - a < 3 for a, b in pairwise(offsets)):
+            raise InputError(f"offsets of an outline are {_shortly(offsets)}; expected 0 to {len(kept)} by 3 or more")
+        right = areas_of_rings(kept, offsets)
+        given = array(ring_areas, "areas of an outline", (len(right),), finite=True).tolist()
+        slack = 1e-9 * float(np.ptp(kept, axis=0).max()) ** 2 if len(kept) else 0.0
+        if any(not abs(a - b) <= slack or b == 0.0 for a, b in zip(given, right, strict=True)):
+            raise InputError(f"areas of an outline are {_shortly(given)}; those of its rings are {_shortly(right)}")
+        super().__init__(kept, offsets, tuple(given), bool(apart))  # type: ignore[no-untyped-call]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles are made anew: numpy forgets what is read-only.
+        return type(self), (self.points, self.starts, self.ring_areas, self.apart)
 
     @classmethod
     def of_rings(cls, rings: Sequence[ArrayLike], apart: bool = False) -> Outline:
@@ -60,21 +83,32 @@ class Outline(Rings):
 
         Returns:
             The outline; rings without area are left out.
+
+        Raises:
+            InputError: If a ring is not (k, 2) finite numbers.
         """
-        parts = [np.asarray(ring, dtype=float).reshape(-1, 2) for ring in rings]
+        parts = [plane_points(ring, "ring") for ring in items(rings, "rings")]
         return cls._with_area(np.concatenate([np.empty((0, 2)), *parts]), [0, *accumulate(map(len, parts))], apart)
 
     @classmethod
     def _with_area(cls, points: NDArray[np.float64], starts: Sequence[int], apart: bool) -> Outline:
-        """Outline of rings one after another; those without area are left out."""
-        areas = ring_areas(points, starts)
-        if 0.0 in areas or not all(map(math.isfinite, areas)):
-            pairs = zip(starts[:-1], starts[1:], areas, strict=True)
-            kept = [(points[a:b], area) for a, b, area in pairs if area != 0.0 and math.isfinite(area)]
+        """Outline of rings one after another, in an array that nobody else holds; those without area are left out."""
+        areas = areas_of_rings(points, starts)
+        if 0.0 in areas:
+            kept = [(points[a:b], area) for (a, b), area in zip(pairwise(starts), areas, strict=True) if area != 0.0]
             points = np.concatenate([np.empty((0, 2)), *(ring for ring, _ in kept)])
             starts = [0, *accumulate(len(ring) for ring, _ in kept)]
             areas = [area for _, area in kept]
-        return cls(points, starts, areas, apart)
+        return cls._of(points, starts, areas, apart)
+
+    @classmethod
+    def _of(
+        cls, points: NDArray[np.float64], starts: Sequence[int], areas: Sequence[float], apart: bool = False
+    ) -> Outline:
+        """Outline of what is known to be right, in an array that nobody else holds."""
+        made = cls.__new__(cls)
+        Rings.__init__(made, read_only(points), tuple(starts), tuple(areas), apart)
+        return made
 
     def __len__(self) -> int:
         return len(self.ring_areas)
@@ -115,9 +149,17 @@ class Outline(Rings):
 
         Returns:
             The outline in the other frame; seen from above where the rotation tilts it.
+
+        Raises:
+            InputError: If the shapes are others, a value is not finite, or the matrix is no part of a rotation.
         """
-        turn = np.asarray(rotation, dtype=float)[:2, :2]
-        shift = np.asarray(translation, dtype=float)[:2]
+        whole = array(rotation, "rotation", ("2 or 3", "2 or 3"), finite=True)
+        if whole.shape not in ((2, 2), (3, 3)) or np.abs(whole).max() > 1.0 + 1e-6:
+            raise InputError(f"rotation of shape {whole.shape} is none of the plane (2, 2) or of space (3, 3)")
+        place = array(translation, "translation", ("2 or 3",), finite=True)
+        if len(place) not in (2, 3):
+            raise InputError(f"translation has shape {place.shape}; expected (2,) or (3,)")
+        turn, shift = whole[:2, :2], place[:2]
         points = self.points @ turn.T + shift
         (xx, xy), (yx, yy) = turn.tolist()
         if xx * yy < xy * yx:  # seen from below
@@ -125,7 +167,7 @@ class Outline(Rings):
         return Outline._with_area(points, self.starts, self.apart)
 
 
-def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
+def concave_outline(layout: SoleLayout, active: ArrayLike) -> Outline:
     """Exact outline of the contact on one sole, with islands and holes (T 4.2.5, where [172] only approximates it).
 
     The boundary walk follows the edges that two active cells do not share. Where cells overlap, so that there are no
@@ -133,14 +175,14 @@ def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
 
     Args:
         layout: The sole, n taxels.
-        active: Active taxels (n,), one byte each: bool.
+        active: Active taxels (n,).
 
     Returns:
         Outline in the sole frame in m, its area exact to 1e-12 of it; empty without contact. Islands that meet in a
         point are islands of their own.
 
     Raises:
-        ReadingError: If the mask has another number of taxels than the layout.
+        ReadingError: If the mask is not one truth value a taxel.
 
     Example:
         >>> from plantar import hex_layout
@@ -149,21 +191,17 @@ def concave_outline(layout: SoleLayout, active: NDArray[np.bool_]) -> Outline:
         >>> len(whole), bool(abs(whole.area - layout.areas.sum()) < 1e-15)
         (1, True)
     """
+    chosen = taxel_mask(layout, active, "mask of active taxels")
     table: EdgeTable | None
     try:
         table = layout.__dict__["_edge_table"]
     except KeyError:
         table = edge_table(layout.vertices[:, :2], layout.corners)
         layout.__dict__["_edge_table"] = table
-    if table is not None:
-        outline: Outline | None = table.rings(active.tobytes(), Outline)
-        if outline is not None:
-            return outline
-    elif active.shape == (len(layout),):
-        return _union([layout.cell_polygon(int(i)) for i in np.flatnonzero(active)])
-    raise ReadingError(
-        f"mask of active taxels is {active.dtype} {active.shape}; layout '{layout.name}' has {len(layout)}"
-    )
+    if table is None:
+        return _union([layout.cell_polygon(int(i)) for i in np.flatnonzero(chosen)])
+    outline: Outline = table.rings(chosen.tobytes(), Outline)
+    return outline
 
 
 def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
@@ -175,6 +213,9 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
     Returns:
         All rings together; where the boxes of two feet overlap, the union as shapely gives it.
 
+    Raises:
+        InputError: If one is no outline.
+
     Example:
         >>> left = Outline.of_rings([[[0.0, 0.1], [0.2, 0.1], [0.2, 0.2], [0.0, 0.2]]])
         >>> right = left.moved(np.eye(2), [0.0, -0.3])
@@ -182,13 +223,13 @@ def feet_outline(outlines_in_world: Sequence[Outline]) -> Outline:
         >>> len(both), round(both.area, 12)
         (2, 0.04)
     """
-    parts = [o for o in outlines_in_world if len(o)]
+    parts = [o for o in (instance(o, Outline, "outline") for o in items(outlines_in_world, "outlines")) if len(o)]
     boxes = [bounding_box(o.points).tolist() for o in parts]
     for i, ((x1, y1), _, (x2, y2), _) in enumerate(boxes):
         if any(x1 <= b[2][0] and b[0][0] <= x2 and y1 <= b[2][1] and b[0][1] <= y2 for b in boxes[:i]):
             return _union([island for o in parts for island in o.islands])
     sizes = (b - a for o in parts for a, b in pairwise(o.starts))
-    return Outline(
+    return Outline._of(
         np.concatenate([np.empty((0, 2)), *(o.points for o in parts)]),
         [0, *accumulate(sizes)],
         [area for o in parts for area in o.ring_areas],
@@ -208,6 +249,10 @@ def _union(parts: Sequence[NDArray[np.float64] | tuple[NDArray[np.float64], ...]
             part = shapely.geometry.polygon.orient(part)
             rings += [np.array(r.coords)[:-1] for r in (part.exterior, *part.interiors)]
     return Outline.of_rings(rings, True)
+
+
+def _shortly(values: Sequence[float]) -> str:
+    return f"[{', '.join(f'{v:.6g}' for v in values[:6])}{', ...' if len(values) > 6 else ''}]"
 
 
 def _is_around(shell: NDArray[np.float64], hole: NDArray[np.float64]) -> bool:

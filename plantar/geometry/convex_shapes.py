@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.kernels import is_compiled
 from plantar.kernels.shapes import ConvexShapes
+from plantar.plane_points import plane_points
 
 __all__ = ["convex_shapes", "points_of"]
 
@@ -27,7 +28,7 @@ def convex_shapes() -> ConvexShapes:
 
 
 def points_of(points: ArrayLike) -> NDArray[np.float64]:
-    """Points as an array of float64.
+    """Points as an array of float64; those that are not finite are for the kernels to leave out.
 
     Args:
         points: Points (k, 2) in m, or an empty list.
@@ -35,9 +36,11 @@ def points_of(points: ArrayLike) -> NDArray[np.float64]:
     Returns:
         Points (k, 2) in m; not copied where they are one.
 
+    Raises:
+        InputError: If these are not (k, 2) real numbers.
+
     Example:
         >>> points_of([]).shape, points_of([[1, 2]]).tolist()
         ((0, 2), [[1.0, 2.0]])
     """
-    array = np.asarray(points, dtype=np.float64)
-    return array if array.ndim == 2 and array.shape[1] == 2 else array.reshape(-1, 2)
+    return plane_points(points, finite=False)
