@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.cell_edges import cells_overlap, edge_table
+from plantar.layouts.cell_edges import cells_overlap, edge_table
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 

@@ -8,8 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import LayoutError
-from plantar.layout import Side, SoleLayout
+from plantar.arguments import instance, items, number
+from plantar.arrays import array, integers, numbers
+from plantar.errors import InputError, LayoutError
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.plane_points import plane_points
 
 __all__ = ["edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
 
@@ -41,7 +44,7 @@ def layout_of_cells(
         outline: Outline (k, 2) of the sole in m; where None that of all cells together, or their convex hull where they
             are not in one piece.
         ids: Id of each cell; 0, 1, ... where None.
-        cell_shape: One of `plantar.layout.CELL_SHAPES`.
+        cell_shape: One of `plantar.layouts.layout.CELL_SHAPES`.
         positions: Taxel centres (n, 2) in m; the cells' centroids where None.
         rotations: Rotations (n, 3, 3) from each taxel's frame to the sole frame; those of level taxels where None.
 
@@ -60,7 +63,7 @@ def layout_of_cells(
     """
     import shapely  # 0.2 s: only where a layout is made
 
-    rings = [_ring(cell, f"cell {i}") for i, cell in enumerate(cells)]
+    rings = [_ring(cell, f"cell {i}") for i, cell in enumerate(items(cells, "cells", LayoutError))]
     if not rings:
         raise LayoutError("a layout needs one cell or more")
     polygons = np.array([shapely.geometry.polygon.orient(shapely.Polygon(r)) for r in rings])
@@ -73,22 +76,24 @@ def layout_of_cells(
         raise LayoutError(f"cell {min(i for i, c in enumerate(corners) if len(c) < 3)} has corners that coincide")
     corners = _with_touching_vertices(vertices, corners, grain)
     merged = [shapely.Polygon(vertices[list(c)]) for c in corners]
-    centres = np.array([p.centroid.coords[0] for p in merged]) if positions is None else np.asarray(positions, float)
-    if centres.shape != (len(corners), 2):
-        raise LayoutError(f"layout field 'positions' has shape {centres.shape}; expected ({len(corners)}, 2)")
+    centres = [p.centroid.coords[0] for p in merged] if positions is None else positions
+    centres = array(centres, "layout field 'positions'", (len(corners), 2), LayoutError)
     areas = np.array([p.area for p in merged])
     n = len(corners)
+    turns = np.broadcast_to(np.eye(3), (n, 3, 3))
+    if rotations is not None:
+        turns = array(rotations, "layout field 'rotations'", (n, 3, 3), LayoutError)
     return SoleLayout(
         name=name,
         side=side,
         positions=np.column_stack([centres, np.zeros(n)]),
-        rotations=np.broadcast_to(np.eye(3), (n, 3, 3)) if rotations is None else np.asarray(rotations, dtype=float),
+        rotations=turns,
         vertices=np.column_stack([vertices, np.zeros(len(vertices))]),
         corners=tuple(corners),
         neighbours=edge_neighbours(corners),
         areas=areas,
         outline=_outline_of(merged, grain) if outline is None else _ccw(outline),
-        ids=np.arange(n) if ids is None else np.asarray(ids),
+        ids=np.arange(n) if ids is None else integers(ids, "layout field 'ids'", (n,), LayoutError),
         cell_shape=cell_shape,
         cell_area=float(np.median(areas)),
     )
@@ -109,7 +114,8 @@ def joined_layout(
         senses, its ranges and its thresholds are those of the first part.
 
     Raises:
-        LayoutError: If there is no part, the parts are of both sides or not flat, or cells overlap.
+        LayoutError: If there is no part, a part is no layout, the parts are of both sides or not flat, or cells
+            overlap.
 
     Example:
         >>> from plantar import grid_layout, hex_layout
@@ -122,6 +128,7 @@ def joined_layout(
     """
     from dataclasses import replace
 
+    parts = [instance(p, SoleLayout, "part of a layout", LayoutError) for p in items(parts, "parts", LayoutError)]
     if not parts:
         raise LayoutError("a layout is joined of one part or more")
     if len({p.side for p in parts}) > 1:
@@ -152,16 +159,21 @@ def shared_vertices(rings: Sequence[ArrayLike], tolerance: float) -> tuple[NDArr
     Returns:
         The points (v, 2) in m, and for each cell the indices of its corners, none twice in a row.
 
+    Raises:
+        InputError: If a ring is not (k, 2) finite numbers, or the tolerance not above 0.
+
     Example:
         >>> shared_vertices([[[0, 0], [1, 0], [0, 1]], [[1, 0], [1, 1], [0, 1 + 1e-9]]], 1e-6)[1]
         [(0, 1, 2), (1, 3, 2)]
     """
+    if not number(tolerance, "tolerance of corners", finite=True) > 0.0:
+        raise InputError(f"tolerance of corners is {tolerance} m; allowed: above 0")
     points: list[NDArray[np.float64]] = []
     index: dict[tuple[int, int], int] = {}
     corners: list[tuple[int, ...]] = []
-    for ring in rings:
+    for ring in items(rings, "rings"):
         ids: list[int] = []
-        for p in np.asarray(ring, dtype=float):
+        for p in plane_points(ring, "ring"):
             kx, ky = math.floor(p[0] / tolerance + 0.5), math.floor(p[1] / tolerance + 0.5)
             hit = next(
                 (index[k] for dx in (0, -1, 1) for dy in (0, -1, 1) if (k := (kx + dx, ky + dy)) in index),
@@ -186,15 +198,19 @@ def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], 
     Returns:
         Indices of the neighbours of each cell, in increasing order.
 
+    Raises:
+        InputError: If a cell is no list of indices.
+
     Example:
         >>> edge_neighbours([(0, 1, 2), (1, 3, 2), (3, 4, 5)])
         ((1,), (0,), ())
     """
     owners: dict[tuple[int, int], list[int]] = {}
-    for i, ring in enumerate(corners):
+    rows = [integers(ring, f"cell {i}", ("k",)).tolist() for i, ring in enumerate(items(corners, "cells"))]
+    for i, ring in enumerate(rows):
         for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
             owners.setdefault((min(a, b), max(a, b)), []).append(i)
-    near: list[set[int]] = [set() for _ in corners]
+    near: list[set[int]] = [set() for _ in rows]
     for cells in owners.values():
         for a in cells:
             near[a].update(b for b in cells if b != a)
@@ -203,9 +219,9 @@ def edge_neighbours(corners: Sequence[Sequence[int]]) -> tuple[tuple[int, ...], 
 
 def _ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
     try:
-        ring = np.asarray(points, dtype=float)
-    except (TypeError, ValueError):
-        raise LayoutError(f"{what} is not a list of (x, y) points") from None
+        ring = numbers(points, what)
+    except InputError as problem:
+        raise LayoutError(f"{what} is not a list of (x, y) points ({problem})") from None
     if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
         raise LayoutError(f"{what} is not a list of 3 or more finite (x, y) points")
     return ring

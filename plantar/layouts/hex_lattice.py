@@ -16,14 +16,20 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import LARGEST, number
+from plantar.arrays import array, integers
 from plantar.errors import InputError
+from plantar.plane_points import plane_point
 
 __all__ = ["AXIAL_NEIGHBOURS", "HexLattice", "hexagon_side"]
 
 AXIAL_NEIGHBOURS: tuple[tuple[int, int], ...] = ((1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1))
 """Axial offsets of the six neighbours, counter-clockwise from +x."""
+
+_WIDEST = 3000  # sides: 14 million cells
+_FARTHEST = 10**9  # cells from the origin: their keys fit 64 bits, their positions have digits left
 
 # Corner offsets of a cell in (half widths, half sides), counter-clockwise from the lower right corner.
 _CORNER_OFFSETS: tuple[tuple[int, int], ...] = ((1, -1), (1, 1), (0, 2), (-1, 1), (-1, -1), (0, -2))
@@ -45,9 +51,10 @@ def hexagon_side(area: float) -> float:
         >>> round(hexagon_side(691e-6) * 1e3, 3)
         16.308
     """
-    if not (math.isfinite(area) and area > 0.0):
+    whole = number(area, "cell area", nan=True)
+    if not 0.0 < whole <= LARGEST:
         raise InputError(f"cell area is {area} m^2; allowed: a finite value above 0")
-    return math.sqrt(2.0 * area / (3.0 * math.sqrt(3.0)))
+    return math.sqrt(2.0 * whole / (3.0 * math.sqrt(3.0)))
 
 
 @dataclass(frozen=True)
@@ -58,6 +65,9 @@ class HexLattice:
         area: Area of one cell in m^2.
         origin: Position (2,) of the centre of cell (0, 0) in m.
         angle: Rotation of the rows against the x axis in rad.
+
+    Raises:
+        InputError: If the area is not a finite value above 0, or the origin or angle not finite.
 
     Example:
         >>> lattice = HexLattice(area=691e-6)
@@ -71,8 +81,11 @@ class HexLattice:
 
     def __post_init__(self) -> None:
         hexagon_side(self.area)  # raises on a bad area
-        if not all(math.isfinite(v) for v in (*self.origin, self.angle)):
+        origin = plane_point(self.origin, "origin of a lattice")
+        angle = number(self.angle, "angle of a lattice", nan=True)
+        if not all(abs(v) <= LARGEST for v in (*origin, angle)):
             raise InputError(f"lattice origin {self.origin} m or angle {self.angle} rad is not finite")
+        self.__dict__.update(area=float(self.area), origin=origin, angle=angle)
 
     @property
     def side(self) -> float:
@@ -84,7 +97,7 @@ class HexLattice:
         """Flat-to-flat width of a cell in m: the distance of neighbouring centres."""
         return math.sqrt(3.0) * self.side
 
-    def position_of_keys(self, keys: NDArray[np.int64]) -> NDArray[np.float64]:
+    def position_of_keys(self, keys: ArrayLike) -> NDArray[np.float64]:
         """Positions of lattice points given by integer keys.
 
         Args:
@@ -92,31 +105,38 @@ class HexLattice:
 
         Returns:
             Positions (..., 2) in m in the sole plane.
+
+        Raises:
+            InputError: If these are not (..., 2) whole numbers.
         """
-        u = keys[..., 0] * (0.5 * self.width)
-        v = keys[..., 1] * (0.5 * self.side)
+        whole = integers(keys, "keys", (..., 2))
+        u = whole[..., 0] * (0.5 * self.width)
+        v = whole[..., 1] * (0.5 * self.side)
         c, s = math.cos(self.angle), math.sin(self.angle)
         return np.stack([self.origin[0] + c * u - s * v, self.origin[1] + s * u + c * v], axis=-1)
 
     @staticmethod
-    def centre_keys(axial: NDArray[np.int64]) -> NDArray[np.int64]:
+    def centre_keys(axial: ArrayLike) -> NDArray[np.int64]:
         """Integer keys (n, 2) of the centres of cells with axial coordinates (n, 2)."""
-        return np.stack([2 * axial[..., 0] + axial[..., 1], 3 * axial[..., 1]], axis=-1)
+        cells = integers(axial, "cells", (..., 2))
+        if cells.size and (cells.min() < -_FARTHEST or cells.max() > _FARTHEST):
+            raise InputError(f"cells are up to {np.abs(cells.astype(float)).max():.3g} from the origin; allowed: 1e9")
+        return np.stack([2 * cells[..., 0] + cells[..., 1], 3 * cells[..., 1]], axis=-1)
 
     @classmethod
-    def corner_keys(cls, axial: NDArray[np.int64]) -> NDArray[np.int64]:
+    def corner_keys(cls, axial: ArrayLike) -> NDArray[np.int64]:
         """Integer keys (n, 6, 2) of the corners of cells, counter-clockwise."""
         return np.asarray(cls.centre_keys(axial)[..., None, :] + np.array(_CORNER_OFFSETS))
 
-    def centres(self, axial: NDArray[np.int64]) -> NDArray[np.float64]:
+    def centres(self, axial: ArrayLike) -> NDArray[np.float64]:
         """Centres (n, 2) in m of cells with axial coordinates (n, 2)."""
-        return self.position_of_keys(self.centre_keys(np.asarray(axial, dtype=np.int64)))
+        return self.position_of_keys(self.centre_keys(axial))
 
-    def corners(self, axial: NDArray[np.int64]) -> NDArray[np.float64]:
+    def corners(self, axial: ArrayLike) -> NDArray[np.float64]:
         """Corners (n, 6, 2) in m, counter-clockwise; shared corners are bit-identical."""
-        return self.position_of_keys(self.corner_keys(np.asarray(axial, dtype=np.int64)))
+        return self.position_of_keys(self.corner_keys(axial))
 
-    def cells_near(self, lower: NDArray[np.float64], upper: NDArray[np.float64]) -> NDArray[np.int64]:
+    def cells_near(self, lower: ArrayLike, upper: ArrayLike) -> NDArray[np.int64]:
         """Axial coordinates (n, 2) of every cell whose centre lies within one cell of a box.
 
         Args:
@@ -125,12 +145,22 @@ class HexLattice:
 
         Returns:
             Cells sorted by row r, then q.
+
+        Raises:
+            InputError: If a corner is not two finite numbers, or the box reaches farther than 3000 sides from its
+                middle.
         """
-        lower, upper = np.asarray(lower, dtype=float), np.asarray(upper, dtype=float)
-        middle = 0.5 * (lower + upper) - np.asarray(self.origin)
+        low = array(lower, "lower corner", (2,), finite=True)
+        high = array(upper, "upper corner", (2,), finite=True)
+        middle = 0.5 * (low + high) - np.asarray(self.origin)
         c, s = math.cos(self.angle), math.sin(self.angle)
         middle = np.array([c * middle[0] + s * middle[1], -s * middle[0] + c * middle[1]])
-        reach = 0.5 * float(np.hypot(*(upper - lower))) + 2.0 * self.side
+        reach = 0.5 * float(np.hypot(*(high - low))) + 2.0 * self.side
+        if reach > _WIDEST * self.side or np.abs(middle).max() > _FARTHEST * self.side:
+            raise InputError(
+                f"box from {low.tolist()} to {high.tolist()} m is too large or too far away for cells of side "
+                f"{self.side:.3g} m; allowed: {_WIDEST} sides from its middle, {_FARTHEST:g} from the origin"
+            )
         r0 = middle[1] / (1.5 * self.side)
         rows = np.arange(math.floor(r0 - reach / (1.5 * self.side)), math.ceil(r0 + reach / (1.5 * self.side)) + 1)
         cells = []
@@ -140,5 +170,5 @@ class HexLattice:
             cells.append(np.column_stack([q, np.full_like(q, r)]))
         axial = np.concatenate(cells).astype(np.int64)
         centres = self.centres(axial)
-        near = np.all((centres >= lower - 2 * self.side) & (centres <= upper + 2 * self.side), axis=1)
+        near = np.all((centres >= low - 2 * self.side) & (centres <= high + 2 * self.side), axis=1)
         return np.asarray(axial[near])

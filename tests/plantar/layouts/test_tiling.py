@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import HexLattice, InputError, LayoutError, grid_layout, hex_layout
-from plantar.tiling import MOST_TAXELS
+from plantar.layouts.tiling import MOST_TAXELS
 
 RECTANGLE = [[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]]
 

@@ -7,16 +7,22 @@ its z axis pointing INTO the body, so the force the world exerts on it is [0, 0,
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import operator
+from collections.abc import ItemsView, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import instance, integer, items, number
+from plantar.arrays import array, integers, numbers, own_array, read_only
 from plantar.errors import LayoutError
 from plantar.kernels.sole import SoleKernel
+from plantar.mechanics.lip import GRAVITY
+from plantar.sides import Side, other_side
 
 __all__ = [
     "CELL_SHAPES",
@@ -28,9 +34,6 @@ __all__ = [
     "SoleLayout",
     "mirrored",
 ]
-
-Side = Literal["left", "right"]
-"""Which foot a sole belongs to."""
 
 MODALITIES: tuple[str, ...] = ("force", "proximity", "temperature", "acceleration")
 """What a taxel can sense (T 4.2.1)."""
@@ -49,13 +52,13 @@ CELL_SHAPES: tuple[str, ...] = ("hexagon", "rectangle", "polygon", "mixed")
 LARGEST_COORDINATE = 50.0
 """Largest coordinate of a layout in m: a sole in millimetres is found out, a long walkway is not."""
 
-DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * 9.81, "proximity": 0.05, "temperature": 31.0}
+DEFAULT_THRESHOLDS: Mapping[str, float] = {"force": 0.15 * GRAVITY, "proximity": 0.05, "temperature": 31.0}
 """Activation thresholds: 0.15 kg of force (T Table 2) in N, the proximity range in m, and 31 degC (T 3.3.2.1)."""
 
 
 @dataclass(frozen=True, eq=False)
 class SoleLayout:
-    """The taxels of one sole. Arrays are read-only; n taxels, v vertices.
+    """The taxels of one sole. Arrays, lists and mappings are copied in, and read-only; n taxels, v vertices.
 
     Attributes:
         name: Name of the sole, for example of the robot that wears it.
@@ -101,40 +104,49 @@ class SoleLayout:
     thresholds: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_THRESHOLDS))
 
     def __post_init__(self) -> None:
+        kept = self.__dict__  # past what keeps others from assigning
+        kept["corners"] = _index_rows("corners", self.corners)
+        kept["neighbours"] = _index_rows("neighbours", self.neighbours)
         n = len(self.corners)
-        shapes: dict[str, tuple[int | None, ...]] = {
+        shapes: dict[str, tuple[int | str, ...]] = {
             "positions": (n, 3),
             "rotations": (n, 3, 3),
-            "vertices": (None, 3),
+            "vertices": ("any", 3),
             "areas": (n,),
-            "outline": (None, 2),
-            "ids": (n,),
+            "outline": ("any", 2),
         }
         for name, shape in shapes.items():
-            wanted = np.int64 if name == "ids" else np.float64
-            try:
-                array = np.array(getattr(self, name), dtype=wanted)
-            except (TypeError, ValueError, OverflowError):
-                raise LayoutError(f"layout field '{name}' is not numeric") from None
-            if array.size == 0 and n == 0:
-                array = array.reshape([0 if s is None else s for s in shape])
-            if array.ndim != len(shape) or any(
-                s is not None and s != a for s, a in zip(shape, array.shape, strict=True)
-            ):
-                text = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
-                raise LayoutError(f"layout field '{name}' has shape {array.shape}; expected {text}")
-            if wanted is np.float64 and not np.isfinite(array).all():
-                raise LayoutError(f"layout field '{name}' holds a value that is not finite")
-            if name in ("positions", "vertices", "outline") and np.abs(array).max(initial=0.0) > LARGEST_COORDINATE:
+            what = f"layout field '{name}'"
+            given = numbers(getattr(self, name), what, LayoutError)
+            if n == 0 and given.size == 0:
+                given = np.empty([0 if isinstance(s, str) else s for s in shape])
+            kept[name] = own_array(given, what, shape, LayoutError)
+            if not np.isfinite(kept[name]).all():
+                raise LayoutError(f"{what} holds a value that is not finite")
+            far = float(np.abs(kept[name]).max(initial=0.0))
+            if name in ("positions", "vertices", "outline") and far > LARGEST_COORDINATE:
                 raise LayoutError(
-                    f"layout field '{name}' reaches {np.abs(array).max():.3g} m; "
-                    f"allowed: within {LARGEST_COORDINATE:.0f} m of the origin"
+                    f"{what} reaches {far:.3g} m; allowed: within {LARGEST_COORDINATE:.0f} m of the origin"
                 )
-            array.flags.writeable = False
-            object.__setattr__(self, name, array)
+        kept["ids"] = read_only(integers(self.ids, "layout field 'ids'", (n,), LayoutError).copy())
+        kept["cell_area"] = number(self.cell_area, "layout field 'cell_area'", LayoutError, nan=True)
+        kept["modalities"] = items(self.modalities, "layout field 'modalities'", LayoutError)
+        kept["ranges"] = MappingProxyType(
+            {
+                name: tuple(array(span, f"layout field 'ranges.{name}'", (2,), LayoutError).tolist())
+                for name, span in _named("ranges", self.ranges)
+            }
+        )
+        kept["thresholds"] = MappingProxyType(
+            {
+                name: number(level, f"layout field 'thresholds.{name}'", LayoutError, nan=True)
+                for name, level in _named("thresholds", self.thresholds)
+            }
+        )
         self._check(n)
 
     def _check(self, n: int) -> None:
+        instance(self.name, str, "layout field 'name'", LayoutError)
         if self.side not in ("left", "right"):
             raise LayoutError(f"layout field 'side' is {self.side!r}; allowed: left, right")
         if len(np.unique(self.ids)) != n:
@@ -223,20 +235,18 @@ class SoleLayout:
     @cached_property
     def corner_start(self) -> NDArray[np.int64]:
         """Offsets (n + 1,) of each taxel's corners in `corner_vertex`."""
-        return np.concatenate([[0], np.cumsum([len(c) for c in self.corners])]).astype(np.int64)
+        return read_only(np.concatenate([[0], np.cumsum([len(c) for c in self.corners])]).astype(np.int64))
 
     @cached_property
     def corner_vertex(self) -> NDArray[np.int64]:
         """Vertex indices of all corners, taxel by taxel."""
-        return np.array([i for c in self.corners for i in c], dtype=np.int64)
+        return read_only(np.array([i for c in self.corners for i in c], dtype=np.int64))
 
     @cached_property
     def wrench_map(self) -> NDArray[np.float64]:
         """Matrix (6, n) that takes taxel normal forces to the wrench at the sole frame's origin (T 4.23)."""
         normal = self.rotations[:, :, 2]
-        out = np.vstack([normal.T, np.cross(self.positions, normal).T])
-        out.flags.writeable = False
-        return out
+        return read_only(np.vstack([normal.T, np.cross(self.positions, normal).T]))
 
     @cached_property
     def kernel(self) -> SoleKernel:
@@ -251,8 +261,8 @@ class SoleLayout:
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:
-        """Corners (k, 2) of one cell in the sole plane in m, counter-clockwise."""
-        return self.vertices[list(self.corners[taxel]), :2]
+        """Corners (k, 2) of one cell in the sole plane in m, counter-clockwise; taxels are counted from 0."""
+        return self.vertices[list(self.corners[integer(taxel, "taxel", 0, len(self.corners) - 1)]), :2]
 
 
 def mirrored(layout: SoleLayout) -> SoleLayout:
@@ -264,6 +274,9 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
     Returns:
         Layout of the other side; taxel i of one is the mirror image of taxel i of the other.
 
+    Raises:
+        InputError: If the layout is none.
+
     Example:
         >>> from plantar import hex_layout
         >>> left = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
@@ -271,10 +284,11 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
         >>> right.side, bool((right.positions[:, 1] == -left.positions[:, 1]).all())
         ('right', True)
     """
+    instance(layout, SoleLayout, "layout")
     flip = np.array([1.0, -1.0, 1.0])
     return SoleLayout(
         name=layout.name,
-        side="right" if layout.side == "left" else "left",
+        side=other_side(layout.side),
         positions=layout.positions * flip,
         rotations=layout.rotations * np.outer(flip, flip),
         vertices=layout.vertices * flip,
@@ -289,3 +303,18 @@ def mirrored(layout: SoleLayout) -> SoleLayout:
         ranges=layout.ranges,
         thresholds=layout.thresholds,
     )
+
+
+def _index_rows(name: str, rows: object) -> tuple[tuple[int, ...], ...]:
+    """Rows of indices, as they are kept."""
+    try:
+        return tuple(tuple(map(operator.index, row)) for row in rows)  # type: ignore[attr-defined]
+    except TypeError:
+        raise LayoutError(f"layout field '{name}' is not numeric: expected for each taxel a list of indices") from None
+
+
+def _named(name: str, values: object) -> ItemsView[str, Any]:
+    """What a mapping by modality holds."""
+    if not isinstance(values, Mapping) or not all(isinstance(key, str) for key in values):
+        raise LayoutError(f"layout field '{name}' is no mapping of names; expected values by modality")
+    return values.items()

@@ -1,12 +1,13 @@
 import dataclasses
 import math
+import pickle
 
 import numpy as np
 import pytest
 import shapely
 
-from plantar import LayoutError, SoleLayout, mirrored
-from plantar.layout import CELL_SHAPES, DEFAULT_RANGES, MODALITIES
+from plantar import InputError, LayoutError, SoleLayout, mirrored
+from plantar.layouts.layout import CELL_SHAPES, DEFAULT_RANGES, MODALITIES
 
 FIELDS = {f.name for f in dataclasses.fields(SoleLayout)}
 ARRAYS = ("positions", "rotations", "vertices", "areas", "outline", "ids")
@@ -35,10 +36,33 @@ def test_a_layout_keeps_no_hold_on_what_it_was_made_from(sole):
     assert layout.positions.tolist() == sole.positions.tolist()
 
 
-def test_defaults_are_not_shared(sole):
-    one, other = (changed(sole, thresholds={"force": 1.0}) for _ in range(2))
-    one.thresholds["force"] = 5.0
-    assert other.force_threshold == 1.0
+def test_lists_and_mappings_are_copied_in_and_closed(sole):
+    given = {"force": 1.0}
+    spans = {"force": [0.0, 300.0]}
+    corners = [list(ring) for ring in sole.corners]
+    layout = changed(sole, thresholds=given, ranges=spans, corners=corners)
+    given["force"] = spans["force"][1] = 5.0
+    corners[0][0] = 10**6
+    assert layout.force_threshold == 1.0
+    assert layout.force_limit == 300.0
+    assert layout.corners == sole.corners
+    for mapping in (layout.thresholds, layout.ranges, changed(sole).thresholds):
+        with pytest.raises(TypeError, match="does not support item assignment"):
+            mapping["force"] = 5.0
+    again = pickle.loads(pickle.dumps(layout))
+    assert (dict(again.thresholds), dict(again.ranges)) == ({"force": 1.0}, {"force": (0.0, 300.0)})
+
+
+def test_what_a_layout_computes_is_read_only(sole):
+    for array in (sole.wrench_map, sole.corner_start, sole.corner_vertex):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+@pytest.mark.parametrize("taxel", [-1, 10**6, 0.0, "0", None, [0]])
+def test_a_cell_is_one_of_the_layout(sole, taxel):
+    with pytest.raises(InputError, match=f"^taxel is .*allowed: a whole number, 0 to {len(sole) - 1}$"):
+        sole.cell_polygon(taxel)
 
 
 def test_sole_area_is_shapelys(sole):
@@ -118,7 +142,7 @@ def bad_fields(n):
         ("positions", np.full((n, 3), np.nan), "not finite"),
         ("positions", np.full((n, 3), 120.0), "allowed: within 50 m"),
         ("positions", "here", "not numeric"),
-        ("positions", None, "shape"),
+        ("positions", None, "not numeric"),
         ("rotations", eye[:, :2], "expected"),
         ("rotations", flipped, "not a rotation"),
         ("rotations", stretched, "not a rotation"),
@@ -131,7 +155,27 @@ def bad_fields(n):
         ("outline", [[0, 0], [1, 1], [2, 2]], "no area"),
         ("outline", [[0, 0], [250, 0], [250, 100]], "within 50 m"),
         ("ids", np.zeros(n, dtype=int), "twice"),
-        ("ids", [10**30] * n, "not numeric"),
+        ("ids", [10**30] * n, "64 bits"),
+        ("ids", np.arange(n) + 0.5, "whole numbers"),
+        ("name", None, "expected a str"),
+        ("positions", [["0", "0", "0"]] * n, "not numeric: text"),
+        ("positions", np.ma.masked_all((n, 3)), "masked"),
+        ("areas", 3.0, "expected"),
+        ("corners", None, "list of indices"),
+        ("corners", (("a", "b", "c"),) * n, "list of indices"),
+        ("corners", ((0.0, 1.0, 2.0),) * n, "list of indices"),
+        ("neighbours", 3, "list of indices"),
+        ("neighbours", (None,) * n, "list of indices"),
+        ("cell_area", "1", "expected a number"),
+        ("modalities", 3, "expected a list"),
+        ("modalities", ([],), ", ".join(MODALITIES)),
+        ("cell_shape", [], ", ".join(CELL_SHAPES)),
+        ("side", [], "allowed: left, right"),
+        ("ranges", {"force": 5.0}, "expected (2,)"),
+        ("ranges", {"force": "ab"}, "numeric"),
+        ("ranges", None, "mapping"),
+        ("thresholds", {"force": "1"}, "expected a number"),
+        ("thresholds", [("force", 1.0)], "mapping"),
         ("corners", ((0, 1),) * n, "expected 3 or more"),
         ("corners", ((0, 1, -1),) * n, "does not exist"),
         ("corners", ((0, 1, 10**6),) * n, "does not exist"),
@@ -164,7 +208,7 @@ def test_a_bad_field_is_named(sole, case):
 
 
 def test_every_field_with_a_rule_has_a_bad_case():
-    assert {f for f, _, _ in bad_fields(5)} == FIELDS - {"name"}
+    assert {f for f, _, _ in bad_fields(5)} == FIELDS
 
 
 def test_limits_of_the_modalities_come_from_the_layout_or_the_defaults(sole):

@@ -6,10 +6,12 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import LayoutError
-from plantar.layout import SoleLayout
+from plantar.arguments import instance
+from plantar.arrays import array, is_finite, numbers
+from plantar.errors import InputError, LayoutError
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["Surface", "laid_over", "rotations_to_normals"]
 
@@ -44,17 +46,20 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
         >>> bool(rocker.rotations[toe, 0, 2] < -0.2), bool(rocker.areas[toe] > flat.areas[toe])
         (True, True)
     """
+    instance(layout, SoleLayout, "layout", LayoutError)
+    if not callable(surface):
+        raise LayoutError(f"surface is {surface!r}; expected a function of x and y")
     if np.abs(layout.vertices[:, 2]).max(initial=0.0) > 0.0 or np.abs(layout.positions[:, 2]).max(initial=0.0) > 0.0:
         raise LayoutError("the layout is curved already; lay a flat one over the surface")
 
     def height(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
         try:
-            z = np.asarray(surface(x, y), dtype=float)
-        except (TypeError, ValueError) as error:
+            z = numbers(surface(x, y), "height")
+        except (TypeError, ValueError, InputError) as error:
             raise LayoutError(f"the surface gives no height: {error}") from None
         if z.shape not in ((), x.shape):
             raise LayoutError(f"the surface gives heights of shape {z.shape} for points of shape {x.shape}")
-        if not np.isfinite(z).all():
+        if not is_finite(z):
             raise LayoutError("the surface gives a height that is not finite")
         return np.broadcast_to(z, x.shape)
 
@@ -74,7 +79,7 @@ def laid_over(layout: SoleLayout, surface: Surface) -> SoleLayout:
     )
 
 
-def rotations_to_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:
+def rotations_to_normals(normals: ArrayLike) -> NDArray[np.float64]:
     """Shortest rotations that take the z axis onto directions.
 
     Args:
@@ -84,15 +89,18 @@ def rotations_to_normals(normals: NDArray[np.float64]) -> NDArray[np.float64]:
         Rotations (n, 3, 3).
 
     Raises:
-        LayoutError: If a direction does not point up.
+        LayoutError: If these are not (n, 3) finite numbers, or a direction does not point up.
 
     Example:
         >>> rotations_to_normals(np.array([[0.0, 0.0, 2.0]])).tolist()
         [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]]
     """
-    if not (normals[:, 2] > 0.0).all():
+    given = array(normals, "directions", ("n", 3), LayoutError, finite=True)
+    if not (given[:, 2] > 0.0).all():
         raise LayoutError("a taxel does not face the ground: its z axis must point into the body, upwards")
-    nx, ny, nz = (normals / np.linalg.norm(normals, axis=1, keepdims=True)).T
+    _, size = np.frexp(np.abs(given).max(axis=1, keepdims=True, initial=0.0))
+    given = np.ldexp(given, -size)  # exact; squares of tiny and huge ones are not
+    nx, ny, nz = (given / np.linalg.norm(given, axis=1, keepdims=True)).T
     k = 1.0 / (1.0 + nz)
     rows = [
         [1.0 - k * nx * nx, 0.0 - k * nx * ny, nx],

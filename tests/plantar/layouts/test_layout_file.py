@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, LayoutError, hex_layout, mirrored, read_layout, write_layout
-from plantar.layout_file import SCHEMA, layout_from_dict, layout_to_dict
+from plantar.layouts.layout_file import SCHEMA, layout_from_dict, layout_to_dict
 
 FIELDS = ("positions", "rotations", "vertices", "areas", "outline", "ids")
 PLAIN = ("name", "side", "corners", "neighbours", "cell_shape", "cell_area", "modalities", "ranges", "thresholds")

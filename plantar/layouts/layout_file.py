@@ -13,7 +13,8 @@ import numpy as np
 
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
-from plantar.layout import Side, SoleLayout
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.structured_text import read_json
 
 __all__ = ["SCHEMA", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
 
@@ -189,12 +190,7 @@ def read_layout(path: str | os.PathLike[str]) -> SoleLayout:
         ...     len(read_layout(write_layout(layout, f"{folder}/mat.json")))
         8
     """
-    try:
-        source = json.loads(Path(path).read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise LayoutError(f"{path}: cannot be read ({error.strerror})") from None
-    except (ValueError, RecursionError) as error:
-        raise LayoutError(f"{path}: not a JSON layout file ({error})") from None
+    source = read_json(path, LayoutError, f"{path}:", "a JSON layout file")
     return layout_from_dict(source, where=str(path))
 
 

@@ -13,11 +13,11 @@ from plantar import (
     grid_layout,
     hex_layout,
     joined_layout,
-    layout_file,
     layout_of_cells,
     mirrored,
 )
-from plantar.cell_layout import edge_neighbours, shared_vertices
+from plantar.layouts import layout_file
+from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
 
 seeds = st.integers(0, 2**32 - 1)
 SQUARE = np.array([[0.0, 0.0], [0.02, 0.0], [0.02, 0.02], [0.0, 0.02]])

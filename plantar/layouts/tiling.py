@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.cell_layout import edge_neighbours, shared_vertices
+from plantar.arguments import LARGEST, number
+from plantar.arrays import integers, numbers
 from plantar.errors import InputError, LayoutError
-from plantar.hex_lattice import HexLattice
-from plantar.layout import Side, SoleLayout
+from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.layouts.layout import LARGEST_COORDINATE, Side, SoleLayout
+from plantar.plane_points import plane_point
 
 __all__ = ["MOST_TAXELS", "grid_layout", "hex_layout"]
 
@@ -51,17 +54,19 @@ def hex_layout(
 
     Raises:
         LayoutError: If the outline is not a simple polygon, or no cell fits, or more than MOST_TAXELS would.
-        InputError: If the cell area is not a finite value above 0, or the minimum fraction not within 0 to 1.
+        InputError: If the cell area is not above 0 and up to 1 m^2, the minimum fraction not within 0 to 1, the origin
+            not within 50 m, the angle not finite, or the cells are not (m, 2) whole numbers.
 
     Example:
         >>> layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]], clip=False)
         >>> len(layout), bool(abs(layout.areas - 691e-6).max() < 1e-12)
         (33, True)
     """
-    lattice = HexLattice(cell_area, origin, angle)
+    lattice = HexLattice(cell_area, _checked_origin(origin), angle)
+    cell_area = lattice.area
     polygon = _sole_polygon(outline, cell_area, minimum_fraction, limited=cells is None)
     if cells is not None:
-        axial = np.asarray(cells, dtype=np.int64).reshape(-1, 2)
+        axial = integers(cells, "cells", ("m", 2))
         if len(np.unique(axial, axis=0)) != len(axial):
             raise LayoutError("cells holds a cell twice")
         rings, centres = list(lattice.corners(axial)), lattice.centres(axial)
@@ -107,25 +112,29 @@ def grid_layout(
 
     Raises:
         LayoutError: If the outline is not a simple polygon, or no cell fits, or more than MOST_TAXELS would.
-        InputError: If a pitch is not a finite value above 0, the origin or angle not finite, or the minimum fraction
-            not within 0 to 1.
+        InputError: If a pitch is not a finite value above 0, a cell not up to 1 m^2, the origin not within 50 m, the
+            angle not finite, or the minimum fraction not within 0 to 1.
 
     Example:
         >>> layout = grid_layout([[0, 0], [0.1, 0], [0.1, 0.06], [0, 0.06]], pitch=(0.02, 0.01))
         >>> len(layout), layout.neighbours[0], layout.cell_shape
         (30, (1, 5), 'rectangle')
     """
-    if not all(math.isfinite(v) and v > 0.0 for v in pitch):
+    pitch = plane_point(pitch, "grid pitch")
+    if not all(0.0 < v <= LARGEST for v in pitch):
         raise InputError(f"grid pitch is {pitch} m; allowed: finite values above 0")
-    if not all(math.isfinite(v) for v in (*origin, angle)):
-        raise InputError(f"grid origin {origin} m or angle {angle} rad is not finite")
+    origin = _checked_origin(origin)
+    angle = number(angle, "angle of a grid", nan=True)
+    if not abs(angle) <= LARGEST:
+        raise InputError(f"grid angle is {angle} rad, which is not finite")
     cell_area = pitch[0] * pitch[1]
     polygon = _sole_polygon(outline, cell_area, minimum_fraction)
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     along = (np.array(polygon.exterior.coords) - origin) @ turn / pitch  # the outline in cells of the grid
-    low, high = np.floor(along.min(axis=0)).astype(np.int64) - 1, np.ceil(along.max(axis=0)).astype(np.int64) + 1
-    if float(np.prod(high - low, dtype=float)) > 4 * MOST_TAXELS:
+    lower, upper = np.floor(along.min(axis=0)) - 1.0, np.ceil(along.max(axis=0)) + 1.0
+    if float(np.prod(upper - lower)) > 4 * MOST_TAXELS or np.abs(along).max() > 1e15:
         raise LayoutError(f"a grid of {pitch[0]:.3g} x {pitch[1]:.3g} m over this outline makes too many cells")
+    low, high = lower.astype(np.int64), upper.astype(np.int64)
     column, row = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
     corner = np.stack([column.ravel(), row.ravel()], axis=-1)[:, None, :] + [[0, 0], [1, 0], [1, 1], [0, 1]]
     candidates = (corner * pitch) @ turn.T + origin  # of integers: cells that meet share bit-identical corners
@@ -139,14 +148,19 @@ def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float,
     """The outline as a polygon, counter-clockwise, after a check of all that does not depend on the lattice."""
     import shapely  # 0.2 s: only where a layout is made
 
-    if not 0.0 <= minimum_fraction <= 1.0:
+    if not 0.0 <= number(minimum_fraction, "minimum fraction of a cut cell", nan=True) <= 1.0:
         raise InputError(f"minimum fraction of a cut cell is {minimum_fraction}; allowed: 0 to 1")
+    if not cell_area <= 1.0:
+        raise InputError(f"cell area is {cell_area:.3g} m^2; allowed: above 0 and up to 1 m^2")
     try:
-        ring = np.asarray(outline, dtype=float)
-    except (TypeError, ValueError):
-        raise LayoutError("outline is not a list of (x, y) points") from None
+        ring = numbers(outline, "outline")
+    except InputError as problem:
+        raise LayoutError(f"outline is not a list of (x, y) points ({problem})") from None
     if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
         raise LayoutError("outline is not a list of 3 or more finite (x, y) points")
+    far = float(np.abs(ring).max())
+    if far > LARGEST:
+        raise LayoutError(f"outline reaches {far:.3g} m; allowed: within {LARGEST_COORDINATE:.0f} m of the origin")
     polygon = shapely.Polygon(ring)
     if not polygon.is_valid or polygon.area <= 0.0:
         raise LayoutError("outline is not a simple polygon: it crosses itself or has no area")
@@ -155,7 +169,19 @@ def _sole_polygon(outline: ArrayLike, cell_area: float, minimum_fraction: float,
             f"cells of {cell_area * 1e6:.3g} mm^2 on a sole of {polygon.area * 1e6:.0f} mm^2 make more than "
             f"{MOST_TAXELS} taxels; use a larger cell area"
         )
+    if far > LARGEST_COORDINATE:
+        raise LayoutError(f"outline reaches {far:.3g} m; allowed: within {LARGEST_COORDINATE:.0f} m of the origin")
     return shapely.geometry.polygon.orient(polygon)
+
+
+def _checked_origin(origin: tuple[float, float]) -> tuple[float, float]:
+    """The origin of a lattice."""
+    x, y = plane_point(origin, "origin")
+    if not (abs(x) <= LARGEST_COORDINATE and abs(y) <= LARGEST_COORDINATE):
+        raise InputError(
+            f"origin is ({x}, {y}) m and not finite, or too far: allowed within {LARGEST_COORDINATE:.0f} m"
+        )
+    return x, y
 
 
 def _cells_within(

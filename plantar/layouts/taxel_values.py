@@ -1,0 +1,127 @@
+"""What callers hand over for the taxels of one layout: readings and masks, checked once where they come in.
+
+A taxel that reads NaN or inf is dead. That is no error of the caller's: it is left out of every sum.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import LARGEST, does, instance
+from plantar.arrays import is_finite, mask, numbers
+from plantar.errors import PlantarError, ReadingError
+from plantar.layouts.layout import SoleLayout
+
+__all__ = ["taxel_frames", "taxel_mask", "taxel_values", "without_dead"]
+
+_FLOAT, _BOOL = np.dtype(np.float64), np.dtype(np.bool_)
+
+
+def taxel_values(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
+    """One reading of a sole's taxels.
+
+    Args:
+        layout: The sole, n taxels.
+        values: What a caller handed over.
+        name: What it is, the subject of an error.
+
+    Returns:
+        Values (n,), NaN where a taxel is dead; not copied where they are an array of float64.
+
+    Raises:
+        ReadingError: If these are not n real numbers.
+        InputError: If the layout is none.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> taxel_values(layout, [1, 2]).tolist()
+        [1.0, 2.0]
+        >>> taxel_values(layout, [1, 2, 3])
+        Traceback (most recent call last):
+        plantar.errors.ReadingError: forces have shape (3,); layout 'sole' has 2 taxels
+    """
+    if not isinstance(layout, SoleLayout):
+        instance(layout, SoleLayout, "layout")
+    given = values if type(values) is np.ndarray and values.dtype is _FLOAT else numbers(values, name, ReadingError)
+    if given.shape != (len(layout.corners),):
+        raise _misfit(layout, given.shape, name)
+    return given
+
+
+def taxel_frames(layout: SoleLayout, values: object, name: str = "forces") -> NDArray[np.float64]:
+    """One reading of a sole's taxels, or several.
+
+    Args:
+        layout: The sole, n taxels.
+        values: What a caller handed over.
+        name: What it is, the subject of an error.
+
+    Returns:
+        Values (n,) or (frames, n), NaN where a taxel is dead; not copied where they are an array of float64.
+
+    Raises:
+        ReadingError: If these are not (n,) or (frames, n) real numbers.
+        InputError: If the layout is none.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> taxel_frames(layout, [[1, 2], [3, 4], [5, 6]]).shape
+        (3, 2)
+    """
+    instance(layout, SoleLayout, "layout")
+    given = numbers(values, name, ReadingError)
+    if given.ndim not in (1, 2) or given.shape[-1] != len(layout):
+        raise _misfit(layout, given.shape, name)
+    return given
+
+
+def taxel_mask(layout: SoleLayout, values: object, name: str = "mask") -> NDArray[np.bool_]:
+    """Some of a sole's taxels.
+
+    Args:
+        layout: The sole, n taxels.
+        values: What a caller handed over.
+        name: What it is, the subject of an error.
+
+    Returns:
+        Mask (n,), not copied where it is an array of bool.
+
+    Raises:
+        ReadingError: If these are not n truth values.
+        InputError: If the layout is none.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> taxel_mask(layout, [0, 1]).tolist()
+        [False, True]
+    """
+    if not isinstance(layout, SoleLayout):
+        instance(layout, SoleLayout, "layout")
+    given = values if type(values) is np.ndarray and values.dtype is _BOOL else mask(values, name, (...,), ReadingError)
+    if given.shape != (len(layout.corners),):
+        raise _misfit(layout, given.shape, name)
+    return given
+
+
+def without_dead(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Readings with 0 where a taxel is dead.
+
+    Args:
+        values: Readings of any shape.
+
+    Returns:
+        The very array where no taxel is dead.
+
+    Example:
+        >>> without_dead(np.array([1.0, np.nan, np.inf])).tolist()
+        [1.0, 0.0, 0.0]
+    """
+    return values if is_finite(values) else np.where(np.abs(values) <= LARGEST, values, 0.0)
+
+
+def _misfit(layout: SoleLayout, shape: tuple[int, ...], name: str) -> PlantarError:
+    return ReadingError(f"{does(name, 'have')} shape {shape}; layout '{layout.name}' has {len(layout)} taxels")
