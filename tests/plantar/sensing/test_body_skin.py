@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError, ReadingError, ground_reaction_wrench
-from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
+from plantar.sensing.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 signals = st.lists(
@@ -101,3 +101,11 @@ def test_no_cell_is_no_wrench_and_shapes_must_agree():
     ):
         with pytest.raises(ReadingError, match="cells have positions"):
             skin_wrench(positions, rotations, signal)
+
+
+def test_a_signal_that_no_sum_could_hold_is_none():
+    """One rule for the mask of active cells and for what is summed over them."""
+    force, proximity = [1e300, -1e300, 2.0], [0.0, 1e300, 1e101]
+    assert active_cells(force, proximity, 0.1, 0.1).tolist() == [False, False, True]
+    assert pseudo_force(force, proximity, 10.0, 2.0).tolist() == [0.0, 0.0, 20.0]
+    assert patch_signal(force, proximity, 0.5).tolist() == [0.0, 0.0, 1.0]

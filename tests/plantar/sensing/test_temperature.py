@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.polygon import area, convex_hull
-from plantar.temperature import temperature_footprint, temperature_measure, temperature_wrench, warm_taxels
+from plantar.geometry.polygon import area, convex_hull
+from plantar.sensing.temperature import temperature_footprint, temperature_measure, temperature_wrench, warm_taxels
 
 seeds = st.integers(0, 2**32 - 1)
 anything = st.one_of(st.floats(-50.0, 120.0), st.sampled_from([math.nan, math.inf, -math.inf, 31.0, 60.0]))

@@ -7,8 +7,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.layout import SoleLayout
-from plantar.proximity import cells_polygon
+from plantar.arguments import number
+from plantar.arrays import numbers
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_frames, taxel_values
+from plantar.sensing.proximity import cells_polygon
 
 __all__ = ["temperature_footprint", "temperature_measure", "temperature_wrench", "warm_taxels"]
 
@@ -24,14 +27,19 @@ def temperature_measure(temperature: ArrayLike, threshold: float, highest: float
     Returns:
         Excess (..., n) in K: 0 below the threshold and for a dead taxel, never NaN.
 
+    Raises:
+        InputError: If the temperatures are not numeric, the threshold not finite, or the range no number.
+
     Example:
         >>> temperature_measure([30.0, 31.0, 33.5, 99.0, np.nan], 31.0, 60.0).tolist()
         [0.0, 0.0, 2.5, 29.0, 0.0]
     """
-    readings = np.asarray(temperature, dtype=np.float64)
-    excess = np.fmax(readings, threshold)  # drops NaN
-    excess -= threshold
-    return np.asarray(np.where(excess < math.inf, np.minimum(excess, max(highest - threshold, 0.0)), 0.0))
+    readings = numbers(temperature, "temperatures")
+    level = number(threshold, "threshold of temperature", finite=True)
+    most = max(number(highest, "upper end of the range") - level, 0.0)
+    excess = np.asarray(np.fmax(readings, level))  # drops NaN
+    excess -= level
+    return np.asarray(np.where(excess < math.inf, np.minimum(excess, most), 0.0))
 
 
 def temperature_wrench(
@@ -51,15 +59,22 @@ def temperature_wrench(
     Returns:
         Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero where nothing is hot.
 
+    Raises:
+        ReadingError: If these are not n numbers a frame.
+        InputError: If threshold or gain is not a finite number.
+
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
         >>> temperature_wrench(layout, np.full(len(layout), 25.0)).tolist()
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
     """
+    readings = taxel_frames(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
+    newtons = number(gain, "gain of temperature", finite=True)
     highest = layout.ranges["temperature"][1] if "temperature" in layout.ranges else math.inf
-    return np.asarray(gain * temperature_measure(temperature, level, highest).dot(layout.wrench_map.T))
+    with np.errstate(over="ignore", invalid="ignore"):  # of readings as large as no sensor's, where no range is stated
+        return np.asarray(newtons * temperature_measure(readings, level, highest).dot(layout.wrench_map.T))
 
 
 def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
@@ -72,14 +87,15 @@ def warm_taxels(temperature: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     Returns:
         Mask (..., n).
 
+    Raises:
+        InputError: If the temperatures are not numeric, or the threshold is NaN or no number.
+
     Example:
         >>> warm_taxels([30.9, 31.0, np.nan, np.inf], 31.0).tolist()
         [False, True, False, False]
     """
-    readings = np.asarray(temperature, dtype=np.float64)
-    mask = np.isfinite(readings)
-    mask &= readings >= threshold
-    return np.asarray(mask)
+    readings = numbers(temperature, "temperatures")
+    return np.asarray(np.isfinite(readings) & (readings >= number(threshold, "threshold of temperature")))
 
 
 def temperature_footprint(
@@ -97,6 +113,7 @@ def temperature_footprint(
 
     Raises:
         ReadingError: If the number of temperatures is not that of the taxels.
+        InputError: If the threshold is NaN or no number.
 
     Example:
         >>> from plantar import hex_layout
@@ -104,5 +121,6 @@ def temperature_footprint(
         >>> temperature_footprint(layout, np.where(np.arange(len(layout)) == 3, 40.0, 25.0)).shape
         (6, 2)
     """
+    readings = taxel_values(layout, temperature, "temperatures")
     level = layout.temperature_threshold if threshold is None else threshold
-    return cells_polygon(layout, warm_taxels(temperature, level))
+    return cells_polygon(layout, warm_taxels(readings, level))

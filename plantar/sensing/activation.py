@@ -7,12 +7,14 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import number
+from plantar.arrays import mask, numbers
 from plantar.errors import InputError, ReadingError
 
 __all__ = ["TaxelActivation", "active_taxels", "hysteresis"]
 
 
-def active_taxels(force: NDArray[np.float64], threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
+def active_taxels(force: ArrayLike, threshold: float, saturation: float = math.inf) -> NDArray[np.bool_]:
     """Taxels whose force exceeds the activation threshold (T 4.22: |f_iz| > epsilon_f).
 
     A taxel that reads NaN or inf is dead: it is never active. Force pulls do not exist at a sole, so a negative
@@ -27,11 +29,17 @@ def active_taxels(force: NDArray[np.float64], threshold: float, saturation: floa
     Returns:
         Mask (..., n).
 
+    Raises:
+        ReadingError: If the forces are not numeric.
+        InputError: If a threshold is NaN or no number.
+
     Example:
         >>> active_taxels(np.array([0.0, 2.0, np.nan, 785.0]), 1.47, 785.0).tolist()
         [False, True, False, False]
     """
-    return np.asarray((force > threshold) & (force < saturation))
+    given = numbers(force, "forces", ReadingError)
+    low, high = number(threshold, "activation threshold"), number(saturation, "saturation")
+    return np.asarray((given > low) & (given < high))
 
 
 def hysteresis(
@@ -52,14 +60,15 @@ def hysteresis(
         State (frames, ...) after each frame.
 
     Raises:
-        InputError: If a threshold is NaN or `low` is above `high`.
+        InputError: If a threshold is NaN or `low` is above `high`, the values are not numeric or have no time axis, or
+            the initial state does not fit them.
 
     Example:
         >>> hysteresis([0.0, 2.0, 1.2, 0.9, 1.2], high=1.5, low=1.0).tolist()
         [False, True, True, False, False]
     """
-    _check_thresholds(high, low)
-    series = np.asarray(values, dtype=np.float64)
+    high, low, saturation = _checked(high, low, saturation)
+    series = numbers(values, "values of a hysteresis")
     if series.ndim == 0:
         raise InputError("values of a hysteresis have no time axis; expected (frames, ...)")
     on = (series > high) & (series < saturation)
@@ -67,7 +76,10 @@ def hysteresis(
     # The state after a frame is that of the last frame that decided.
     frame = np.arange(1, len(series) + 1).reshape(-1, *(1,) * (series.ndim - 1))
     last = np.maximum.accumulate(np.where(decided, frame, 0), axis=0)
-    start = np.broadcast_to(np.asarray(initial, dtype=bool), series.shape[1:])[None]
+    before = mask(initial, "initial state", (...,))
+    if before.shape not in ((), series.shape[1:]):
+        raise InputError(f"initial state has shape {before.shape}; expected () or {series.shape[1:]}")
+    start = np.broadcast_to(before, series.shape[1:])[None]
     return np.asarray(np.take_along_axis(np.concatenate([start, on]), last, axis=0))
 
 
@@ -92,10 +104,10 @@ class TaxelActivation:
     """
 
     def __init__(self, threshold: float, release: float | None = None, saturation: float = math.inf) -> None:
-        self.threshold = threshold
-        self.release = 0.5 * threshold if release is None else release
-        self.saturation = saturation
-        _check_thresholds(self.threshold, self.release)
+        self.threshold = number(threshold, "activation threshold", nan=True)
+        self.threshold, self.release, self.saturation = _checked(
+            self.threshold, 0.5 * self.threshold if release is None else release, saturation
+        )
         self._active: NDArray[np.bool_] | None = None
 
     def reset(self) -> None:
@@ -106,9 +118,11 @@ class TaxelActivation:
         """Active taxels (n,) after the next reading, of forces (n,) in N.
 
         Raises:
-            ReadingError: If the number of taxels differs from that of the reading before.
+            ReadingError: If the forces are not (n,) numbers, or their number differs from that of the reading before.
         """
-        now = np.asarray(force, dtype=np.float64)
+        now = numbers(force, "forces", ReadingError)
+        if now.ndim != 1:
+            raise ReadingError(f"forces have shape {now.shape}; expected (taxels,)")
         if self._active is not None and now.shape != self._active.shape:
             raise ReadingError(f"reading has {now.shape} taxels; the ones before had {self._active.shape}")
         active = now > self.threshold
@@ -119,6 +133,9 @@ class TaxelActivation:
         return active.copy()
 
 
-def _check_thresholds(high: float, low: float) -> None:
-    if not low <= high:
+def _checked(high: float, low: float, saturation: float) -> tuple[float, float, float]:
+    """Thresholds of a hysteresis."""
+    on, off = number(high, "threshold of a hysteresis", nan=True), number(low, "threshold of a hysteresis", nan=True)
+    if not off <= on:
         raise InputError(f"hysteresis switches off at {low} and on above {high}; allowed: off not above on")
+    return on, off, number(saturation, "saturation")

@@ -1,3 +1,6 @@
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -43,3 +46,38 @@ def test_force_is_one_number_a_taxel(force):
 def test_text_names_the_field(field, value):
     with pytest.raises(ReadingError, match=f"'{field}'"):
         Reading(**{"time": 0.0, "force": np.zeros(2), field: value})
+
+
+@pytest.mark.parametrize("time", [None, "0", np.nan, np.inf, [0.0]])
+def test_a_time_is_a_finite_number(time):
+    with pytest.raises(ReadingError, match="'time' is"):
+        Reading(time=time, force=np.zeros(2))
+
+
+FIELDS = {"force": (3,), "proximity": (3,), "temperature": (3,), "acceleration": (3, 3)}
+
+
+def test_what_a_caller_does_with_its_buffers_afterwards_changes_nothing():
+    given = {name: np.ones(shape) for name, shape in FIELDS.items()}
+    reading = Reading(time=0.0, **given)
+    for array in given.values():
+        array[:] = 0.0
+    assert all((getattr(reading, name) == 1.0).all() for name in FIELDS)
+
+
+def test_a_view_of_a_larger_buffer_is_copied_too():
+    buffer = np.ones((3, 4))
+    reading = Reading(0.0, buffer[:, 1], acceleration=buffer[:, ::-1][:, :3])
+    buffer[:] = 0.0
+    assert reading.force.tolist() == [1.0, 1.0, 1.0]
+    assert reading.acceleration.min() == 1.0
+
+
+@pytest.mark.parametrize("again", [lambda r: r, copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r))])
+def test_a_reading_and_its_copies_are_read_only(again):
+    reading = again(Reading(time=2.0, **{name: np.ones(shape) for name, shape in FIELDS.items()}))
+    assert reading.time == 2.0
+    for name in FIELDS:
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(reading, name)[0] = 0.0
+        assert getattr(reading, name).base is None  # no way round

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from plantar import InputError, ReadingError
-from plantar.polygon import area, convex_hull, signed_margin
-from plantar.proximity import cells_polygon, height_contours, near_taxels, preemptive_polygon, proximity_measure
+from plantar.geometry.polygon import area, convex_hull, signed_margin
+from plantar.sensing.proximity import cells_polygon, height_contours, near_taxels, preemptive_polygon, proximity_measure
 
 anything = st.one_of(st.floats(-0.01, 0.1), st.sampled_from([math.nan, math.inf, -math.inf]))
 distances = hnp.arrays(float, hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=8), elements=anything)

@@ -16,11 +16,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import LARGEST, number
+from plantar.arrays import is_finite, numbers
 from plantar.errors import InputError
 
 __all__ = ["clipped_mean", "unclipped_mean"]
 
-_NEGLIGIBLE = 1e-12  # N
+_NEGLIGIBLE, _LOUDEST = 1e-12, 1e6  # N
 _FORCE = np.linspace(0.0, 6.0, 601)  # in sigma; above it nothing is cut off
 _MEAN = np.array(
     [0.5 * f * math.erfc(-f / math.sqrt(2.0)) + math.exp(-0.5 * f * f) / math.sqrt(2.0 * math.pi) for f in _FORCE]
@@ -39,14 +41,18 @@ def clipped_mean(force: ArrayLike, noise: float) -> NDArray[np.float64]:
     Returns:
         Means (...) in N.
 
+    Raises:
+        InputError: If the forces are not numeric, or the noise is not within 0 to 1e6 N.
+
     Example:
         >>> clipped_mean([0.0, 10.0], 1.0).round(3).tolist()
         [0.399, 10.0]
     """
-    given = np.asarray(force, dtype=float)
-    if noise < _NEGLIGIBLE:
+    given, sigma = numbers(force, "forces"), _sigma(noise)
+    if sigma < _NEGLIGIBLE:
         return np.asarray(np.maximum(given, 0.0), dtype=np.float64)
-    return np.asarray(np.where(given > 6.0 * noise, given, noise * np.interp(given / noise, _FORCE, _MEAN)))
+    within = np.minimum(given, 6.0 * sigma)
+    return np.asarray(np.where(given > 6.0 * sigma, given, sigma * np.interp(within / sigma, _FORCE, _MEAN)))
 
 
 def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
@@ -63,15 +69,22 @@ def unclipped_mean(mean: ArrayLike, noise: float) -> NDArray[np.float64]:
         Forces (...) in N.
 
     Raises:
-        InputError: If the noise is not finite and 0 or more.
+        InputError: If the means are not numeric, or the noise is not within 0 to 1e6 N.
 
     Example:
         >>> unclipped_mean(clipped_mean([0.0, 1.0, 10.0], 1.5), 1.5).round(3).tolist()
         [0.0, 1.0, 10.0]
     """
-    if not 0.0 <= noise < math.inf:
-        raise InputError(f"noise of a sensor is {noise} N; allowed: finite, 0 or more")
-    given = np.asarray(mean, dtype=float)
-    if noise < _NEGLIGIBLE:
+    given, sigma = numbers(mean, "means"), _sigma(noise)
+    if sigma < _NEGLIGIBLE:
         return np.array(given)
-    return np.asarray(np.interp(given, noise * _TABLE[0], noise * _TABLE[1]), dtype=np.float64)
+    force = np.asarray(np.interp(given, sigma * _TABLE[0], sigma * _TABLE[1]), dtype=np.float64)
+    return force if is_finite(given) else np.where(np.abs(given) <= LARGEST, force, given)
+
+
+def _sigma(noise: float) -> float:
+    """The noise of a sensor, checked."""
+    sigma = number(noise, "noise of a sensor", nan=True)
+    if not 0.0 <= sigma <= _LOUDEST:
+        raise InputError(f"noise of a sensor is {noise} N; allowed: 0 to {_LOUDEST:g} N")
+    return sigma

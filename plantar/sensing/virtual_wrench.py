@@ -11,10 +11,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.activation import hysteresis
+from plantar.arguments import LARGEST, number
+from plantar.arrays import array, is_finite
 from plantar.errors import InputError
-from plantar.layout import SoleLayout
-from plantar.proximity import proximity_measure
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_frames
+from plantar.sensing.activation import hysteresis
+from plantar.sensing.proximity import proximity_measure
 
 __all__ = ["SoleWrenchSwitch", "early_stop", "sole_wrenches", "virtual_ground_reaction_wrench"]
 
@@ -40,7 +43,8 @@ def virtual_ground_reaction_wrench(
         Wrench (6,) or (frames, 6) in the sole frame in N and N m; zero where nothing is in range.
 
     Raises:
-        InputError: If the range is not a finite value above 0.
+        ReadingError: If these are not n numbers a frame.
+        InputError: If the range is not a finite value above 0, or the gain not a finite number.
 
     Example:
         >>> from plantar import hex_layout
@@ -49,11 +53,12 @@ def virtual_ground_reaction_wrench(
         >>> bool(abs(wrench[2] - len(layout)) < 1e-9), wrench[:2].tolist()
         (True, [0.0, 0.0])
     """
+    readings = taxel_frames(layout, distance, "distances")
     reach = layout.proximity_range if sensing_range is None else sensing_range
-    readings = np.asarray(distance, dtype=np.float64)
+    stiffness = number(gain, "gain of proximity", finite=True)
     if readings.ndim < 2:
-        return np.asarray(gain * layout.wrench_map.dot(proximity_measure(readings, reach)))
-    into_wrench = gain * layout.wrench_map.T
+        return np.asarray(stiffness * layout.wrench_map.dot(proximity_measure(readings, reach)))
+    into_wrench = stiffness * layout.wrench_map.T
     out = np.empty((*readings.shape[:-1], 6))
     for start in range(0, len(readings), _CHUNK):  # what is measured stays in the cache until it is summed
         part = slice(start, start + _CHUNK)
@@ -71,12 +76,14 @@ def early_stop(virtual_wrench: ArrayLike, threshold: float) -> NDArray[np.bool_]
     Returns:
         A bool for one wrench, a mask (...) for several.
 
+    Raises:
+        InputError: If the wrench is not (..., 6) numbers, or the threshold is NaN or no number.
+
     Example:
         >>> early_stop([0.0, 0.0, 35.0, 0.0, 0.0, 0.0], 30.0)
         True
     """
-    force = np.asarray(virtual_wrench, dtype=np.float64)
-    stop = np.asarray(np.hypot(np.hypot(force[..., 0], force[..., 1]), force[..., 2]) > threshold)
+    stop = np.asarray(_size(array(virtual_wrench, "wrench", (..., 6))) > number(threshold, "threshold of the stop"))
     return bool(stop) if stop.ndim == 0 else stop
 
 
@@ -99,16 +106,18 @@ def sole_wrenches(
         Wrenches (frames, 6) in N and N m. A part that holds NaN or inf counts as zero.
 
     Raises:
-        InputError: If `release` is above `threshold`.
+        InputError: If `release` is above `threshold`, or the wrenches are not (frames, 6) numbers both.
 
     Example:
         >>> contact = np.outer([0.0, 0.5, 9.0, 4.0], [0, 0, 1, 0, 0, 0])
         >>> sole_wrenches(contact, contact * 0 + 2.0, threshold=5.0)[:, 2].tolist()
         [2.0, 2.5, 9.0, 4.0]
     """
-    felt, foreseen = _finite(contact), _finite(virtual)
-    force = np.hypot(np.hypot(felt[..., 0], felt[..., 1]), felt[..., 2])
-    landed = hysteresis(force, threshold, 0.5 * threshold if release is None else release)
+    felt, foreseen = _finite(contact, ("frames", 6)), _finite(virtual, ("frames", 6))
+    if felt.shape != foreseen.shape:
+        raise InputError(f"wrenches have shapes {felt.shape} and {foreseen.shape}; expected the same")
+    on = number(threshold, "threshold", nan=True)
+    landed = hysteresis(_size(felt), on, 0.5 * on if release is None else release)
     return np.where(landed[..., None], felt, felt + foreseen)
 
 
@@ -120,7 +129,7 @@ class SoleWrenchSwitch:
         release: Force in N at or below which it has lifted; half of `threshold` where None.
 
     Raises:
-        InputError: If `release` is above `threshold`.
+        InputError: If `release` is above `threshold`, or one is no number.
 
     Example:
         >>> switch = SoleWrenchSwitch(5.0)
@@ -130,8 +139,8 @@ class SoleWrenchSwitch:
     """
 
     def __init__(self, threshold: float, release: float | None = None) -> None:
-        self.threshold = threshold
-        self.release = 0.5 * threshold if release is None else release
+        self.threshold = number(threshold, "threshold", nan=True)
+        self.release = 0.5 * self.threshold if release is None else number(release, "release", nan=True)
         if not self.release <= self.threshold:
             raise InputError(f"release is {self.release} N with a threshold of {threshold} N; allowed: not above it")
         self.landed = False
@@ -153,16 +162,25 @@ class SoleWrenchSwitch:
 
         Returns:
             Wrench (6,) in N and N m. A part that holds NaN or inf counts as zero.
+
+        Raises:
+            InputError: If a wrench is not 6 numbers.
         """
-        felt, foreseen = _finite(contact), _finite(virtual)
+        felt, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
         force = math.hypot(*felt[:3].tolist())
         self.landed = force > (self.release if self.landed else self.threshold)
         return felt if self.landed else felt + foreseen
 
 
-def _finite(wrench: ArrayLike) -> NDArray[np.float64]:
-    given = np.array(wrench, dtype=np.float64)
-    fine = np.isfinite(given)
-    if not fine.all():
-        given[~fine.all(axis=-1)] = 0.0
+def _size(wrench: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Force in N of wrenches (..., 6)."""
+    with np.errstate(over="ignore"):  # a force as large as none is beyond every threshold
+        return np.asarray(np.hypot(np.hypot(wrench[..., 0], wrench[..., 1]), wrench[..., 2]))
+
+
+def _finite(wrench: ArrayLike, shape: tuple[object, ...]) -> NDArray[np.float64]:
+    """A copy of wrenches, 0 where one is not finite."""
+    given = array(wrench, "wrench", shape).copy()
+    if not is_finite(given):
+        given[~(np.abs(given) <= LARGEST).all(axis=-1)] = 0.0
     return given

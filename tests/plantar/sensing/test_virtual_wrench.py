@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError
-from plantar.virtual_wrench import SoleWrenchSwitch, early_stop, sole_wrenches, virtual_ground_reaction_wrench
+from plantar.sensing.virtual_wrench import SoleWrenchSwitch, early_stop, sole_wrenches, virtual_ground_reaction_wrench
 
 seeds = st.integers(0, 2**32 - 1)
 

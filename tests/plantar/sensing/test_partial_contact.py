@@ -10,8 +10,8 @@ from plantar import hex_layout
 from plantar.errors import ReadingError
 from plantar.kernels import python_form
 from plantar.kernels.cut_cells import cut_cells
-from plantar.partial_contact import PartialContact
-from plantar.proximity import cells_polygon
+from plantar.sensing.partial_contact import PartialContact
+from plantar.sensing.proximity import cells_polygon
 
 SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0.075]], clip=False)
 CELLS = [shapely.Polygon(SOLE.cell_polygon(i)) for i in range(len(SOLE))]

@@ -8,9 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import InputError, ReadingError
+from plantar.arguments import number
+from plantar.arrays import array, read_only
+from plantar.errors import InputError
 from plantar.kernels.ground import GroundFit
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_frames, taxel_values
 
 __all__ = ["GroundPlane", "checked_range", "fit_ground_plane", "ground_fit", "ground_points"]
 
@@ -44,7 +47,9 @@ class GroundPlane(NamedTuple):
 
     def height_at(self, points: ArrayLike) -> NDArray[np.float64]:
         """Height (...) in m above the ground of points (..., 2) of the sole plane, along the sole's z."""
-        return np.asarray(self.height - np.asarray(points, dtype=float) @ np.array(self.slope))
+        places = array(points, "points", (..., 2))
+        with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
+            return np.asarray(self.height - places @ np.array(self.slope))
 
 
 def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64]:
@@ -57,13 +62,16 @@ def ground_points(layout: SoleLayout, distance: ArrayLike) -> NDArray[np.float64
     Returns:
         Points (n, 3) or (frames, n, 3) in the sole frame in m; NaN where nothing is seen.
 
+    Raises:
+        ReadingError: If these are not n numbers a frame.
+
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
         >>> ground_points(layout, np.full(len(layout), 0.03))[:, 2].max().item()
         -0.03
     """
-    reach = np.asarray(distance, dtype=np.float64)
+    reach = taxel_frames(layout, distance, "distances")
     reach = np.where(np.isfinite(reach), reach, np.nan)
     return np.asarray(layout.positions - reach[..., None] * layout.rotations[:, :, 2])
 
@@ -99,9 +107,7 @@ def fit_ground_plane(
         >>> round(plane.height, 9), round(plane.slope[0], 9), abs(plane.slope[1]) < 1e-12, plane.directions
         (0.03, 0.1, True, 2)
     """
-    readings = np.asarray(distance, dtype=np.float64)
-    if readings.shape != (len(layout),):
-        raise ReadingError(f"distances have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
+    readings = taxel_values(layout, distance, "distances")
     reach = checked_range(layout, sensing_range, tolerance)
     out = np.empty(4)
     inliers = np.zeros(len(layout), dtype=bool)
@@ -109,7 +115,7 @@ def fit_ground_plane(
     if directions < 0:
         return None
     height, rise_x, rise_y, residual = out.tolist()
-    return GroundPlane(height, (rise_x, rise_y), residual, inliers, directions)
+    return GroundPlane(height, (rise_x, rise_y), residual, read_only(inliers), directions)
 
 
 def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: float) -> float:
@@ -131,9 +137,9 @@ def checked_range(layout: SoleLayout, sensing_range: float | None, tolerance: fl
         >>> checked_range(hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]]), None, 2e-3)
         0.05
     """
-    if not tolerance > 0.0:
+    if not number(tolerance, "tolerance of the ground plane", nan=True) > 0.0:
         raise InputError(f"tolerance of the ground plane is {tolerance} m; allowed: above 0")
-    reach = layout.proximity_range if sensing_range is None else sensing_range
+    reach = layout.proximity_range if sensing_range is None else number(sensing_range, "sensing range", nan=True)
     if not 0.0 < reach < math.inf:
         raise InputError(f"sensing range is {reach} m; allowed: a finite value above 0")
     return reach

@@ -6,7 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar import SoleLayout, center_of_pressure, ground_reaction_wrench, wrench_at, zmp_of_feet, zmp_of_wrench
+from plantar import (
+    InputError,
+    ReadingError,
+    SoleLayout,
+    center_of_pressure,
+    ground_reaction_wrench,
+    wrench_at,
+    zmp_of_feet,
+    zmp_of_wrench,
+)
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -129,3 +138,48 @@ def test_zmp_of_feet_in_the_air():
     assert zmp_of_feet([np.array([0.1, 0.2]), None], [0.0, 300.0]) is None
     assert zmp_of_feet([np.array([0.1, 0.2]), None], [10.0, 300.0]).tolist() == [0.1, 0.2]
     assert zmp_of_feet([], []) is None
+
+
+@pytest.mark.parametrize("shape", [(), (12, 1), (3, 12), (11,), (0,)])
+def test_a_cop_is_of_one_reading(shape):
+    """Frames were once divided by the sum over all of them, and one number or a column spread over all taxels."""
+    with pytest.raises(ReadingError, match="forces have shape"):
+        center_of_pressure(tilted_sole(0), np.ones(shape))
+
+
+def test_dead_taxels_are_left_out():
+    layout = tilted_sole(0)
+    force = np.full(len(layout), 5.0)
+    sound = force.copy()
+    force[:3], sound[:3] = [np.nan, np.inf, -np.inf], 0.0
+    assert center_of_pressure(layout, force).tolist() == center_of_pressure(layout, sound).tolist()
+    assert ground_reaction_wrench(layout, force).tolist() == ground_reaction_wrench(layout, sound).tolist()
+    assert center_of_pressure(layout, np.full(len(layout), np.nan)) is None
+
+
+def test_a_wrench_that_is_not_known_has_no_zmp():
+    assert zmp_of_wrench([0, 0, 100.0, np.nan, 0, 0]) is None
+    assert zmp_of_wrench([0, 0, np.inf, 0, 0, 0]) is None
+    assert zmp_of_wrench(np.zeros(6), minimum_force=0.0) is None
+    moved = wrench_at([[np.inf, 0, 0, 0, 0, 0], [0, 0, 1.0, 0, 0, 0]], [0.0, 1.0, 0.0])
+    assert moved[1].tolist() == [0, 0, 1.0, -1.0, 0, 0]
+    assert not np.isfinite(moved[0]).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda: zmp_of_wrench(np.zeros(3)), r"wrench has shape \(3,\); expected \(6,\)"),
+        (lambda: wrench_at(np.zeros(3), np.zeros(3)), r"wrench has shape \(3,\); expected \(..., 6\)"),
+        (lambda: wrench_at(np.zeros(6), np.zeros(2)), r"point has shape \(2,\); expected \(3,\)"),
+        (lambda: wrench_at(np.zeros(6), [0.0, 0.0, np.nan]), "point holds a value that is not finite"),
+        (lambda: zmp_of_feet([None], [1.0, 2.0]), "1 points and 2 vertical forces"),
+        (lambda: zmp_of_feet([[0.0]], [1.0]), r"point has shape \(1,\)"),
+        (lambda: zmp_of_feet([[0.0, 0.0]], [np.inf]), "not finite"),
+        (lambda: zmp_of_feet(None, [1.0]), "points are None"),
+        (lambda: zmp_of_feet([None], "a"), "vertical force is 'a'"),
+    ],
+)
+def test_wrong_arguments_are_refused_by_name(call, text):
+    with pytest.raises(InputError, match=text):
+        call()

@@ -10,7 +10,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import LARGEST, number
+from plantar.arrays import array, mask, numbers
 from plantar.errors import InputError, ReadingError
+from plantar.layouts.taxel_values import without_dead
 
 __all__ = ["active_cells", "patch_signal", "pseudo_force", "skin_wrench"]
 
@@ -29,14 +32,20 @@ def active_cells(
         proximity_threshold: epsilon_prox in the unit of `proximity`.
 
     Returns:
-        Mask (..., n); a cell whose signals are both NaN or inf is not active.
+        Mask (..., n); a cell is not active by a signal that is NaN, inf or beyond `LARGEST`.
+
+    Raises:
+        ReadingError: If the signals are not numeric or differ in shape.
+        InputError: If a threshold is NaN or no number.
 
     Example:
         >>> active_cells([0.0, 0.4, 0.0, np.nan], [0.8, 0.9, 0.0, np.nan], 0.1, 0.1).tolist()
         [True, True, False, False]
     """
-    f, p = np.asarray(force, dtype=np.float64), np.asarray(proximity, dtype=np.float64)
-    return np.asarray(((f > force_threshold) & (f < np.inf)) | ((p > proximity_threshold) & (p < np.inf)))
+    f, p = _signals(force, proximity)
+    least_force = number(force_threshold, "threshold of force")
+    least_proximity = number(proximity_threshold, "threshold of proximity")
+    return np.asarray(((f > least_force) & (f <= LARGEST)) | ((p > least_proximity) & (p <= LARGEST)))
 
 
 def pseudo_force(
@@ -56,14 +65,22 @@ def pseudo_force(
         active: Mask (..., n), for example of `active_cells`; all cells where None.
 
     Returns:
-        Pseudo-forces (..., n) in N, 0 for cells that are not active; a signal that is NaN or inf counts as 0.
+        Pseudo-forces (..., n) in N, 0 for cells that are not active; a signal that is NaN, inf or beyond
+            `LARGEST` counts as 0.
+
+    Raises:
+        ReadingError: If the signals are not numeric, or they and the mask differ in shape.
+        InputError: If a weight is not a finite number.
 
     Example:
         >>> pseudo_force([0.0, 0.5, np.nan], [0.2, 1.0, 0.5], 10.0, 2.0).tolist()
         [0.4, 7.0, 1.0]
     """
-    total = force_weight * _finite(force) + proximity_weight * _finite(proximity)
-    return np.asarray(total if active is None else np.where(np.asarray(active, dtype=bool), total, 0.0))
+    f, p = _signals(force, proximity)
+    by_force = number(force_weight, "weight of force", finite=True)
+    by_proximity = number(proximity_weight, "weight of proximity", finite=True)
+    total = np.asarray(by_force * without_dead(f) + by_proximity * without_dead(p))
+    return total if active is None else np.where(mask(active, "mask 'active'", f.shape, ReadingError), total, 0.0)
 
 
 def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArray[np.float64]:
@@ -75,18 +92,21 @@ def patch_signal(force: ArrayLike, proximity: ArrayLike, weight: float) -> NDArr
         weight: w: 0 reacts to proximity alone, 1 to force alone.
 
     Returns:
-        Signals (..., n); a signal that is NaN or inf counts as 0.
+        Signals (..., n); a signal that is NaN, inf or beyond `LARGEST` counts as 0.
 
     Raises:
+        ReadingError: If the signals are not numeric or differ in shape.
         InputError: If the weight is not within 0 to 1.
 
     Example:
         >>> patch_signal([0.0, 1.0], [0.5, 1.0], 0.25).tolist()
         [0.375, 1.0]
     """
-    if not 0.0 <= weight <= 1.0:
+    f, p = _signals(force, proximity)
+    share = number(weight, "weight of force against proximity", nan=True)
+    if not 0.0 <= share <= 1.0:
         raise InputError(f"weight of force against proximity is {weight}; allowed: 0 to 1")
-    return weight * _finite(force) + (1.0 - weight) * _finite(proximity)
+    return share * without_dead(f) + (1.0 - share) * without_dead(p)
 
 
 def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -> NDArray[np.float64]:
@@ -95,28 +115,35 @@ def skin_wrench(positions: ArrayLike, rotations: ArrayLike, signal: ArrayLike) -
     Args:
         positions: Cell positions (n, 3) in the wanted frame in m; with K, relative to the CoM.
         rotations: Rotations (n, 3, 3) from each cell's frame to the wanted frame.
-        signal: Normal forces (n,) or (frames, n) in N, of `pseudo_force`, `patch_signal` or a reading; NaN or inf
-            counts as 0.
+        signal: Normal forces (n,) or (frames, n) in N, of `pseudo_force`, `patch_signal` or a reading; NaN, inf
+            or beyond `LARGEST` counts as 0.
 
     Returns:
         Wrench (6,) or (frames, 6) about the wanted frame's origin in N and N m, exerted by the world on the robot.
 
     Raises:
-        ReadingError: If the shapes do not agree.
+        ReadingError: If the shapes do not agree, or a position or rotation is not finite.
 
     Example:
         >>> skin_wrench([[0.0, 0.1, 0.5]], [np.eye(3)], [10.0]).tolist()
         [0.0, 0.0, 10.0, 1.0, 0.0, 0.0]
     """
-    r, turn, f = np.asarray(positions, dtype=float), np.asarray(rotations, dtype=float), _finite(signal)
-    if r.ndim != 2 or r.shape[1] != 3 or turn.shape != (len(r), 3, 3) or f.shape[-1:] != (len(r),):
+    r = numbers(positions, "positions of cells", ReadingError)
+    turn = numbers(rotations, "rotations of cells", ReadingError)
+    f = numbers(signal, "signals of cells", ReadingError)
+    if r.ndim != 2 or r.shape[1] != 3 or turn.shape != (len(r), 3, 3) or f.ndim not in (1, 2) or f.shape[-1] != len(r):
         raise ReadingError(
             f"cells have positions {r.shape}, rotations {turn.shape} and signals {f.shape}; "
-            "expected (n, 3), (n, 3, 3) and (..., n)"
+            "expected (n, 3), (n, 3, 3) and (n,) or (frames, n)"
         )
-    normal = turn[:, :, 2]
-    return np.asarray(f @ np.hstack([normal, np.cross(r, normal)]))
+    array(r, "positions of cells", (...,), ReadingError, finite=True)
+    normal = array(turn, "rotations of cells", (...,), ReadingError, finite=True)[:, :, 2]
+    return np.asarray(without_dead(f) @ np.hstack([normal, np.cross(r, normal)]))
 
 
-def _finite(signal: ArrayLike) -> NDArray[np.float64]:
-    return np.nan_to_num(np.asarray(signal, dtype=np.float64), nan=0.0, posinf=0.0, neginf=0.0)
+def _signals(force: ArrayLike, proximity: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The two signals of each cell (..., n)."""
+    f, p = numbers(force, "force signals", ReadingError), numbers(proximity, "proximity signals", ReadingError)
+    if f.shape != p.shape:
+        raise ReadingError(f"force signals have shape {f.shape}, proximity signals {p.shape}; expected the same")
+    return f, p

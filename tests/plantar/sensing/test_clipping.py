@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.clipping import clipped_mean, unclipped_mean
 from plantar.errors import InputError
+from plantar.sensing.clipping import clipped_mean, unclipped_mean
 
 
 def test_the_mean_of_clipped_noise_is_what_it_says() -> None:

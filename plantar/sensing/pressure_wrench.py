@@ -5,9 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.activation import active_taxels
+from plantar.arguments import number
+from plantar.arrays import array, numbers
 from plantar.errors import InputError
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_frames
+from plantar.sensing.activation import active_taxels
 
 __all__ = ["joint_torque", "pressure_driven_wrench", "scaled_by_area"]
 
@@ -29,7 +32,8 @@ def pressure_driven_wrench(
         Wrench (6,) or (frames, 6) about the sole frame's origin in N and N m; zero without contact.
 
     Raises:
-        InputError: If the reference area is not above 0.
+        ReadingError: If these are not n numbers a frame.
+        InputError: If the reference area is not a finite value above 0, or the threshold no number.
 
     Example:
         >>> from plantar import hex_layout
@@ -39,9 +43,11 @@ def pressure_driven_wrench(
         >>> [round(float(pressure_driven_wrench(layout, f, 691e-6)[2]), 2) for f in (spread, point)]
         [3.16, 60.0]
     """
-    readings = np.asarray(force, dtype=np.float64)
+    readings = taxel_frames(layout, force)
     active = active_taxels(readings, layout.force_threshold if threshold is None else threshold, layout.force_limit)
-    return scaled_by_area(np.where(active, readings, 0.0) @ layout.wrench_map.T, active @ layout.areas, reference_area)
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces as large as no sensor's, where no range is stated
+        wrench = np.where(active, readings, 0.0) @ layout.wrench_map.T
+    return scaled_by_area(wrench, active @ layout.areas, reference_area)
 
 
 def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: float) -> NDArray[np.float64]:
@@ -56,21 +62,24 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         Wrench in the shape of `wrench` in N and N m; zero where the contact area is 0.
 
     Raises:
-        InputError: If the reference area is not above 0.
+        InputError: If the reference area is not a finite value above 0, or there is not one area a wrench.
 
     Example:
         >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
         [0.0, 0.0, 30.0, 0.0, 0.0, 0.0]
     """
-    if not reference_area > 0.0:
-        raise InputError(f"reference area is {reference_area} m^2; allowed: above 0")
-    if isinstance(contact_area, float):  # one reading: without arrays for one number
-        return np.asarray(
-            np.asarray(wrench, dtype=np.float64) * (reference_area / contact_area if contact_area > 0.0 else 0.0)
-        )
-    area = np.asarray(contact_area, dtype=np.float64)[..., None]
-    gain = np.divide(reference_area, area, out=np.zeros_like(area), where=area > 0.0)
-    return np.asarray(np.asarray(wrench, dtype=np.float64) * gain)
+    reference = number(reference_area, "reference area", nan=True)
+    if not 0.0 < reference < np.inf:
+        raise InputError(f"reference area is {reference_area} m^2; allowed: a finite value above 0")
+    given = array(wrench, "wrench", (..., 6))
+    if isinstance(contact_area, float) and given.ndim == 1:  # one reading: without arrays for one number
+        return np.asarray(given * (reference / contact_area if contact_area > 0.0 else 0.0))
+    area = numbers(contact_area, "contact area")
+    if area.shape != given.shape[:-1]:
+        raise InputError(f"contact area has shape {area.shape}; expected one a wrench, {given.shape[:-1]}")
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+        gain = np.divide(reference, area[..., None], out=np.zeros((*area.shape, 1)), where=area[..., None] > 0.0)
+        return np.asarray(given * gain)
 
 
 def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
@@ -84,11 +93,17 @@ def joint_torque(jacobian: ArrayLike, rotation_to_base: ArrayLike, wrench: Array
     Returns:
         Torques (joints,) or (frames, joints) in N m.
 
+    Raises:
+        InputError: If a shape is wrong, or the Jacobian or rotation not finite.
+
     Example:
         >>> slider_along_z = [[0.0], [0], [1], [0], [0], [0]]
         >>> joint_torque(slider_along_z, np.eye(3), [0, 0, 5.0, 1, 0, 0]).tolist()
         [5.0]
     """
-    rotation, given = np.asarray(rotation_to_base, dtype=float), np.asarray(wrench, dtype=float)
-    turned = np.concatenate([given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T], axis=-1)
-    return np.asarray(turned @ np.asarray(jacobian, dtype=float))
+    columns = array(jacobian, "jacobian", (6, "joints"), finite=True)
+    rotation = array(rotation_to_base, "rotation", (3, 3), finite=True)
+    given = array(wrench, "wrench", (..., 6))
+    with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+        turned = np.concatenate([given[..., :3] @ rotation.T, given[..., 3:] @ rotation.T], axis=-1)
+        return np.asarray(turned @ columns)

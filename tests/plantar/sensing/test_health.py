@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from plantar import InputError, ReadingError
-from plantar.health import (
+from plantar.sensing.health import (
     StuckMonitor,
     TaxelHealth,
     dead_taxels,

@@ -20,15 +20,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.cell_cutting import CellCutter
 from plantar.errors import ReadingError
-from plantar.layout import SoleLayout
-from plantar.polygon import closest_point, convex_hull, inner_offset
-from plantar.proximity import cells_polygon
+from plantar.geometry.cell_cutting import CellCutter
+from plantar.geometry.polygon import closest_point, convex_hull, inner_offset
+from plantar.kernels.clean import clean_ring, extent, turning
+from plantar.layouts.layout import SoleLayout
+from plantar.sensing.proximity import cells_polygon
 
 __all__ = ["GroundEdges", "PartialContact"]
 
 _MOST_EDGES = 4
+_NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
 _RANGE = 0.01  # m, prior spread of an edge about where the cells' corners put it
 _TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
@@ -292,7 +294,7 @@ class PartialContact:
 
 
 def _clipped(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
-    """What of a convex polygon (k, 2) lies where n . x <= h."""
+    """What of a convex polygon (k, 2) lies where n . x <= h, without near-duplicates where the line meets a corner."""
     kept: list[tuple[float, float]] = []
     points = polygon.tolist()
     for k, (ax, ay) in enumerate(points):
@@ -303,4 +305,6 @@ def _clipped(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> ND
         if (a < 0.0 < b) or (b < 0.0 < a):
             share = a / (a - b)
             kept.append((ax + share * (bx - ax), ay + share * (by - ay)))
-    return np.array(kept).reshape(-1, 2)
+    left = np.array(kept).reshape(-1, 2)
+    near = _NOISE * extent(polygon)
+    return left if turning(left, 0.0, 0.0, near) > 0 else np.asarray(clean_ring(left, 0.0, 0.0, near))

@@ -13,12 +13,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import InputError, ReadingError
-from plantar.layout import SoleLayout
+from plantar.arguments import number
+from plantar.arrays import array, numbers, read_only
+from plantar.errors import InputError
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_mask, taxel_values
 
 __all__ = [
     "HeightContour",
     "cells_polygon",
+    "contour_levels",
     "height_contours",
     "near_taxels",
     "preemptive_polygon",
@@ -53,18 +57,19 @@ def proximity_measure(distance: ArrayLike, sensing_range: float) -> NDArray[np.f
         Measures (..., n) in m: 0 out of range and for a dead taxel, `sensing_range` at contact (d <= 0), never NaN.
 
     Raises:
-        InputError: If the range is not a finite value above 0.
+        InputError: If the distances are not numeric, or the range is not a finite value above 0.
 
     Example:
         >>> proximity_measure([0.05, 0.03, 0.0, -0.001, np.inf, np.nan], 0.05).round(9).tolist()
         [0.0, 0.02, 0.05, 0.05, 0.0, 0.0]
     """
-    if not 0.0 < sensing_range < math.inf:
+    reach = number(sensing_range, "sensing range", nan=True)
+    if not 0.0 < reach < math.inf:
         raise InputError(f"sensing range is {sensing_range} m; allowed: a finite value above 0")
-    measured = np.asarray(sensing_range - np.asarray(distance, dtype=np.float64))
+    measured = np.asarray(reach - numbers(distance, "distances"))
     # fmax drops NaN, so that a dead taxel reads as one that sees nothing.
     np.fmax(measured, 0.0, out=measured)
-    return np.minimum(measured, sensing_range, out=measured)
+    return np.minimum(measured, reach, out=measured)
 
 
 def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
@@ -79,11 +84,14 @@ def near_taxels(distance: ArrayLike, threshold: float) -> NDArray[np.bool_]:
     Returns:
         Mask (..., n).
 
+    Raises:
+        InputError: If the distances are not numeric, or the threshold is not a number.
+
     Example:
         >>> near_taxels([0.01, 0.03, np.inf, np.nan], 0.02).tolist()
         [True, False, False, False]
     """
-    return np.asarray(np.asarray(distance, dtype=np.float64) < threshold)
+    return np.asarray(numbers(distance, "distances") < number(threshold, "threshold of proximity"))
 
 
 def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
@@ -97,7 +105,7 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
         Polygon (k, 2) in the sole frame in m, counter-clockwise; empty where no cell is taken.
 
     Raises:
-        ReadingError: If the mask has not n values.
+        ReadingError: If the mask has not n truth values.
 
     Example:
         >>> from plantar import hex_layout
@@ -105,10 +113,7 @@ def cells_polygon(layout: SoleLayout, taxels: ArrayLike) -> NDArray[np.float64]:
         >>> cells_polygon(layout, np.arange(len(layout)) == 3).shape
         (6, 2)
     """
-    chosen = np.asarray(taxels, dtype=bool)
-    if chosen.shape != (len(layout),):
-        raise ReadingError(f"mask has shape {chosen.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    polygon: NDArray[np.float64] = layout.kernel.hull(chosen)[0]
+    polygon: NDArray[np.float64] = layout.kernel.hull(taxel_mask(layout, taxels))[0]
     return polygon
 
 
@@ -125,6 +130,7 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
 
     Raises:
         ReadingError: If the number of distances is not that of the taxels.
+        InputError: If the threshold is not a number.
 
     Example:
         >>> from plantar import hex_layout
@@ -132,7 +138,29 @@ def preemptive_polygon(layout: SoleLayout, distance: ArrayLike, threshold: float
         >>> preemptive_polygon(layout, np.full(len(layout), np.inf), 0.02).shape
         (0, 2)
     """
-    return cells_polygon(layout, near_taxels(distance, threshold))
+    return cells_polygon(layout, near_taxels(taxel_values(layout, distance, "distances"), threshold))
+
+
+def contour_levels(heights: Sequence[float]) -> tuple[float, ...]:
+    """Heights of contours, lowest first.
+
+    Args:
+        heights: Thresholds epsilon_p in m, in any order.
+
+    Returns:
+        The heights.
+
+    Raises:
+        InputError: If these are not numbers, or one is NaN.
+
+    Example:
+        >>> contour_levels([0.02, 0.01])
+        (0.01, 0.02)
+    """
+    levels: list[float] = sorted(array(heights, "heights of contours", ("m",)).tolist())
+    if any(map(math.isnan, levels)):
+        raise InputError("heights of contours hold NaN")
+    return tuple(levels)
 
 
 def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[float]) -> tuple[HeightContour, ...]:
@@ -144,10 +172,10 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         heights: Thresholds epsilon_p in m, in any order.
 
     Returns:
-        A contour a height, lowest first; each holds the ones before it.
+        A contour a height, lowest first; each holds the ones before it. Arrays are read-only: contours share them.
 
     Raises:
-        InputError: If a height is NaN.
+        InputError: If a height is NaN or no number.
         ReadingError: If the number of distances is not that of the taxels.
 
     Example:
@@ -157,19 +185,15 @@ def height_contours(layout: SoleLayout, distance: ArrayLike, heights: Sequence[f
         >>> [int(contour.taxels.sum()) for contour in stack]
         [5, 11, 20]
     """
-    levels = sorted(map(float, heights))
-    if any(map(math.isnan, levels)):
-        raise InputError("heights of contours hold NaN")
-    readings = np.asarray(distance, dtype=np.float64)
-    if readings.shape != (len(layout),):
-        raise ReadingError(f"distances have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
+    levels = contour_levels(heights)
+    readings = taxel_values(layout, distance, "distances")
     stack: list[HeightContour] = []
-    polygon = np.empty((0, 2))
+    polygon = read_only(np.empty((0, 2)))
     before = b""
-    for height, taxels in zip(levels, readings < np.array(levels)[:, None], strict=True):
+    for height, taxels in zip(levels, read_only(readings < np.array(levels)[:, None]), strict=True):
         cells = taxels.tobytes()  # the quickest way to compare two masks
         if cells != before:
-            polygon = layout.kernel.hull(taxels)[0]
+            polygon = read_only(layout.kernel.hull(taxels)[0])
             before = cells
         stack.append(HeightContour(height, taxels, polygon))
     return tuple(stack)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import number
+from plantar.arrays import mask, numbers, read_only
 from plantar.errors import InputError, ReadingError
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_frames
 from plantar.lazy import lazy
 
 __all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours", "saturated_taxels", "stuck_taxels"]
@@ -17,12 +21,15 @@ __all__ = ["StuckMonitor", "TaxelHealth", "dead_taxels", "fill_from_neighbours",
 
 @dataclass(frozen=True, eq=False)
 class TaxelHealth:
-    """The taxels of a sole that are left out of every sum, and why.
+    """The taxels of a sole that are left out of every sum, and why. Arrays are copied in, and read-only.
 
     Attributes:
         dead: Taxels (n,) that read NaN or inf.
         saturated: Taxels (n,) that read the end of their range or more: the true force is unknown.
         stuck: Taxels (n,) that have not changed for too long.
+
+    Raises:
+        ReadingError: If the masks do not all have n truth values.
 
     Example:
         >>> health = TaxelHealth(*np.array([[True, False, False], [False, False, True], [False, False, False]]))
@@ -33,6 +40,19 @@ class TaxelHealth:
     dead: NDArray[np.bool_]
     saturated: NDArray[np.bool_]
     stuck: NDArray[np.bool_]
+
+    def __post_init__(self) -> None:
+        for name in ("dead", "saturated", "stuck"):
+            self.__dict__[name] = read_only(mask(getattr(self, name), f"mask '{name}'", ("n",), ReadingError).copy())
+        if not self.dead.shape == self.saturated.shape == self.stuck.shape:
+            raise ReadingError(
+                f"masks of faults have shapes {self.dead.shape}, {self.saturated.shape} and {self.stuck.shape}; "
+                "expected the same"
+            )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles are made anew: numpy forgets what is read-only.
+        return type(self), (self.dead, self.saturated, self.stuck)
 
     @lazy
     def faulty(self) -> NDArray[np.bool_]:
@@ -53,11 +73,14 @@ def dead_taxels(values: ArrayLike) -> NDArray[np.bool_]:
     Returns:
         Mask (..., n).
 
+    Raises:
+        ReadingError: If the readings are not numeric.
+
     Example:
         >>> dead_taxels([1.0, np.nan, -np.inf]).tolist()
         [False, True, True]
     """
-    return ~np.isfinite(np.asarray(values, dtype=np.float64))
+    return np.asarray(~np.isfinite(numbers(values, "readings", ReadingError)))
 
 
 def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
@@ -70,14 +93,16 @@ def saturated_taxels(values: ArrayLike, highest: float) -> NDArray[np.bool_]:
     Returns:
         Mask (..., n).
 
+    Raises:
+        ReadingError: If the readings are not numeric.
+        InputError: If the range is NaN or no number.
+
     Example:
         >>> saturated_taxels([784.0, 785.0, np.nan, np.inf], 785.0).tolist()
         [False, True, False, False]
     """
-    readings = np.asarray(values, dtype=np.float64)
-    mask = np.isfinite(readings)
-    mask &= readings >= highest
-    return np.asarray(mask)
+    readings = numbers(values, "readings", ReadingError)
+    return np.asarray(np.isfinite(readings) & (readings >= number(highest, "upper end of the range")))
 
 
 def stuck_taxels(
@@ -100,18 +125,19 @@ def stuck_taxels(
         Mask (frames, n): stuck at that frame.
 
     Raises:
-        InputError: If the times are not increasing or their number is not that of the frames, or `hold` is not above 0.
+        InputError: If the times are not increasing or their number is not that of the frames, `hold` is not above 0,
+            or the readings are not numeric.
 
     Example:
         >>> stuck_taxels([0.0, 0.5, 1.0], [[0, 5, 5], [0, 5, 6], [0, 5, 5]], hold=1.0).tolist()[-1]
         [False, True, False]
     """
-    t, series = np.asarray(times, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    t, series = numbers(times, "times"), numbers(values, "readings")
     if series.ndim != 2 or t.shape != series.shape[:1]:
         raise InputError(f"times {t.shape} and values {series.shape} do not agree; expected (frames,) and (frames, n)")
-    if not (np.diff(t) > 0.0).all():
-        raise InputError("times are not increasing")
-    _check_stuck(hold, tolerance)
+    if not (np.isfinite(t).all() and (t[1:] > t[:-1]).all()):
+        raise InputError("times are not finite and increasing")
+    hold, tolerance, rest = _checked(hold, tolerance, rest)
     changed = np.ones(series.shape, dtype=bool)
     changed[1:] = ~_same(series[1:], series[:-1], tolerance)
     last = np.maximum.accumulate(np.where(changed, np.arange(len(t))[:, None], 0), axis=0)
@@ -127,7 +153,7 @@ class StuckMonitor:
         rest: A taxel that reads this or less is at rest, and never stuck.
 
     Raises:
-        InputError: If `hold` is not above 0 or `tolerance` is below 0.
+        InputError: If `hold` is not above 0, `tolerance` is below 0, or one is no number.
 
     Example:
         >>> monitor = StuckMonitor(hold=1.0)
@@ -136,8 +162,7 @@ class StuckMonitor:
     """
 
     def __init__(self, hold: float = 1.0, tolerance: float = 0.0, rest: float = 0.0) -> None:
-        _check_stuck(hold, tolerance)
-        self.hold, self.tolerance, self.rest = hold, tolerance, rest
+        self.hold, self.tolerance, self.rest = _checked(hold, tolerance, rest)
         self._last: NDArray[np.float64] | None = None
         self._since = np.empty(0)
         self._time = -math.inf
@@ -157,10 +182,13 @@ class StuckMonitor:
             Mask (n,).
 
         Raises:
-            InputError: If the time is not later than the one before.
-            ReadingError: If the number of taxels differs from that of the reading before.
+            InputError: If the time is not a finite number later than the one before.
+            ReadingError: If these are not (n,) numbers, or their number differs from that of the reading before.
         """
-        now = np.array(values, dtype=np.float64)
+        now = numbers(values, "readings", ReadingError).copy()
+        if now.ndim != 1:
+            raise ReadingError(f"readings have shape {now.shape}; expected (taxels,)")
+        time = number(time, "time", finite=True)
         if not time > self._time:
             raise InputError(f"time {time} s is not later than the one before, {self._time} s")
         if self._last is None:
@@ -189,7 +217,7 @@ def fill_from_neighbours(
         Readings in the shape of `values`; a faulty taxel without a sound neighbour holds NaN.
 
     Raises:
-        ReadingError: If the number of taxels is not that of the layout.
+        ReadingError: If the number of taxels is not that of the layout, or the mask does not fit the readings.
 
     Example:
         >>> from plantar import hex_layout
@@ -199,11 +227,11 @@ def fill_from_neighbours(
         >>> bool((fill_from_neighbours(layout, force, np.isnan(force)) == 3.0).all())
         True
     """
-    out = np.array(values, dtype=np.float64)
-    if out.ndim not in (1, 2) or out.shape[-1] != len(layout):
-        raise ReadingError(f"readings have shape {out.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    bad = np.asarray(faulty, dtype=bool)
+    out = taxel_frames(layout, values, "readings").copy()
+    bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)
     if bad.shape != out.shape:
+        if bad.shape != out.shape[1:]:
+            raise ReadingError(f"mask of faulty taxels has shape {bad.shape}; expected ({len(layout)},) or {out.shape}")
         bad = np.broadcast_to(bad, out.shape)
     *frame, taxel = bad.nonzero()
     if not len(taxel):
@@ -244,8 +272,12 @@ def _same(now: NDArray[np.float64], before: NDArray[np.float64], tolerance: floa
         return np.asarray((now == before) | (np.abs(now - before) <= tolerance))
 
 
-def _check_stuck(hold: float, tolerance: float) -> None:
-    if not hold > 0.0:
+def _checked(hold: float, tolerance: float, rest: float) -> tuple[float, float, float]:
+    """What says when a taxel is stuck."""
+    for_long = number(hold, "hold of stuck taxels", nan=True)
+    same = number(tolerance, "tolerance of stuck taxels", nan=True)
+    if not for_long > 0.0:
         raise InputError(f"stuck taxels are held for {hold} s; allowed: above 0")
-    if not tolerance >= 0.0:
+    if not same >= 0.0:
         raise InputError(f"tolerance of stuck taxels is {tolerance}; allowed: 0 or more")
+    return for_long, same, number(rest, "rest of stuck taxels")

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, ReadingError
-from plantar.ground_plane import fit_ground_plane, ground_points
+from plantar.sensing.ground_plane import fit_ground_plane, ground_points
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from plantar import InputError, ReadingError, active_taxels
-from plantar.activation import TaxelActivation, hysteresis
+from plantar.sensing.activation import TaxelActivation, hysteresis
 
 anything = st.floats(allow_nan=True, allow_infinity=True)
 forces = st.lists(anything, max_size=20)

@@ -1,0 +1,69 @@
+"""One reading of a sole: what its taxels said at one instant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arguments import number
+from plantar.arrays import numbers, own
+from plantar.errors import ReadingError
+
+__all__ = ["Reading"]
+
+_TIME, _FORCE = "reading field 'time'", "reading field 'force'"
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """What n taxels of one sole measured at one time. Arrays are copied in, and read-only.
+
+    Attributes:
+        time: Time in s.
+        force: Normal force (n,) on each taxel in N; NaN marks a dead taxel.
+        proximity: Distance (n,) from each taxel to the nearest surface in m, inf where nothing is in range, or None.
+        temperature: Temperature (n,) in degC, or None.
+        acceleration: Acceleration (n, 3) of each taxel in its own frame in m/s^2, or None.
+
+    Raises:
+        ReadingError: If an array is not numeric or its shape does not agree with the number of taxels, or the time is
+            not finite.
+
+    Example:
+        >>> Reading(time=0.0, force=np.array([1.0, 2.0])).force.sum()
+        np.float64(3.0)
+    """
+
+    time: float
+    force: NDArray[np.float64]
+    proximity: NDArray[np.float64] | None = None
+    temperature: NDArray[np.float64] | None = None
+    acceleration: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        kept = self.__dict__  # past what keeps others from assigning
+        kept["time"] = number(self.time, _TIME, ReadingError, finite=True)
+        force = kept["force"] = own(numbers(self.force, _FORCE, ReadingError))
+        if force.ndim != 1:
+            raise ReadingError(f"{_FORCE} has shape {force.shape}; expected (taxels,)")
+        if self.proximity is not None:
+            kept["proximity"] = _field("proximity", self.proximity, force.shape)
+        if self.temperature is not None:
+            kept["temperature"] = _field("temperature", self.temperature, force.shape)
+        if self.acceleration is not None:
+            kept["acceleration"] = _field("acceleration", self.acceleration, (*force.shape, 3))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles are made anew: numpy forgets what is read-only.
+        return type(self), (self.time, self.force, self.proximity, self.temperature, self.acceleration)
+
+
+def _field(name: str, given: object, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """A field as numbers of a shape, to keep."""
+    value = own(numbers(given, f"reading field '{name}'", ReadingError))
+    if value.shape != shape:
+        raise ReadingError(f"reading field '{name}' has shape {value.shape}; expected {shape}")
+    return value
