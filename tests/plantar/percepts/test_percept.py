@@ -8,14 +8,14 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import Percept, Reading, ReadingError, center_of_pressure, ground_reaction_wrench, kernels
-from plantar.ground_plane import fit_ground_plane
-from plantar.health import TaxelHealth
-from plantar.outline import Outline
-from plantar.polygon import signed_margin
-from plantar.proximity import preemptive_polygon
-from plantar.temperature import temperature_footprint, temperature_wrench
-from plantar.virtual_wrench import virtual_ground_reaction_wrench
+from plantar import Percept, PlantarError, Reading, ReadingError, center_of_pressure, ground_reaction_wrench, kernels
+from plantar.geometry.outline import Outline
+from plantar.geometry.polygon import signed_margin
+from plantar.sensing.ground_plane import fit_ground_plane
+from plantar.sensing.health import TaxelHealth
+from plantar.sensing.proximity import preemptive_polygon
+from plantar.sensing.temperature import temperature_footprint, temperature_wrench
+from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 
 MEMBERS = (
     "active",
@@ -280,3 +280,56 @@ def test_acceleration_is_turned_into_the_sole_frame(tilted_sole):
 def test_a_reading_of_another_sole_is_refused(sole):
     with pytest.raises(ReadingError, match=f"reading has 3 taxels; layout 'test sole' has {len(sole)}"):
         Percept(sole, Reading(0.0, np.zeros(3)))
+
+
+def arrays_in(value):
+    """All arrays that a member's value holds, at any depth, and those that they are views of."""
+    if isinstance(value, TaxelHealth):
+        value = (value.dead, value.saturated, value.stuck, value.faulty)
+    if isinstance(value, Outline):
+        value = (value.points, value.rings, value.centroid, value.islands)
+    if isinstance(value, tuple):
+        return [a for part in value for a in arrays_in(part)]
+    return [value] if isinstance(value, np.ndarray) else []
+
+
+@pytest.mark.parametrize("name", MEMBERS)
+def test_what_a_percept_keeps_cannot_be_changed(sole, name):
+    n = len(sole)
+    percept = Percept(sole, Reading(0.0, np.full(n, 5.0), np.full(n, 0.02), np.full(n, 40.0), np.zeros((n, 3))))
+    for array in arrays_in(getattr(percept, name)):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+@pytest.mark.parametrize("name", ["wrench_in_sole", "position_cop_in_sole"])
+def test_no_member_is_a_way_to_the_sums_that_others_are_made_of(sole, name):
+    percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
+    view = getattr(percept, name)
+    for array in (view, view.base):
+        with pytest.raises(ValueError, match=r"WRITEABLE|read-only"):
+            view.setflags(write=True)
+        with pytest.raises(ValueError, match="read-only"):
+            array[:] = 0.0
+    assert percept.vertical_force == pytest.approx(5.0 * len(sole))
+
+
+@pytest.mark.parametrize(
+    ("argument", "value", "text"),
+    [
+        ("layout", None, "layout is None; expected a SoleLayout"),
+        ("reading", np.zeros(3), "reading is an array of shape .3,.; expected a Reading"),
+        ("force_threshold", "1", "force threshold is '1'"),
+        ("force_threshold", np.nan, "force threshold is NaN"),
+        ("proximity_gain", np.inf, "proximity gain is inf"),
+        ("contour_heights", 0.01, r"heights of contours have shape \(\)"),
+        ("contour_heights", ["low"], "heights of contours are not numeric"),
+        ("reference_area", 0.0, "allowed: above 0"),
+        ("active", "all", "mask 'active' holds"),
+        ("stuck", [0, 4], "mask 'stuck' holds"),
+    ],
+)
+def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
+    given = {"layout": sole, "reading": Reading(0.0, np.zeros(len(sole))), argument: value}
+    with pytest.raises(PlantarError, match=text):
+        Percept(**given)

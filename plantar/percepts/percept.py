@@ -7,16 +7,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.activation import active_taxels
-from plantar.errors import ReadingError
-from plantar.health import TaxelHealth, fill_from_neighbours
-from plantar.layout import SoleLayout
+from plantar.arguments import instance, number
+from plantar.arrays import read_only
+from plantar.errors import InputError, ReadingError
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
-from plantar.percept_shapes import ShapeMembers
-from plantar.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
-from plantar.pressure_wrench import scaled_by_area
-from plantar.reading import Reading
-from plantar.zmp import zero_moment_wrench
+from plantar.mechanics.zmp import zero_moment_wrench
+from plantar.percepts.percept_shapes import ShapeMembers
+from plantar.percepts.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
+from plantar.sensing.activation import active_taxels
+from plantar.sensing.health import TaxelHealth, fill_from_neighbours
+from plantar.sensing.pressure_wrench import scaled_by_area
+from plantar.sensing.proximity import contour_levels
+from plantar.sensing.reading import Reading
 
 __all__ = ["Percept"]
 
@@ -24,9 +28,9 @@ __all__ = ["Percept"]
 class Percept(ShapeMembers, VirtualMembers):
     """A reading seen through its layout.
 
-    Nothing is computed before it is asked for, and nothing twice. An unloaded sole has defined answers: no CoP
-    (None), area 0, an empty polygon, a zero wrench. A modality that the reading lacks gives None. Taxels that are dead,
-    saturated or stuck are left out of every sum, and reported by `health`.
+    Nothing is computed before it is asked for, and nothing twice; what is kept is read-only. An unloaded sole has
+    defined answers: no CoP (None), area 0, an empty polygon, a zero wrench. A modality that the reading lacks gives
+    None. Taxels that are dead, saturated or stuck are left out of every sum, and reported by `health`.
 
     Args:
         layout: The sole, n taxels.
@@ -42,6 +46,7 @@ class Percept(ShapeMembers, VirtualMembers):
 
     Raises:
         ReadingError: If the reading or a mask has another number of taxels than the layout.
+        InputError: If another argument is not what it should be.
 
     Example:
         >>> from plantar import Percept, Reading, hex_layout
@@ -64,23 +69,27 @@ class Percept(ShapeMembers, VirtualMembers):
         contour_heights: tuple[float, ...] = CONTOUR_HEIGHTS,
         reference_area: float | None = None,
     ) -> None:
-        if reading.force.shape[0] != len(layout):
+        instance(layout, SoleLayout, "layout")
+        instance(reading, Reading, "reading")
+        if reading.force.shape[0] != len(layout.corners):
             raise ReadingError(f"reading has {reading.force.shape[0]} taxels; layout '{layout.name}' has {len(layout)}")
         self.layout = layout
         self.reading = reading
-        self.force_threshold = layout.force_threshold if force_threshold is None else force_threshold
+        self.force_threshold = (
+            layout.force_threshold if force_threshold is None else number(force_threshold, "force threshold")
+        )
         self.fill = fill
-        self.proximity_gain = proximity_gain
-        self.contour_heights = contour_heights
-        self.reference_area = layout.cell_area if reference_area is None else reference_area
-        self._given_active = None if active is None else self._mask("active", active)
-        self._stuck = None if stuck is None else self._mask("stuck", stuck)
-
-    def _mask(self, name: str, mask: ArrayLike) -> NDArray[np.bool_]:
-        given = np.array(mask, dtype=bool)
-        if given.shape != self.reading.force.shape:
-            raise ReadingError(f"mask '{name}' has shape {given.shape}; the reading has {len(self.layout)} taxels")
-        return given
+        self.proximity_gain = number(proximity_gain, "proximity gain", finite=True)
+        self.contour_heights = (
+            CONTOUR_HEIGHTS if contour_heights is CONTOUR_HEIGHTS else contour_levels(contour_heights)
+        )
+        self.reference_area = (
+            layout.cell_area if reference_area is None else number(reference_area, "reference area", finite=True)
+        )
+        if not self.reference_area > 0.0:
+            raise InputError(f"reference area is {self.reference_area} m^2; allowed: above 0")
+        self._given_active = None if active is None else taxel_mask(layout, active, "mask 'active'").copy()
+        self._stuck = None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy()
 
     @classmethod
     def members(cls) -> tuple[str, ...]:
@@ -124,7 +133,7 @@ class Percept(ShapeMembers, VirtualMembers):
         loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
         if loads is None:
             force = self.sound_force if self.fill else self.reading.force
-            loads = self.__dict__["_loads_summed"] = self.layout.kernel.loads(force, self.active)
+            loads = self.__dict__["_loads_summed"] = read_only(self.layout.kernel.loads(force, self.active))
         return loads
 
     @lazy

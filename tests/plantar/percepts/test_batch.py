@@ -7,9 +7,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, Percept, Reading, ReadingError, batch, fit_ground_plane, hex_layout, kernels
-from plantar.batch import blocks, loads, support_polygons, wrenches
-from plantar.curved_sole import rotations_to_normals
+from plantar import InputError, Percept, Reading, ReadingError, fit_ground_plane, hex_layout, kernels
+from plantar.layouts.curved_sole import rotations_to_normals
+from plantar.percepts import batch
+from plantar.percepts.batch import blocks, loads, support_polygons, wrenches
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLE = hex_layout(OUTLINE)
@@ -65,6 +66,44 @@ def test_wrenches_of_a_sole_that_is_not_flat():
     force = np.abs(np.nan_to_num(recording(3, sole), nan=0.0, posinf=0.0, neginf=0.0)) % 100.0
     expected = force @ sole.wrench_map.T
     assert wrenches(sole, force, -1.0) == pytest.approx(expected, rel=1e-12, abs=1e-10)
+
+
+def test_loads_are_those_of_each_frame_to_the_last_bit():
+    """Also where forces are of any size and sign, faulty, or all active, on soles flat and not."""
+    slope = 5.0 * SOLE.positions[:, 0]
+    normals = np.column_stack([-np.sin(slope), np.zeros(len(SOLE)), np.cos(slope)])
+    for sole in (SOLE, replace(SOLE, rotations=rotations_to_normals(normals))):
+        force = recording(5, sole, frames=200) * np.where(np.arange(200) % 3, 1.0, -1.0)[:, None]
+        force[::7] *= 1e300
+        force[3] = -0.0
+        for threshold in (None, 0.0, -np.inf):
+            found = loads(sole, force, threshold)
+            low = sole.force_threshold if threshold is None else threshold
+            alone = np.array([sole.kernel.loads(row, (row > low) & (row < sole.force_limit)) for row in force])
+            got = np.column_stack([found.wrench, found.contact_area, found.center_of_pressure])
+            assert got.view(np.int64).tolist() == alone.view(np.int64).tolist()
+
+
+def test_polygons_are_found_without_walking_from_the_start():
+    """A frame at the end costs what one at the start does: the sizes are summed up once."""
+
+    class Sizes(np.ndarray):
+        read = 0
+
+        def __getitem__(self, key):
+            Sizes.read += np.size(super().__getitem__(key))
+            return super().__getitem__(key)
+
+    force = np.nan_to_num(recording(6, frames=400), nan=0.0, posinf=0.0, neginf=0.0)
+    found = support_polygons(SOLE, force, vertices=True)
+    last = found.polygon(399)
+    assert found.polygon(-1).tolist() == last.tolist()
+    counted = replace(found, size=found.size.view(Sizes))
+    for frame in range(400):
+        assert counted.polygon(frame).tolist() == found.polygon(frame).tolist()
+    assert Sizes.read <= 2 * 400
+    with pytest.raises(IndexError):
+        found.polygon(400)
 
 
 def test_areas_are_shapelys_away_from_its_errors():

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import ReadingError
-from plantar.ground_plane import checked_range, ground_fit
 from plantar.kernels import frames as _kernel
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
+from plantar.lazy import lazy
+from plantar.sensing.ground_plane import checked_range, ground_fit
 
 __all__ = [
     "BLOCK",
@@ -84,18 +85,24 @@ class SupportPolygons:
         """Support polygon of one frame.
 
         Args:
-            frame: Index of the frame, from 0.
+            frame: Index of the frame, from 0; below 0 from the last one.
 
         Returns:
             Vertices (k, 2) in m, counter-clockwise; empty without contact.
 
         Raises:
             ReadingError: If the vertices were not asked for.
+            IndexError: If there is no such frame.
         """
         if self.vertices is None:
             raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
-        end = int(self.size[: frame + 1].sum())
+        end = int(self._ends[frame])
         return self.vertices[end - int(self.size[frame]) : end]
+
+    @lazy
+    def _ends(self) -> NDArray[np.int64]:
+        """Where each frame's polygon ends in `vertices` (frames,)."""
+        return np.cumsum(self.size)
 
 
 @dataclass(frozen=True, eq=False)

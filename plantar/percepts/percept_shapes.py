@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import enclosing as _enclosing
-from plantar import inscribed as _inscribed
-from plantar.contact_rectangle import safe_rectangle
-from plantar.inscribed import Circle
-from plantar.layout import SoleLayout
+from plantar.geometry import enclosing as _enclosing
+from plantar.geometry import inscribed as _inscribed
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.inscribed import Circle
+from plantar.geometry.outline import Outline, concave_outline
+from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
-from plantar.outline import Outline, concave_outline
 
 __all__ = ["ShapeMembers"]
 

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arguments import instance, items, number
 from plantar.errors import InputError
+from plantar.geometry.polygon import area
 from plantar.lazy import lazy
-from plantar.percept import Percept
-from plantar.polygon import area
-from plantar.sole_pose import SolePose, wrench_of_feet
-from plantar.support import feet_support_polygon
-from plantar.zmp import zmp_in_plane
+from plantar.mechanics.zmp import zmp_in_plane
+from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose, wrench_of_feet
+from plantar.percepts.support import feet_support_polygon
 
 __all__ = ["FeetPercept"]
 
@@ -27,7 +28,7 @@ class FeetPercept:
         ground_height: Height in m of the horizontal plane that the ZMP lies in.
 
     Raises:
-        InputError: If there are not as many poses as percepts, or none.
+        InputError: If there are not as many poses as percepts, or none, or one of them is something else.
 
     Example:
         >>> from plantar import Reading, hex_layout, mirrored
@@ -39,11 +40,11 @@ class FeetPercept:
     """
 
     def __init__(self, percepts: Sequence[Percept], poses: Sequence[SolePose], ground_height: float = 0.0) -> None:
-        if len(percepts) != len(poses) or not poses:
-            raise InputError(f"{len(percepts)} percepts and {len(poses)} poses; expected one pose a percept")
-        self.percepts = tuple(percepts)
-        self.poses = tuple(poses)
-        self.ground_height = ground_height
+        self.percepts = tuple([instance(p, Percept, "percept") for p in items(percepts, "percepts")])
+        self.poses = tuple([instance(p, SolePose, "pose") for p in items(poses, "poses")])
+        if len(self.percepts) != len(self.poses) or not self.poses:
+            raise InputError(f"{len(self.percepts)} percepts and {len(self.poses)} poses; expected one pose a percept")
+        self.ground_height = number(ground_height, "height of the ground", finite=True)
 
     @lazy
     def wrench_in_world(self) -> NDArray[np.float64]:

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import instance, items, number
+from plantar.arrays import array, is_finite, numbers, own
 from plantar.errors import InputError
 from plantar.lazy import lazy
-from plantar.support import polygon_in_world
-from plantar.zmp import zmp_in_plane
+from plantar.mechanics.rotation import level_rotation
+from plantar.mechanics.zmp import zmp_in_plane
+from plantar.percepts.support import polygon_in_world
 
 __all__ = ["SolePose", "wrench_of_feet", "zmp_of_soles"]
 
@@ -37,17 +41,19 @@ class SolePose:
     position_in_world: NDArray[np.float64]
 
     def __post_init__(self) -> None:
-        rotation = np.array(self.rotation_sole_to_world, dtype=np.float64)
-        position = np.array(self.position_in_world, dtype=np.float64)
+        rotation = own(numbers(self.rotation_sole_to_world, "rotation of a sole pose"))
+        position = own(numbers(self.position_in_world, "position of a sole pose"))
         if rotation.shape != (3, 3) or position.shape != (3,):
             raise InputError(f"sole pose has shapes {rotation.shape} and {position.shape}; expected (3, 3) and (3,)")
-        if not (np.isfinite(rotation).all() and np.isfinite(position).all()):
+        if not (is_finite(rotation) and is_finite(position)):
             raise InputError("sole pose holds a value that is not finite")
         if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-6 or np.linalg.det(rotation) < 0.0:
             raise InputError("sole pose holds a matrix that is not a rotation")
-        for name, array in (("rotation_sole_to_world", rotation), ("position_in_world", position)):
-            array.flags.writeable = False
-            object.__setattr__(self, name, array)
+        self.__dict__.update(rotation_sole_to_world=rotation, position_in_world=position)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles are made anew: numpy forgets what is read-only.
+        return type(self), (self.rotation_sole_to_world, self.position_in_world)
 
     @classmethod
     def flat(cls, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> SolePose:
@@ -61,19 +67,24 @@ class SolePose:
 
         Returns:
             The pose.
+
+        Raises:
+            InputError: If one is not a finite number.
         """
-        c, s = np.cos(yaw), np.sin(yaw)
-        return cls(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.array([x, y, z]))
+        turn = number(yaw, "yaw", finite=True)
+        place = [number(v, f"position {axis}", finite=True) for v, axis in zip((x, y, z), "xyz", strict=True)]
+        return cls(level_rotation(turn), np.array(place))
 
     def to_world(self, points: ArrayLike) -> NDArray[np.float64]:
         """Points (..., 3) of the sole frame in the world frame, in m (T 4.25)."""
-        given = np.asarray(points, dtype=float)
+        given = array(points, "points", (..., 3))
         turn = self.rotation_sole_to_world.T
-        turned = given.dot(turn) if given.ndim == 1 else given @ turn  # the same, sooner for one point
-        turned += self.position_in_world
+        with np.errstate(over="ignore", invalid="ignore"):  # of points that are not finite
+            turned = given.dot(turn) if given.ndim == 1 else given @ turn  # the same, sooner for one point
+            turned += self.position_in_world
         return np.asarray(turned)
 
-    def polygon_to_world(self, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+    def polygon_to_world(self, polygon: ArrayLike) -> NDArray[np.float64]:
         """A polygon (k, 2) of the sole plane seen from above in the world frame, in m."""
         return polygon_in_world(polygon, self.rotation_sole_to_world, self.position_in_world)
 
@@ -82,11 +93,12 @@ class SolePose:
 
         The rotation is E of T 3.21; the moment of the force about the world's origin is added.
         """
-        given = np.asarray(wrench, dtype=float)
+        given = array(wrench, "wrench", (..., 6))
         turn, lever = self._wrench_maps
-        turned: NDArray[np.float64] = given.reshape(-1, 3).dot(turn).reshape(given.shape)
-        moment = turned[..., 3:]
-        moment += given[..., :3].dot(lever)
+        with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
+            turned: NDArray[np.float64] = given.reshape(-1, 3).dot(turn).reshape(given.shape)
+            moment = turned[..., 3:]
+            moment += given[..., :3].dot(lever)
         return turned
 
     @lazy
@@ -108,16 +120,21 @@ def wrench_of_feet(wrenches_in_sole: Sequence[ArrayLike], poses: Sequence[SolePo
         Wrench (6,) or (frames, 6) in the world frame in N and N m, exerted by the world on the robot.
 
     Raises:
-        InputError: If there are not as many poses as wrenches, or none.
+        InputError: If there are not as many poses as wrenches, or none, a wrench is of another shape than the others,
+            or a pose is none.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]
         >>> wrench_of_feet([load, load], [SolePose.flat(0.2, 0.1), SolePose.flat(0.0, -0.1)]).tolist()
         [0.0, 0.0, 200.0, 0.0, -20.0, 0.0]
     """
-    if len(wrenches_in_sole) != len(poses) or not poses:
-        raise InputError(f"{len(wrenches_in_sole)} wrenches and {len(poses)} poses; expected one pose a wrench")
-    return np.asarray(sum(p.wrench_to_world(w) for w, p in zip(wrenches_in_sole, poses, strict=True)))
+    wrenches, places = items(wrenches_in_sole, "wrenches"), items(poses, "poses")
+    if len(wrenches) != len(places) or not places:
+        raise InputError(f"{len(wrenches)} wrenches and {len(places)} poses; expected one pose a wrench")
+    turned = [instance(p, SolePose, "pose").wrench_to_world(w) for w, p in zip(wrenches, places, strict=True)]
+    if any(w.shape != turned[0].shape for w in turned):
+        raise InputError(f"wrenches have shapes {', '.join(str(w.shape) for w in turned)}; expected the same")
+    return np.asarray(sum(turned))
 
 
 def zmp_of_soles(
@@ -136,6 +153,9 @@ def zmp_of_soles(
 
     Returns:
         Position (2,) in the world frame in m, or None without load.
+
+    Raises:
+        InputError: If the wrenches are not (6,) numbers, one a pose, or the height or least force no number.
 
     Example:
         >>> load = [0.0, 0.0, 100.0, 0.0, 0.0, 0.0]

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import InputError, Percept, Reading, ReadingError, hex_layout, laid_over, walking_tick
-from plantar.polygon import closest_point, inner_offset
+from plantar.geometry.polygon import closest_point, inner_offset
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]
 SOLES = {"flat": hex_layout(OUTLINE), "curved": laid_over(hex_layout(OUTLINE), lambda x, y: x * x - y * y)}

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import InputError, Percept, Reading, mirrored, zmp_of_feet
-from plantar.feet import FeetPercept
-from plantar.sole_pose import SolePose
+from plantar.percepts.feet import FeetPercept
+from plantar.percepts.sole_pose import SolePose
 
 seeds = st.integers(0, 2**32 - 1)
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import ground_plane as _ground
-from plantar import proximity as _proximity
-from plantar import temperature as _temperature
-from plantar import virtual_wrench as _virtual
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
-from plantar.proximity import HeightContour
-from plantar.reading import Reading
+from plantar.sensing import ground_plane as _ground
+from plantar.sensing import proximity as _proximity
+from plantar.sensing import temperature as _temperature
+from plantar.sensing import virtual_wrench as _virtual
+from plantar.sensing.proximity import HeightContour
+from plantar.sensing.reading import Reading
 
 __all__ = ["CONTOUR_HEIGHTS", "PROXIMITY_GAIN", "VirtualMembers"]
 

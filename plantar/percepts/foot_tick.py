@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError, ReadingError
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["FootTick", "walking_tick"]
 
