@@ -14,8 +14,8 @@ import pytest
 from mcap.reader import make_reader
 
 from plantar import RecordingError, hex_layout
-from plantar.recorder import Recorder
-from plantar.recording import read_mcap
+from plantar.recordings.recorder import Recorder
+from plantar.recordings.recording import read_mcap
 
 
 def write_walk(path: Path, seconds: float = 2.0) -> np.ndarray:
@@ -94,7 +94,7 @@ def test_killed_writer_leaves_a_readable_file(tmp_path: Path) -> None:
     path = tmp_path / "killed.mcap"
     code = (
         "import sys, numpy as np\n"
-        "from plantar.recorder import Recorder\n"
+        "from plantar.recordings.recorder import Recorder\n"
         "recorder = Recorder(sys.argv[1], {'robot': 'h1'})\n"
         "channel = recorder.channel('/skin/left', [('force', 42)])\n"
         "for i in range(10**9):\n"
@@ -188,3 +188,54 @@ def test_a_message_is_cheap(tmp_path: Path) -> None:
                 channel.write(i * 0.004, values)
             best = min(best, (time.process_time() - start) / 5000)
     assert best < 10e-6  # measured 1.5 to 3 us; 5 % of a second at six times real time is 4.9 us
+
+
+def record(path: Path, messages: int, error: BaseException | None) -> None:
+    """A run of so many messages of 100 values, which may end in an error."""
+    with Recorder(path) as recorder:
+        channel = recorder.channel("/a", [("x", 100)])
+        for i in range(messages):
+            channel.write(0.1 * i, np.ones(100))
+        if error is not None:
+            raise error
+
+
+def test_a_run_that_does_not_begin_leaves_an_old_recording_alone(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"old")
+    with pytest.raises(ZeroDivisionError):
+        record(path, 0, ZeroDivisionError())
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["run.mcap"]
+
+
+def test_a_run_that_ends_early_keeps_what_it_recorded(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"old")
+    with pytest.raises(KeyboardInterrupt):
+        record(path, 1, KeyboardInterrupt())
+    assert len(read_mcap(path).topics["/a"]) == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["run.mcap"]
+
+
+def test_a_full_disk_leaves_an_old_recording_alone(tmp_path: Path) -> None:
+    resource = pytest.importorskip("resource")
+    path = tmp_path / "run.mcap"
+    path.write_bytes(b"old")
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, hard))
+        with pytest.raises(RecordingError, match=r"run\.mcap"):
+            record(path, 50, None)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        signal.signal(signal.SIGXFSZ, handler)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["run.mcap"]
+
+
+def test_a_folder_is_no_name_for_a_recording(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="it is a folder"):
+        Recorder(tmp_path)
+    assert list(tmp_path.iterdir()) == []

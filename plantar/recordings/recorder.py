@@ -14,6 +14,7 @@ import re
 import struct
 import zlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -21,10 +22,11 @@ from typing import IO, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import RecordingError
-from plantar.layout import SoleLayout
-from plantar.layout_file import layout_to_dict
-from plantar.recording import MCAP_MAGIC
+from plantar.atomic import temporary_beside
+from plantar.errors import InputError, RecordingError
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.layout_file import layout_to_dict
+from plantar.recordings.mcap_content import MCAP_MAGIC
 
 __all__ = ["RecordChannel", "Recorder"]
 
@@ -124,7 +126,7 @@ class Recorder:
 
     Example:
         >>> import tempfile
-        >>> from plantar.recording import read_mcap
+        >>> from plantar.recordings.recording import read_mcap
         >>> path = Path(tempfile.mkdtemp()) / "run.mcap"
         >>> with Recorder(path, {"robot": "h1"}) as recorder:
         ...     channel = recorder.channel("/estimate", [("com", 3), ("tilt", 1)])
@@ -165,12 +167,13 @@ class Recorder:
         self._metadata_indexes: list[Any] = []
         self._time_range: tuple[int, int] | None = None
         self._flush_at = math.inf
-        try:
-            self._file: IO[bytes] = open(self.path, "wb")  # noqa: SIM115  closed by close()
-        except OSError as error:
-            raise RecordingError(
-                f"cannot write recording {self.path}: {error.strerror}; choose a folder that exists and is writable"
-            ) from None
+        if self.path.is_dir():
+            raise RecordingError(f"cannot write recording {self.path}: it is a folder; give the name of a file")
+        try:  # under another name until a message is there: a run that never begins leaves an old recording alone
+            self._temporary: Path | None = temporary_beside(self.path)
+        except InputError as error:
+            raise RecordingError(str(error).replace("cannot write", "cannot write recording", 1)) from None
+        self._file: IO[bytes] = open(self._temporary, "wb")  # noqa: SIM115  closed by close()
         self._put(MCAP_MAGIC)
         self._put(self._encoded(records.Header(profile="ros2", library="plantar")))
         self._add_metadata("plantar", texts)
@@ -272,8 +275,15 @@ class Recorder:
         self._time_range = min(first, low), max(last, high)
         try:
             self._file.flush()
+            self._take_name()
         except OSError as error:
             raise self._write_error(error) from None
+
+    def _take_name(self) -> None:
+        """Give the file its name, once."""
+        if self._temporary is not None:
+            os.replace(self._temporary, self.path)
+            self._temporary = None
 
     def close(self) -> None:
         """Write the last chunk and the index, and close the file; a second call does nothing.
@@ -286,11 +296,15 @@ class Recorder:
         try:
             self.flush()
             self._put_summary()
+            self._file.close()
+            self._take_name()
+        except OSError as error:
+            raise self._write_error(error) from None
         finally:
-            try:
+            with suppress(OSError):  # told above already where it matters
                 self._file.close()
-            except OSError as error:
-                raise self._write_error(error) from None
+            if self._temporary is not None:  # not a single message was written: an old recording stays
+                self._temporary.unlink(missing_ok=True)
 
     def __enter__(self) -> Self:
         return self
@@ -298,9 +312,12 @@ class Recorder:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if error is not None and self._temporary is not None and not any(c._filled for c in self._channels):
+            with suppress(OSError):  # nothing was recorded: leave nothing behind
+                self._file.close()
+            self._temporary.unlink(missing_ok=True)
+            return
         self.close()
-        if error is not None and self._time_range is None:  # nothing was recorded: leave nothing behind
-            self.path.unlink(missing_ok=True)
 
     def _put_summary(self) -> None:
         records = self._records
@@ -361,4 +378,5 @@ class Recorder:
         return offset
 
     def _write_error(self, error: OSError) -> RecordingError:
-        return RecordingError(f"cannot write recording {self.path}: {error.strerror}; the part before it is kept")
+        kept = "; the part before it is kept" if self._temporary is None else ""
+        return RecordingError(f"cannot write recording {self.path}: {error.strerror}{kept}")

@@ -12,9 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.layout import Side, SoleLayout, mirrored
+from plantar.layouts.layout import Side, SoleLayout, mirrored
 
-__all__ = ["FootRecording", "Kind", "PressureRecording", "layout_for", "sampling"]
+__all__ = ["RATES", "FootRecording", "Kind", "PressureRecording", "layout_for", "possible_rate", "sampling"]
+
+RATES = (0.1, 1e5)
+"""Lowest and highest rate in frames a second that is believed."""
+
+_LEAST_STEP = 1e-3
+"""Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite."""
 
 
 Kind = Literal["insole", "platform", "robot", "plate"]
@@ -124,7 +130,7 @@ class PressureRecording:
         rate_hz: Frames a second.
         time: Times (n,) in s.
         feet: The feet that were measured, by side. A platform stands under one entry as a whole until
-            `gait.analysis.platform` has told its footprints apart.
+            `gait.analysis.prints.platform` has told its footprints apart.
         metadata: What the file says beside the data.
         warnings: What was assumed, repaired or left out, one line each.
         kind: What measured.
@@ -167,20 +173,55 @@ def layout_for(side: Side, given: SoleLayout | None) -> SoleLayout | None:
     return mirrored(given)
 
 
-def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
+def possible_rate(rate: float, what: str) -> float:
+    """A rate, refused where no device has it.
+
+    Args:
+        rate: Frames a second.
+        what: What states it, for the message, for example "the header states".
+
+    Returns:
+        The rate.
+
+    Raises:
+        FormatError: If it is not within RATES.
+    """
+    if not RATES[0] <= rate <= RATES[1]:
+        raise FormatError(
+            f"{what} {rate:.4g} frames a second, which is not possible; allowed: {RATES[0]:g} to {RATES[1]:g} "
+            "(--rate overrides)"
+        )
+    return rate
+
+
+def sampling(
+    time: NDArray[np.float64], stated_hz: float | None, given_hz: float | None = None
+) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     """Check the times of frames, and repair single damaged ones.
 
     Args:
         time: Times (n,) in s as the file gives them, 1 or more; NaN where a time could not be read.
         stated_hz: Rate that the file states, if any.
+        given_hz: Rate that the user gives, if any; it is used instead of the file's word and times.
 
     Returns:
         Times (n,) in s that increase, the rate in Hz, and warnings.
 
     Raises:
-        FormatError: If neither the times nor the file give a rate.
+        FormatError: If neither the times nor the file give a rate, or one that is not within RATES.
     """
+    if given_hz is not None:
+        return np.arange(len(time)) / given_hz, given_hz, ()
+    with np.errstate(all="ignore"):  # damaged times may be of any size
+        return _checked_times(time, stated_hz)
+
+
+def _checked_times(
+    time: NDArray[np.float64], stated: float | None
+) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     warnings: list[str] = []
+    if stated is not None:
+        possible_rate(stated, "the file states")
     steps = np.diff(time)
     forward = steps[np.isfinite(steps) & (steps > 0.0)]
     measured = None
@@ -191,10 +232,10 @@ def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArra
     tied = in_order and measured is not None and float(np.mean(steps == 0.0)) > 0.1
     if tied and measured:  # a clock that is coarser than the frames: several share a time
         measured *= len(time) / (len(forward) + 1)
-    stated = stated_hz if stated_hz is not None and 0.0 < stated_hz < 1e6 else None
     rate = measured or stated
-    if rate is None or not np.isfinite(rate):
+    if rate is None:
         raise FormatError("the frames have no times that increase, and no rate is stated")
+    possible_rate(rate, "the frame times give")
     if measured and stated and abs(measured - stated) > 0.05 * stated:
         warnings.append(f"the file states {stated:g} Hz, its frame times give {measured:.6g} Hz: the times are used")
     elif stated:
@@ -207,10 +248,12 @@ def sampling(time: NDArray[np.float64], stated_hz: float | None) -> tuple[NDArra
         return grid, rate, tuple(warnings)
     off = ~(np.abs(time - grid) <= 0.5 / rate)
     if not off.any() or off.mean() <= 0.01:
-        if off.any():
-            warnings.append(f"{int(off.sum())} frame time(s) were damaged: taken from the rate")
-        return np.where(off, grid, time), rate, tuple(warnings)
-    if np.isfinite(time).all() and (steps > 0.0).all():
+        repaired = np.where(off, grid, time)
+        if (np.diff(repaired) >= _LEAST_STEP / rate).all():
+            if off.any():
+                warnings.append(f"{int(off.sum())} frame time(s) were damaged: taken from the rate")
+            return repaired, rate, tuple(warnings)
+    elif np.isfinite(time).all() and (steps >= _LEAST_STEP / rate).all():
         warnings.append("the frames are not evenly spaced: their own times are used")
         return time, rate, tuple(warnings)
     warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz")

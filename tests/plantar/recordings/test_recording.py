@@ -11,8 +11,8 @@ import pytest
 from mcap.writer import CompressionType, Writer
 
 from plantar import FormatError, hex_layout, read_layout
-from plantar.recorder import Recorder
-from plantar.recording import read_mcap
+from plantar.recordings.recorder import Recorder
+from plantar.recordings.recording import read_mcap
 
 
 @pytest.fixture

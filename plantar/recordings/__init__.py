@@ -1,0 +1,1 @@
+"""Readings over time: recordings in memory and in MCAP files."""

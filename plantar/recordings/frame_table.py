@@ -1,0 +1,86 @@
+"""Frames that are gathered block by block, so that a long recording is in memory once."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+
+__all__ = ["MOST_VALUES", "FrameTable"]
+
+MOST_VALUES = 400_000_000
+"""Most numbers that a recording may hold: 3.2 GB."""
+
+
+class FrameTable:
+    """A table of numbers that grows by blocks of rows.
+
+    It is made for as many rows as are expected, and what is not written takes no memory; where there are more, it grows
+    by a quarter. What `rows` gave before must not be used any more once it has grown.
+
+    Args:
+        width: Numbers a row.
+        expected: Rows that are expected; may be wrong.
+
+    Example:
+        >>> table = FrameTable(2, expected=3)
+        >>> for _ in range(5):
+        ...     table.add(np.ones((1, 2)))
+        >>> table.rows.shape
+        (5, 2)
+    """
+
+    def __init__(self, width: int, expected: int) -> None:
+        self._values = np.empty((max(0, min(expected, MOST_VALUES // max(width, 1))), width))
+        self._filled = 0
+
+    def __len__(self) -> int:
+        return self._filled
+
+    def add(self, block: NDArray[np.float64]) -> None:
+        """Add rows.
+
+        Args:
+            block: The rows (m, width).
+
+        Raises:
+            FormatError: If the table becomes larger than MOST_VALUES.
+        """
+        end = self._filled + len(block)
+        if end * self._values.shape[1] > MOST_VALUES:
+            raise FormatError(
+                f"more than {MOST_VALUES // max(self._values.shape[1], 1)} frames of {self._values.shape[1]} values; "
+                f"allowed: {MOST_VALUES / 1e6:g} million values in all"
+            )
+        if end > len(self._values):
+            self._values.resize((end + end // 4, self._values.shape[1]), refcheck=False)  # moves pages, copies nothing
+        self._values[self._filled : end] = block
+        self._filled = end
+
+    def drop_last(self) -> None:
+        """Take the last row out again."""
+        self._filled -= 1
+
+    @property
+    def rows(self) -> NDArray[np.float64]:
+        """The rows (n, width), a view."""
+        return self._values[: self._filled]
+
+    def columns(self, kept: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Some columns, moved together in place; the table is used up.
+
+        Args:
+            kept: Which columns (width,) are kept.
+
+        Returns:
+            The rows (n, k), contiguous, in the table's own memory.
+        """
+        count = int(kept.sum())
+        flat = self._values.reshape(-1)
+        for start in range(0, self._filled, 1024):  # a row never lands behind where it is read from
+            block = self._values[start : min(start + 1024, self._filled)][:, kept]
+            flat[start * count : start * count + block.size] = block.ravel()
+        out = flat[: self._filled * count].reshape(self._filled, count)
+        self._values, self._filled = np.empty((0, count)), 0
+        return out

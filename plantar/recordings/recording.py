@@ -1,0 +1,153 @@
+"""A recording as tables: what `Recorder` wrote, read back, and exported to NPZ or CSV."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.atomic import output_folder, replacing
+from plantar.errors import FormatError
+from plantar.input_file import open_input
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.layout_file import layout_to_dict
+from plantar.recordings.mcap_content import MCAP_MAGIC, McapContent
+
+__all__ = ["Recording", "Table", "read_mcap"]
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """The messages of one topic.
+
+    Attributes:
+        time: Times (n,) in s.
+        fields: Values (n, k) of each field, in the order of the message type.
+    """
+
+    time: NDArray[np.float64]
+    fields: Mapping[str, NDArray[np.float64]]
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What a recording file holds.
+
+    Attributes:
+        path: The file it was read from.
+        metadata: What was stored beside the data.
+        layouts: Sole layout of each side that has one.
+        topics: Table of each topic.
+        warnings: What was missing, damaged or skipped, one line each.
+    """
+
+    path: Path
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+    layouts: Mapping[str, SoleLayout] = field(default_factory=dict)
+    topics: Mapping[str, Table] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def to_npz(self, path: str | os.PathLike[str]) -> Path:
+        """Write all tables to one compressed NPZ; it appears whole or not at all.
+
+        Keys are "<topic>/time" and "<topic>/<field>" without the leading slash; "metadata" and "layout_<side>" hold
+        JSON text.
+
+        Args:
+            path: File to write; ".npz" is added where it has no suffix.
+
+        Returns:
+            The path written.
+        """
+        final = Path(path)
+        final = final if final.suffix else final.with_suffix(".npz")
+        arrays: dict[str, Any] = {"metadata": json.dumps(dict(self.metadata))}
+        for side, layout in self.layouts.items():
+            arrays[f"layout_{side}"] = json.dumps(layout_to_dict(layout))
+        for topic, table in self.topics.items():
+            arrays[f"{topic.lstrip('/')}/time"] = table.time
+            for name, values in table.fields.items():
+                arrays[f"{topic.lstrip('/')}/{name}"] = values
+        with replacing(final) as temporary, temporary.open("wb") as stream:
+            np.savez_compressed(stream, **arrays)
+        return final
+
+    def to_csv(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Write one CSV a topic, with metadata.json and the layout files beside them.
+
+        Columns are "time_s", then "<field>" or "<field>_<index>"; values keep all their digits.
+
+        Args:
+            folder: Output folder, made if needed.
+
+        Returns:
+            The paths written.
+        """
+        texts = {"metadata.json": json.dumps(dict(self.metadata), indent=1) + "\n"}
+        for side, layout in self.layouts.items():
+            texts[f"layout_{side}.json"] = json.dumps(layout_to_dict(layout), indent=1) + "\n"
+        names = [f"{topic.strip('/').replace('/', '_')}.csv" for topic in self.topics]
+        with output_folder(folder) as out:
+            for name, text in texts.items():
+                (out / name).write_text(text, encoding="utf-8")
+            for name, table in zip(names, self.topics.values(), strict=True):
+                header = ["time_s"]
+                for key, values in table.fields.items():
+                    wide = values.shape[1] > 1
+                    header += [f"{key}_{i}" if wide else key for i in range(values.shape[1])]
+                rows = np.column_stack([table.time, *table.fields.values()])
+                np.savetxt(out / name, rows, fmt="%.17g", delimiter=",", header=",".join(header), comments="")
+        return [Path(folder) / name for name in [*texts, *names]]
+
+
+def read_mcap(path: str | os.PathLike[str]) -> Recording:
+    """Read an MCAP recording whose topics are made of float64 fields.
+
+    A file that was cut short, by a killed run or a full disk, is read up to its last whole chunk; a damaged chunk is
+    left out. Both stand in `warnings`, as do topics of other message types, which are skipped.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The recording.
+
+    Raises:
+        FormatError: If the file cannot be read, is not MCAP, or holds nothing that can be read.
+
+    Example:
+        >>> read_mcap("none.mcap")
+        Traceback (most recent call last):
+        plantar.errors.FormatError: none.mcap: cannot be read (No such file or directory)
+    """
+    content = McapContent()
+    with open_input(path, FormatError) as stream:
+        head = stream.read(len(MCAP_MAGIC))
+        if not head:
+            raise FormatError(f"{path}: the file is empty")
+        if head != MCAP_MAGIC:
+            raise FormatError(f"{path}: not an MCAP recording (its first bytes are {head!r})")
+        try:
+            content.take_file(stream)
+        except FormatError as error:
+            raise FormatError(f"{path}: {error}") from None
+    topics = {topic.name: Table(*topic.columns()) for topic in content.topics.values()}
+    if not topics and not content.metadata and not content.layouts:
+        why = f": {content.warnings[0]}" if content.warnings else ""
+        raise FormatError(f"{path}: the MCAP file holds nothing that can be read{why}")
+    return Recording(
+        path=Path(path),
+        metadata=content.metadata,
+        layouts=content.layouts,
+        topics=topics,
+        warnings=tuple(content.warnings),
+    )
