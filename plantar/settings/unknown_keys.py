@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from difflib import get_close_matches
 
 from plantar.errors import InputError, PlantarError
 
@@ -22,14 +23,16 @@ def refuse_unknown_keys(
         note: On what it depends which are allowed, such as " with law 'dcm'".
 
     Raises:
-        PlantarError: If there is another key; the message names it and those that are allowed.
+        PlantarError: If there is another key; the message names it, the nearest right ones, and those that are allowed.
 
     Example:
         >>> refuse_unknown_keys(["heigth"], ["height", "width"], "[terrain]")
         Traceback (most recent call last):
-        plantar.errors.InputError: [terrain] has an unknown key 'heigth'; allowed: height, width
+        plantar.errors.InputError: [terrain] has an unknown key 'heigth'; nearest: height; allowed: height, width
     """
     known = list(allowed)
     for key in given:
         if key not in known:
-            raise error(f"{where} has an unknown key '{key}'; allowed{note}: {', '.join(known)}")
+            near = ", ".join(get_close_matches(str(key), known))
+            hint = f"nearest: {near}; " if near else ""
+            raise error(f"{where} has an unknown key '{key}'; {hint}allowed{note}: {', '.join(known)}")
