@@ -1,17 +1,27 @@
-"""Files and folders that appear whole or not at all: write under a temporary name, then rename."""
+"""Files and folders that appear whole or not at all: write under a temporary name, then rename.
+
+Temporary names say which process of which machine they belong to. What a process that was killed could not remove, the
+next one that writes to the same folder removes.
+"""
 
 from __future__ import annotations
 
 import os
+import platform
+import re
 import shutil
 import tempfile
+import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 
 from plantar.errors import InputError
 
-__all__ = ["output_folder", "replacing", "write_text"]
+__all__ = ["output_folder", "parent_folder", "replacing", "temporary_beside", "write_text"]
+
+_LEFTOVER = re.compile(r"\.plantar-([0-9a-f]{8})-([1-9]\d{0,9})-")
 
 
 @contextmanager
@@ -28,24 +38,41 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         InputError: If the folder does not exist or cannot be written to.
     """
     final = Path(path)
-    try:
-        handle, name = tempfile.mkstemp(prefix=f".{final.stem}.", suffix=final.suffix, dir=final.parent)
-    except OSError as error:
-        raise InputError(
-            f"cannot write {final}: {error.strerror}; choose a folder that exists and is writable"
-        ) from None
-    os.close(handle)
-    temporary = Path(name)
+    temporary = temporary_beside(final)
     try:
         yield temporary
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(0o666 & ~mask)
         os.replace(temporary, final)
     except OSError as error:
         raise InputError(f"cannot write {final}: {error.strerror}") from None
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def temporary_beside(path: str | os.PathLike[str]) -> Path:
+    """An empty file of a temporary name in the folder of another one, with the permissions of any new file.
+
+    Args:
+        path: The final path; the temporary one keeps its suffix.
+
+    Returns:
+        The temporary path, for the caller to rename or to remove.
+
+    Raises:
+        InputError: If the folder does not exist or cannot be written to.
+    """
+    final = Path(path)
+    try:
+        _remove_leftovers(final.parent)
+        handle, name = tempfile.mkstemp(prefix=_prefix(), suffix=final.suffix, dir=final.parent)
+        os.close(handle)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(name, 0o666 & ~mask)
+    except OSError as error:
+        raise InputError(
+            f"cannot write {final}: {error.strerror}; choose a folder that exists and is writable"
+        ) from None
+    return Path(name)
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> Path:
@@ -78,7 +105,8 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
             raise InputError(f"output folder {final} is a file; choose another name")
         made = [p for p in (final, *final.parents) if not p.exists()]
         final.mkdir(parents=True, exist_ok=True)
-        temporary = Path(tempfile.mkdtemp(prefix=".plantar-", dir=final))
+        _remove_leftovers(final)
+        temporary = Path(tempfile.mkdtemp(prefix=_prefix(), dir=final))
     except OSError as error:
         _remove_empty(made)
         raise InputError(f"output folder {final} cannot be written to ({error.strerror}); choose one with -o") from None
@@ -99,6 +127,76 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         shutil.rmtree(temporary, ignore_errors=True)
         if not done:
             _remove_empty(made)
+
+
+@contextmanager
+def parent_folder(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Make the folder that a file is to be written to; on an error what was made and is still empty is removed.
+
+    Args:
+        path: The file.
+
+    Yields:
+        Nothing.
+
+    Raises:
+        InputError: If the folder cannot be made, or the path is a folder itself.
+    """
+    final = Path(path)
+    made: list[Path] = []
+    try:
+        if final.is_dir():
+            raise InputError(f"cannot write {final}: it is a folder; give the name of a file")
+        made = [p for p in final.parents if not p.exists()]
+        final.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        _remove_empty(made)
+        raise InputError(f"cannot write {final}: {error.strerror}; choose another folder") from None
+    try:
+        yield
+    except BaseException:
+        _remove_empty(made)
+        raise
+
+
+@cache
+def _machine() -> str:
+    """What tells the process numbers of this machine, or of this container, from those of others."""
+    try:
+        space = os.readlink("/proc/self/ns/pid")
+    except OSError:
+        space = ""
+    return f"{zlib.crc32(f'{platform.node()} {space}'.encode()):08x}"
+
+
+def _prefix() -> str:
+    return f".plantar-{_machine()}-{os.getpid()}-"
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Remove what processes of this machine that are dead have left in a folder."""
+    if os.name == "nt":  # where no signal asks whether a process lives
+        return
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            match = _LEFTOVER.match(entry.name)
+            if match is None or match[1] != _machine() or _lives(int(match[2])):
+                continue
+            if entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry.path, ignore_errors=True)
+            else:
+                with suppress(OSError):
+                    os.unlink(entry.path)
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):  # somebody else's, or no number of a process
+        return True
+    return True
 
 
 def _remove_empty(folders: list[Path]) -> None:

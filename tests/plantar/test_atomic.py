@@ -1,12 +1,13 @@
 """Tests run as root too, where permissions do not protect: what cannot be written is a path below a file, or /proc."""
 
 import os
+import subprocess
 import sys
 
 import pytest
 
 from plantar import InputError
-from plantar.atomic import output_folder, replacing, write_text
+from plantar.atomic import output_folder, parent_folder, replacing, write_text
 
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/proc is Linux")
 
@@ -170,3 +171,74 @@ def test_relative_paths_and_the_working_folder(tmp_path, monkeypatch):
     with output_folder(os.curdir) as temporary:
         (temporary / "b").write_text("b")
     assert everything(tmp_path) == ["b", "out", "out/a"]
+
+
+# --- what a killed process leaves -----------------------------------------------------------------------------------
+
+
+def killed_in(folder):
+    """Start a process that writes a file and a folder here, and kill it in the middle."""
+    code = (
+        "import os, signal, sys\nfrom plantar.atomic import output_folder, replacing\n"
+        f"with output_folder({str(folder)!r}) as out, replacing({str(folder / 'table.csv')!r}) as temporary:\n"
+        "    (out / 'half').write_text('half'); temporary.write_text('half'); os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code]).returncode == -9
+    return [p for p in folder.iterdir() if p.name.startswith(".plantar-")]
+
+
+@linux
+@pytest.mark.parametrize("write", [lambda p: write_text(p / "a.txt", "a"), lambda p: write_files(p, "a.txt")])
+def test_the_next_run_removes_what_a_killed_one_left(tmp_path, write):
+    assert len(killed_in(tmp_path)) == 2
+    write(tmp_path)
+    assert everything(tmp_path) == ["a.txt"]
+
+
+@linux
+def test_what_may_be_somebody_elses_stays(tmp_path):
+    left = killed_in(tmp_path)
+    machine, process = left[0].name.split("-")[1:3]
+    other = f"{int(machine, 16) ^ 1:08x}"
+    kept = [
+        f".plantar-{other}-{process}-x",  # of another machine: whether its process lives is not known here
+        f".plantar-{machine}-{os.getpid()}-x",
+        f".plantar-{machine}-1-x",
+        ".plantar-notes",
+        ".table.csv",
+    ]
+    for name in kept:
+        (tmp_path / name).write_text("keep")
+    write_text(tmp_path / "a.txt", "a")
+    assert everything(tmp_path) == sorted(["a.txt", *kept])
+
+
+@linux
+def test_a_link_of_such_a_name_leads_to_nothing_being_removed(tmp_path):
+    (name, *_) = [p.name for p in killed_in(tmp_path / "out" if (tmp_path / "out").mkdir() is None else tmp_path)]
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "keep").write_text("keep")
+    (tmp_path / "out" / f"{name}2").symlink_to(tmp_path / "mine")
+    write_text(tmp_path / "out" / "a.txt", "a")
+    assert everything(tmp_path) == ["mine", "mine/keep", "out", "out/a.txt"]
+
+
+def test_two_that_write_at_once_do_not_remove_each_others(tmp_path):
+    with output_folder(tmp_path) as one, output_folder(tmp_path) as two:
+        (one / "a").write_text("a")
+        (two / "b").write_text("b")
+    assert everything(tmp_path) == ["a", "b"]
+
+
+def test_the_folder_of_a_file_is_made_and_taken_away_on_an_error(tmp_path):
+    with parent_folder(tmp_path / "a" / "b" / "run.mcap"):
+        assert everything(tmp_path) == ["a", "a/b"]
+    with pytest.raises(Stop), parent_folder(tmp_path / "a" / "c" / "d" / "run.mcap"):
+        raise Stop
+    assert everything(tmp_path) == ["a", "a/b"]
+    with pytest.raises(InputError, match="it is a folder"), parent_folder(tmp_path / "a"):
+        pytest.fail("the run must not start")
+    (tmp_path / "file").write_text("keep")
+    with pytest.raises(InputError, match="cannot write"), parent_folder(tmp_path / "file" / "x" / "run.mcap"):
+        pytest.fail("the run must not start")
+    assert everything(tmp_path) == ["a", "a/b", "file"]

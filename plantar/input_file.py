@@ -1,0 +1,156 @@
+"""Opening files that somebody else made: a regular file, at most so large, or one line that says why not.
+
+A pipe would wait for a writer that never comes, a device may never end, and what is larger than a reader can hold must
+be refused before it is read.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from typing import BinaryIO
+
+from plantar.errors import PlantarError
+
+__all__ = ["check_input", "is_file", "open_input", "read_input"]
+
+_KINDS = (
+    (stat.S_ISDIR, "Is a directory"),
+    (stat.S_ISFIFO, "it is a pipe"),
+    (stat.S_ISSOCK, "it is a socket"),
+    (stat.S_ISCHR, "it is a device"),
+    (stat.S_ISBLK, "it is a device"),
+)
+_NO_WAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0) | getattr(os, "O_CLOEXEC", 0)
+
+Name = str | os.PathLike[str]
+
+
+def is_file(path: Name) -> bool:
+    """Whether there is a regular file of this name; False also for names that no file can have.
+
+    Args:
+        path: The name.
+
+    Returns:
+        Whether it is one.
+
+    Example:
+        >>> is_file("/dev/null"), is_file("x" * 300), is_file("")
+        (False, False, False)
+    """
+    try:
+        return stat.S_ISREG(os.stat(path).st_mode)
+    except (OSError, ValueError):
+        return False
+
+
+def check_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> int:
+    """Refuse what is no regular file, or is larger than allowed; for libraries that open a file themselves.
+
+    Args:
+        path: The file.
+        error: What is raised.
+        most: Largest size in bytes; None where there is no limit.
+        where: Beginning of the message; the path where None.
+
+    Returns:
+        Size of the file in bytes.
+
+    Raises:
+        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
+
+    Example:
+        >>> from plantar.errors import FormatError
+        >>> check_input("/dev/zero", FormatError)
+        Traceback (most recent call last):
+        plantar.errors.FormatError: /dev/zero: cannot be read (it is a device); allowed: a regular file
+    """
+    with open_input(path, error, most, where) as stream:
+        return os.fstat(stream.fileno()).st_size
+
+
+def open_input(path: Name, error: type[PlantarError], most: float | None = None, where: str | None = None) -> BinaryIO:
+    """Open a regular file for reading.
+
+    Args:
+        path: The file.
+        error: What is raised.
+        most: Largest size in bytes; None where there is no limit.
+        where: Beginning of the message; the path where None.
+
+    Returns:
+        The open file.
+
+    Raises:
+        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
+
+    Example:
+        >>> with open_input(__file__, PlantarError) as stream:
+        ...     stream.readline()[3:16]
+        b'Opening files'
+    """
+    where = f"{path}:" if where is None else where
+    if not os.fspath(path):
+        raise error(f"{where} cannot be read (its name is empty)")
+    try:
+        found = os.stat(path)
+        _refuse_others(found.st_mode, error, where)  # before it is opened: even that has effects on a device
+        handle = os.open(path, os.O_RDONLY | _NO_WAITING)
+        stream = os.fdopen(handle, "rb")
+    except OSError as problem:
+        raise error(f"{where} cannot be read ({problem.strerror})") from None
+    except ValueError as problem:
+        raise error(f"{where} cannot be read ({problem})") from None
+    try:
+        found = os.fstat(handle)
+        _refuse_others(found.st_mode, error, where)
+        if most is not None and found.st_size > most:
+            raise error(f"{where} holds {_size(found.st_size)}; allowed: up to {_size(most)}")
+    except PlantarError:
+        stream.close()
+        raise
+    return stream
+
+
+def read_input(path: Name, error: type[PlantarError], most: float, where: str | None = None) -> bytes:
+    """All bytes of a regular file.
+
+    Args:
+        path: The file.
+        error: What is raised.
+        most: Largest size in bytes.
+        where: Beginning of the message; the path where None.
+
+    Returns:
+        The bytes.
+
+    Raises:
+        PlantarError: If the file cannot be read, is none, or is too large; of the class `error`.
+
+    Example:
+        >>> len(read_input(__file__, PlantarError, most=1e6)) == os.path.getsize(__file__)
+        True
+    """
+    where = f"{path}:" if where is None else where
+    with open_input(path, error, most, where) as stream:
+        try:
+            data = stream.read(int(most) + 1)  # files of /proc state no size, and a file may grow
+        except OSError as problem:
+            raise error(f"{where} cannot be read ({problem.strerror})") from None
+    if len(data) > most:
+        raise error(f"{where} holds more than {_size(most)}; allowed: up to {_size(most)}")
+    return data
+
+
+def _refuse_others(mode: int, error: type[PlantarError], where: str) -> None:
+    if not stat.S_ISREG(mode):
+        kind = next((name for holds, name in _KINDS if holds(mode)), "it is no file")
+        raise error(f"{where} cannot be read ({kind}); allowed: a regular file")
+
+
+def _size(count: float) -> str:
+    for unit, factor in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if count >= factor:
+            return f"{count / factor:.3g} {unit}"
+    return f"{count:.0f} bytes"

@@ -1,0 +1,218 @@
+"""Where the files may lie that a robot's file names: a downloaded robot reads nothing but what came with it.
+
+- A robot TOML names files in its own folder and below.
+- A model (MJCF, URDF) names files in its own folder and below, and in the folder above it, where packages keep their
+  meshes; but not where that folder is the home folder, the one of temporary files, or one that holds either.
+- `package://name/...` is looked for in the folders above the model that are called so.
+- Folders that the environment variable PLANTAR_MODEL_FOLDERS names (separated as PATH is) are allowed besides.
+
+Links are followed before a place is judged.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from plantar.errors import PlantarError
+from plantar.input_file import read_input
+from plantar.xml_file import XML_MOST, parse_xml
+
+__all__ = ["VARIABLE", "check_model", "folders_of_model", "mesh_of_urdf", "named_file", "parsed_model"]
+
+VARIABLE = "PLANTAR_MODEL_FOLDERS"
+"""Environment variable with folders from which models may take files, too."""
+
+_MOST_INCLUDES = 100
+
+
+def named_file(path: Path, folders: tuple[Path, ...], error: type[PlantarError], where: str) -> Path:
+    """A file that another file names, if it lies where it may.
+
+    Args:
+        path: The file.
+        folders: Folders that it may lie in or below.
+        error: What is raised.
+        where: Beginning of the message: what names it.
+
+    Returns:
+        The path.
+
+    Raises:
+        PlantarError: If it lies elsewhere, links followed; of the class `error`.
+
+    Example:
+        >>> named_file(Path("/etc/passwd"), (Path("/robots/mine"),), PlantarError, "robot.toml")
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: robot.toml: names /etc/passwd, ...
+    """
+    try:
+        place = path.resolve()
+    except (OSError, RuntimeError, ValueError) as problem:
+        raise error(f"{where}: names {path}, which cannot be read ({problem})") from None
+    allowed = (*(f.resolve() for f in folders), *_besides())
+    if not any(place.is_relative_to(folder) for folder in allowed):
+        shown = ", ".join(str(f) for f in allowed)
+        raise error(f"{where}: names {path}, which lies elsewhere; allowed: files in {shown} (set {VARIABLE} for more)")
+    return path
+
+
+def _besides() -> tuple[Path, ...]:
+    texts = os.environ.get(VARIABLE, "").split(os.pathsep)
+    return tuple(Path(text).resolve() for text in texts if text)
+
+
+def _is_a_package(folder: Path) -> bool:
+    """Whether a folder may be one robot's: not one that holds everything of somebody's."""
+    common = [Path(tempfile.gettempdir()).resolve()]
+    home = os.path.expanduser("~")
+    common += [Path(home).resolve()] if home != "~" else []
+    return not any(place.is_relative_to(folder) for place in common)
+
+
+def folders_of_model(file: Path) -> tuple[Path, ...]:
+    """Folders that a model's files may lie in or below: its own, and the one above where that is a package.
+
+    Args:
+        file: The model.
+
+    Returns:
+        The folders.
+
+    Example:
+        >>> [f.as_posix() for f in folders_of_model(Path("/robots/mine/xml/mine.xml"))]
+        ['/robots/mine/xml', '/robots/mine']
+    """
+    own = file.parent.resolve()
+    return (own, own.parent) if own != own.parent and _is_a_package(own.parent) else (own,)
+
+
+def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -> Path:
+    """Where a URDF's mesh lies: `package://` is looked for beside the file and in the folders above it.
+
+    Args:
+        file: The URDF.
+        name: The mesh's name as it stands there.
+        error: What is raised.
+        where: Beginning of the message.
+
+    Returns:
+        The mesh's path; it may not exist.
+
+    Raises:
+        PlantarError: If it lies where it may not; of the class `error`.
+
+    Example:
+        >>> mesh_of_urdf(Path("/robots/mine/mine.urdf"), "foot.stl", PlantarError, "mine.urdf").as_posix()
+        '/robots/mine/foot.stl'
+    """
+    plain = re.sub(r"^(package|model|file)://", "", name)
+    own = folders_of_model(file)
+    if not name.startswith(("package:", "model:")):
+        return named_file(file.parent / plain, own, error, where)
+    parts = Path(plain).parts
+    inside = Path(*parts[1:]) if len(parts) > 1 else Path(plain)
+    above = tuple(f for f in file.resolve().parents if parts and f.name == parts[0] and _is_a_package(f))
+    allowed = (*own, *above)
+    for folder in (file.parent, *allowed, *(f.parent for f in above), *_besides()):
+        for candidate in (folder / plain, folder / inside):
+            if os.path.isfile(candidate):
+                return named_file(candidate, allowed, error, where)
+    return named_file(file.parent / inside, allowed, error, where)
+
+
+def parsed_model(file: Path, error: type[PlantarError]) -> Element:
+    """The XML of an MJCF or URDF, MJCF includes put in their place.
+
+    Args:
+        file: The model.
+        error: What is raised.
+
+    Returns:
+        The outermost element.
+
+    Raises:
+        PlantarError: If a file cannot be read, is no XML, is included twice, or lies where it may not; of the class
+            `error`.
+
+    Example:
+        >>> parsed_model(Path("none.xml"), PlantarError)
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: none.xml: cannot be read (No such file or directory)
+    """
+    return _included(file, file, set(), error)
+
+
+def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]) -> Element:
+    place = Path(os.path.realpath(file))
+    if place in seen:
+        raise error(f"{file}: is included twice, or includes itself; allowed: each file once")
+    if len(seen) > _MOST_INCLUDES:
+        raise error(f"{main}: includes more than {_MOST_INCLUDES} files")
+    seen.add(place)
+    root = parse_xml(read_input(file, error, XML_MOST), error, str(file))
+    if root.tag == "robot":
+        return root
+    for parent in list(root.iter()):
+        for index, child in reversed(list(enumerate(parent))):
+            if child.tag == "include":
+                name = child.get("file", "")
+                # MuJoCo takes it from the main file's folder; from the including one's where only that has it.
+                found = next((p for p in (main.parent / name, file.parent / name) if p.exists()), main.parent / name)
+                named_file(found, folders_of_model(main), error, str(file))
+                parent[index : index + 1] = list(_included(found, main, seen, error))
+    return root
+
+
+def check_model(file: Path, error: type[PlantarError]) -> None:
+    """Refuse a model that names files where it may not; for a library that follows the names itself.
+
+    Args:
+        file: The model.
+        error: What is raised.
+
+    Raises:
+        PlantarError: If it cannot be read, or names such a file; of the class `error`.
+
+    Example:
+        >>> check_model(Path("none.xml"), PlantarError)
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: none.xml: cannot be read (No such file or directory)
+    """
+    _check_names(file, error, {Path(os.path.realpath(file))})
+
+
+def _check_names(file: Path, error: type[PlantarError], seen: set[Path]) -> None:
+    root = parsed_model(file, error)
+    compiler = {k: v for element in root.iter("compiler") for k, v in element.attrib.items()}
+    urdf = root.tag == "robot"
+    strip = compiler.get("strippath", "true" if urdf else "false") == "true"  # MuJoCo's own defaults
+    folders = folders_of_model(file)
+    for element in root.iter():
+        for key, name in element.attrib.items():
+            if not key.startswith("file") or not name:
+                continue
+            where = f"{file}: <{element.tag}>"
+            if urdf and not strip:
+                mesh_of_urdf(file, name, error, where)
+            for folder in _asset_folders(compiler):
+                path = file.parent / folder / (re.split(r"[/\\]", name)[-1] if strip else name)
+                if not urdf or strip:
+                    named_file(path, folders, error, where)
+            nested = Path(os.path.realpath(file.parent / name))
+            if element.tag == "model" and nested not in seen and os.path.isfile(nested):
+                seen.add(nested)
+                if len(seen) > _MOST_INCLUDES:
+                    raise error(f"{file}: names more than {_MOST_INCLUDES} models")
+                named_file(nested, folders, error, where)
+                _check_names(nested, error, seen)
+
+
+def _asset_folders(compiler: dict[str, str]) -> Iterator[str]:
+    """Folders that MuJoCo looks in for what a model names."""
+    found = [compiler[key] for key in ("meshdir", "texturedir", "assetdir") if key in compiler]
+    yield from found or [""]

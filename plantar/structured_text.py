@@ -1,0 +1,123 @@
+"""TOML and JSON that somebody else wrote: at most so large and so deep, or one line that says where it goes wrong."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tomllib
+from typing import Any
+
+from plantar.errors import PlantarError
+from plantar.input_file import read_input
+
+__all__ = ["JSON_MOST", "TOML_MOST", "parse_toml", "read_json", "read_toml"]
+
+TOML_MOST = 250_000
+"""Largest TOML file in bytes."""
+
+JSON_MOST = 16_000_000
+"""Largest JSON file in bytes: a layout of some 25,000 taxels."""
+
+_PART = r"""(?:(?<![A-Za-z0-9_-])[A-Za-z0-9_-]++|"[^"\n]*+"|'[^'\n]*+')"""
+_DEEP_KEY = re.compile(rf"(?:{_PART}[ \t]*+\.[ \t]*+){{10}}")
+"""A dotted key of more than ten parts: reading one takes memory by the square of its parts."""
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The table of a TOML text.
+
+    Args:
+        text: The text.
+
+    Returns:
+        The table.
+
+    Raises:
+        ValueError: If it is not valid TOML, or nested too deep; one line.
+
+    Example:
+        >>> parse_toml("a = [1, 2]")
+        {'a': [1, 2]}
+        >>> parse_toml("a = " + 100_000 * "[")
+        Traceback (most recent call last):
+        ValueError: nested too deep
+    """
+    if _DEEP_KEY.search(text):
+        raise ValueError("nested too deep")
+    try:
+        table = tomllib.loads(text)
+    except RecursionError:
+        raise ValueError("nested too deep") from None
+    _refuse_long_integers(table)
+    return table
+
+
+def _refuse_long_integers(value: Any) -> None:
+    """Refuse what TOML does not allow and Python cannot write into a message."""
+    if isinstance(value, int) and value.bit_length() > 64:
+        raise ValueError("it holds an integer of more than 64 bits")
+    for inner in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
+        _refuse_long_integers(inner)
+
+
+def read_toml(path: str | os.PathLike[str], error: type[PlantarError], where: str) -> dict[str, Any]:
+    """The table of a TOML file, UTF-8 with or without a byte order mark.
+
+    Args:
+        path: The file, of up to TOML_MOST bytes.
+        error: What is raised.
+        where: Beginning of the message, for example "scene file walk.toml".
+
+    Returns:
+        The table.
+
+    Raises:
+        PlantarError: If it cannot be read or is not valid TOML; of the class `error`.
+
+    Example:
+        >>> from plantar.errors import SceneError
+        >>> read_toml("none.toml", SceneError, "scene file none.toml")
+        Traceback (most recent call last):
+        plantar.errors.SceneError: scene file none.toml cannot be read (No such file or directory)
+    """
+    try:
+        return parse_toml(_text(read_input(path, error, TOML_MOST, where)))
+    except ValueError as problem:
+        raise error(f"{where} is not valid TOML ({problem})") from None
+
+
+def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: str, kind: str = "valid JSON") -> Any:
+    """What a JSON file holds, UTF-8 with or without a byte order mark.
+
+    Args:
+        path: The file, of up to JSON_MOST bytes.
+        error: What is raised.
+        where: Beginning of the message, for example "layout file sole.json".
+        kind: What it should have been, for the message.
+
+    Returns:
+        The value.
+
+    Raises:
+        PlantarError: If it cannot be read or is not valid JSON; of the class `error`.
+
+    Example:
+        >>> from plantar.errors import LayoutError
+        >>> read_json("/dev/null", LayoutError, "layout file /dev/null")
+        Traceback (most recent call last):
+        plantar.errors.LayoutError: layout file /dev/null cannot be read (it is a device); allowed: a regular file
+    """
+    try:
+        return json.loads(_text(read_input(path, error, JSON_MOST, where)))
+    except RecursionError:
+        raise error(f"{where} is not {kind} (nested too deep)") from None
+    except ValueError as problem:
+        raise error(f"{where} is not {kind} ({problem})") from None
+
+
+def _text(data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as problem:
+        raise ValueError(f"not a text file: no UTF-8 at byte {problem.start}") from None

@@ -1,0 +1,110 @@
+"""ZIP archives of strangers (numpy's NPZ, 3MF): what they say they unpack to is known before anything is unpacked."""
+
+from __future__ import annotations
+
+import os
+import struct
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import BinaryIO
+
+from plantar.errors import PlantarError
+from plantar.input_file import open_input
+
+__all__ = ["ALLOWED", "is_bomb", "open_archive"]
+
+_MOST_PARTS = 4096
+_LARGEST_LIST = 1_000_000  # bytes of the list of parts
+_ANYHOW = 100e6  # bytes that any archive may unpack to
+_RATIO = 100.0  # measurements and meshes pack to a tenth or so, zeros to a thousandth
+ALLOWED = f"up to {_ANYHOW / 1e6:.0f} MB, or {_RATIO:g} times the file"
+"""What `is_bomb` lets pass, for messages."""
+
+_END, _END_64 = b"PK\x05\x06", b"PK\x06\x06"
+
+
+def is_bomb(size: float, unpacked: float) -> bool:
+    """Whether what a file unpacks to is more than measurements and meshes pack to.
+
+    Args:
+        size: Bytes of the file.
+        unpacked: Bytes that it says it unpacks to.
+
+    Returns:
+        Whether it is.
+
+    Example:
+        >>> is_bomb(1e6, 99e6), is_bomb(1e6, 101e6), is_bomb(2e6, 101e6)
+        (False, True, False)
+    """
+    return unpacked > _ANYHOW and unpacked > _RATIO * size
+
+
+@contextmanager
+def open_archive(
+    path: str | os.PathLike[str], error: type[PlantarError], most: float
+) -> Iterator[tuple[zipfile.ZipFile, BinaryIO]]:
+    """Open a ZIP archive whose contents are of a size that can be read.
+
+    Args:
+        path: The file.
+        error: What is raised.
+        most: Bytes that all its parts may unpack to.
+
+    Yields:
+        The archive, and the file that it is in.
+
+    Raises:
+        PlantarError: If the file is no archive, or its parts are too many, too large, or packed as only a decompression
+            bomb is; of the class `error`.
+
+    Example:
+        >>> import tempfile
+        >>> with tempfile.NamedTemporaryFile(suffix=".zip") as file:
+        ...     with zipfile.ZipFile(file, "w") as archive:
+        ...         archive.writestr("a", "text")
+        ...     file.flush()
+        ...     with open_archive(file.name, PlantarError, most=100) as (archive, _):
+        ...         archive.read("a")
+        b'text'
+    """
+    with open_input(path, error) as stream:
+        size = os.fstat(stream.fileno()).st_size
+        if _size_of_list(stream, size) > _LARGEST_LIST:
+            raise error(f"{path}: an archive of more parts than can be read; allowed: up to {_MOST_PARTS}")
+        stream.seek(0)
+        try:
+            archive = zipfile.ZipFile(stream)
+        except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError, struct.error) as problem:
+            raise error(f"{path}: not an archive that can be read ({problem})") from None
+        with archive:
+            parts = archive.infolist()
+            unpacked = sum(part.file_size for part in parts)
+            if any(part.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) for part in parts):
+                raise error(f"{path}: parts packed in a way that is not read; allowed: stored or deflated")
+            if len(parts) > _MOST_PARTS:
+                raise error(f"{path}: an archive of {len(parts)} parts; allowed: up to {_MOST_PARTS}")
+            if unpacked > most:
+                raise error(f"{path}: unpacks to {unpacked / 1e6:.0f} MB; allowed: up to {most / 1e6:.0f} MB")
+            if is_bomb(size, unpacked):
+                raise error(
+                    f"{path}: {size / 1e6:.3g} MB that unpack to {unpacked / 1e6:.0f} MB; allowed: {ALLOWED} "
+                    "(store it uncompressed)"
+                )
+            yield archive, stream
+
+
+def _size_of_list(stream: BinaryIO, size: int) -> int:
+    """Bytes of the archive's list of parts as its end states them; 0 where there is no such end."""
+    tail_size = min(size, 66_000)
+    stream.seek(size - tail_size)
+    tail = stream.read(tail_size)
+    at = tail.rfind(_END)
+    if at < 0 or len(tail) < at + 22:
+        return 0
+    stated = int(struct.unpack_from("<I", tail, at + 12)[0])
+    larger = tail.rfind(_END_64)
+    if stated == 0xFFFFFFFF and larger >= 0 and len(tail) >= larger + 56:
+        return int(struct.unpack_from("<Q", tail, larger + 40)[0])
+    return stated
