@@ -1,0 +1,133 @@
+"""Calling a library on a stranger's file in a process of its own, whose memory, time and output have limits.
+
+Libraries of native code may crash on a damaged file, and none of them asks how much of it there is before it takes
+memory for what the file says.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.console import one_line
+from plantar.errors import PlantarError
+
+__all__ = ["confined"]
+
+_CODE = "from plantar.confined import _called_on_file; _called_on_file()"
+_LARGEST_FILE = 1_000_000_000  # bytes that the process may write of a temporary file
+
+
+def confined(
+    function: str, path: str | os.PathLike[str], error: type[PlantarError], what: str, memory: float, seconds: float
+) -> dict[str, NDArray[Any]]:
+    """Call a function on a file in a process of its own.
+
+    Args:
+        function: Its module and name, as "package.module:name"; it takes the file's path and returns arrays by name.
+        path: The file or folder.
+        error: What is raised.
+        what: What the file should be, for the message, for example "a C3D file".
+        memory: Bytes of data that the process may hold.
+        seconds: Time of the processor that it may take; it may wait as long again.
+
+    Returns:
+        The arrays.
+
+    Raises:
+        PlantarError: If the function raises, crashes or passes a limit; of the class `error`.
+
+    Example:
+        >>> confined("os.path:getsize", "none", PlantarError, "a file", memory=1e9, seconds=10.0)
+        Traceback (most recent call last):
+        plantar.errors.PlantarError: none: not a file that can be read (FileNotFoundError: [Errno 2] No such file ...)
+    """
+    with TemporaryDirectory(prefix="plantar-") as folder:
+        limits = [str(int(limit)) for limit in (memory, seconds + 1.0, _LARGEST_FILE)]
+        arguments = [function, os.path.abspath(path), *limits]
+        try:
+            done = subprocess.run(
+                [sys.executable, "-P", "-c", _CODE, *arguments],
+                capture_output=True,
+                stdin=subprocess.DEVNULL,
+                env={**os.environ, **threads, "TMPDIR": folder},
+                timeout=2.0 * seconds + 10.0,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            raise error(f"{path}: not {what} that can be read (it takes longer than {seconds:.0f} s)") from None
+    try:
+        with np.load(io.BytesIO(done.stdout), allow_pickle=False) as held:
+            return {name: held[name] for name in held.files}
+    except (ValueError, OSError, EOFError, KeyError):
+        raise error(f"{path}: not {what} that can be read ({_reason(done, memory, seconds)})") from None
+
+
+def _environment(folder: str) -> dict[str, str]:
+    """One thread, a folder for temporary files, and no modules from the folder one works in.
+
+    An empty entry of PYTHONPATH, as `PYTHONPATH=lib:$PYTHONPATH` leaves it, means that folder.
+    """
+    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+    places = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
+    return {**os.environ, **threads, "TMPDIR": folder, "PYTHONPATH": os.pathsep.join(places)}
+
+
+def _reason(done: subprocess.CompletedProcess[bytes], memory: float, seconds: float) -> str:
+    """Why the process gave nothing."""
+    if done.returncode < 0:
+        name = signal.Signals(-done.returncode).name
+        if name == "SIGXCPU":
+            return f"it takes longer than {seconds:.0f} s"
+        return f"the library ended with {name}"
+    lines = done.stderr.decode(errors="replace").strip().splitlines()
+    last = one_line(lines[-1])[:160] if lines else f"the library ended with {done.returncode}"
+    if "MemoryError" in last or "bad_alloc" in last:
+        return f"it asks for more than {memory / 1e6:.0f} MB of memory"
+    return last
+
+
+def _called_on_file() -> None:
+    """In the process of its own: call the function that the arguments name, and write what it returns to stdout."""
+    function, path, *limits = sys.argv[1:]
+    output = os.dup(1)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # libraries may print
+    module, _, name = function.partition(":")
+    call = getattr(import_module(module), name)
+    _limit(*map(int, limits))
+    try:
+        arrays = call(Path(path))
+    except Exception as error:  # of every kind: one line of it is told
+        print(f"{type(error).__name__}: {one_line(error)}", file=sys.stderr)
+        sys.exit(1)
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    with os.fdopen(output, "wb") as stream:
+        stream.write(buffer.getvalue())
+
+
+def _limit(memory: int, seconds: int, largest_file: int) -> None:
+    try:
+        import resource
+    except ImportError:  # no such limits on this system: the time limit of who waits remains
+        return
+    for what, limit in (
+        (resource.RLIMIT_DATA, memory),
+        (resource.RLIMIT_CPU, seconds),
+        (resource.RLIMIT_CORE, 0),
+        (resource.RLIMIT_FSIZE, largest_file),
+    ):
+        try:
+            resource.setrlimit(what, (limit, limit + 2 if what == resource.RLIMIT_CPU else limit))
+        except (ValueError, OSError):  # not settable here
+            continue

@@ -1,0 +1,74 @@
+"""Loading an optional library: told apart are one that is missing, one that is broken, and a user who interrupts."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from plantar.errors import DependencyError
+
+__all__ = ["optional_library"]
+
+_INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
+
+
+@contextmanager
+def optional_library(library: str, extra: str) -> Iterator[None]:
+    """Guard the import of an optional library; nothing but imports belongs into the block.
+
+    Only the absence of that very module means that it is not installed. A library that is there and cannot be loaded,
+    for want of a system library or of a module of its own, is told with the reason. Ctrl-C waits until the library is
+    loaded: native modules turn what interrupts them there into an import error, swallow it, or crash.
+
+    Args:
+        library: Name of the module as it is imported.
+        extra: Name of the Plantar extra that brings it.
+
+    Yields:
+        Nothing.
+
+    Raises:
+        DependencyError: If the library is not installed or cannot be loaded.
+
+    Example:
+        >>> with optional_library("no_such_library", "shoes"):
+        ...     import no_such_library
+        Traceback (most recent call last):
+        plantar.errors.DependencyError: no_such_library is not installed; install it with: pip install 'plantar[shoes]'
+    """
+    with _interrupts_held_back():
+        try:
+            yield
+        except ModuleNotFoundError as error:
+            reason = None if error.name == library else str(error)
+            raise DependencyError(library, extra, reason) from None
+        except Exception as error:  # while loading, a library that is broken raises whatever it meets
+            raise DependencyError(library, extra, f"{type(error).__name__}: {error}") from None
+
+
+@contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Deliver a signal that comes within the block after it; a second one of its kind at once."""
+    if threading.current_thread() is not threading.main_thread():  # signals reach the main thread only
+        yield
+        return
+    before = {n: h for n in _INTERRUPTS if callable(h := signal.getsignal(n))}
+    came: list[int] = []
+
+    def hold_back(number: int, frame: FrameType | None) -> None:
+        came.append(number)
+        if came.count(number) > 1:
+            before[signal.Signals(number)](number, frame)
+
+    for number in before:
+        signal.signal(number, hold_back)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if came:
+            before[signal.Signals(came[0])](came[0], None)
