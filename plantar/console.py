@@ -1,0 +1,153 @@
+"""How a command ends: what goes wrong is one line on stderr and an exit code, and nothing temporary is left behind.
+
+| exit code | means |
+|---|---|
+| 0, 1 | what the command returns; 1 also where a sweep's workers went away |
+| 2 | bad input, a file that cannot be read or written, or not enough memory |
+| 130 | interrupted (Ctrl-C) |
+| 129, 143 | the terminal was closed (SIGHUP), the process was told to end (SIGTERM) |
+| 141 | nobody reads stdout any more, as behind `| head`; told by the code alone |
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+
+from plantar.errors import PlantarError, WorkerError
+
+__all__ = ["BAD_INPUT", "FAILED", "INTERRUPTED", "Terminated", "one_line", "run"]
+
+FAILED = 1
+"""Exit code where what was asked for is fine and could not be done."""
+
+BAD_INPUT = 2
+"""Exit code for bad input."""
+
+INTERRUPTED = 128 + signal.SIGINT
+"""Exit code after Ctrl-C."""
+
+_NOBODY_READS = 128 + 13  # SIGPIPE, which Windows has not
+_ENDED_BY = {"SIGTERM": "told to end (SIGTERM)", "SIGHUP": "ended: its terminal was closed (SIGHUP)"}
+
+
+class Terminated(SystemExit):
+    """The process was told to end; raised where it is, so that what is open is closed and temporaries are removed.
+
+    Args:
+        number: The signal.
+        text: What to tell; None for what the signal means.
+
+    Example:
+        >>> Terminated(signal.SIGTERM).code
+        143
+    """
+
+    def __init__(self, number: int, text: str | None = None) -> None:
+        super().__init__(128 + number)
+        self.text = _ENDED_BY[signal.Signals(number).name] if text is None else text
+
+
+def one_line(text: object) -> str:
+    """A text as one line that any terminal can show: line ends, control and broken characters are written as escapes.
+
+    Args:
+        text: The text, for example an error that names a file.
+
+    Returns:
+        The line.
+
+    Example:
+        >>> one_line("no file 'a\\nb'")
+        "no file 'a\\\\nb'"
+    """
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text).strip())
+
+
+def run(command: Callable[[], int | None]) -> int:
+    """Run a command to its exit code.
+
+    Args:
+        command: What to run; returns an exit code, None for 0.
+
+    Returns:
+        The exit code; see the table at the top of this file.
+
+    Example:
+        >>> run(lambda: 1)
+        1
+    """
+    _prepare_streams()
+    with _terminable():
+        try:
+            code = command() or 0
+            if sys.stdout is not None:
+                sys.stdout.flush()
+        except WorkerError as error:
+            return _told(error, FAILED)
+        except PlantarError as error:
+            return _told(error, BAD_INPUT)
+        except KeyboardInterrupt:
+            code = INTERRUPTED
+        except Terminated as end:
+            return _told(end.text, int(str(end.code)))
+        except BrokenPipeError:
+            _drop_output()
+            return _NOBODY_READS
+        except MemoryError:
+            return _told("not enough memory for this input", BAD_INPUT)
+        except OSError as error:
+            where = "cannot write the output" if error.filename is None else one_line(os.fsdecode(error.filename))
+            _drop_output()
+            return _told(f"{where}: {error.strerror or error}", BAD_INPUT)
+    return _told("interrupted", code) if code == INTERRUPTED else code
+
+
+def _told(text: object, code: int) -> int:
+    with suppress(OSError):
+        print(f"plantar: {one_line(text)}", file=sys.stderr, flush=True)
+    return code
+
+
+def _prepare_streams() -> None:
+    """Streams that take any text, whatever the terminal can show, and a stderr that never turns into stdout."""
+    if sys.stderr is None:  # closed by the caller: print() would take stdout instead
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  for the rest of the process
+    reconfigure = getattr(sys.stdout, "reconfigure", None)
+    if reconfigure is not None:
+        reconfigure(errors="backslashreplace")
+
+
+def _drop_output() -> None:
+    """Send what stdout still holds nowhere: the interpreter would try once more to write it when it ends."""
+    with suppress(OSError, ValueError, AttributeError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """Raise `Terminated` at signals that would end the process on the spot, unless somebody else takes them."""
+    numbers = [signal.Signals[name] for name in _ENDED_BY if hasattr(signal, name)]
+    ours = []
+    if threading.current_thread() is threading.main_thread():
+        ours = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
+
+    def end(number: int, frame: FrameType | None) -> None:
+        for each in ours:  # a second one must not cut the clearing up short
+            signal.signal(each, signal.SIG_IGN)
+        raise Terminated(number)
+
+    for number in ours:
+        signal.signal(number, end)
+    try:
+        yield
+    finally:
+        for number in ours:
+            signal.signal(number, signal.SIG_DFL)

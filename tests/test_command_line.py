@@ -1,0 +1,122 @@
+"""The command line as a process: its arguments, its streams, and what ends it from outside."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import cli
+import plantar
+
+PLANTAR = [str(Path(sys.executable).parent / "plantar")]
+linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/dev/full and signals as on Linux")
+
+
+def called(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
+    """Exit code of the command line, run in this process."""
+    monkeypatch.setattr(sys, "argv", ["plantar", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    return int(str(ended.value.code))
+
+
+def shell(command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    env = os.environ | {"PATH": path} | environment
+    return subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=env, timeout=60)
+
+
+def test_the_version_is_the_packages(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert called(monkeypatch, "--version") == 0
+    assert capsys.readouterr().out == f"plantar {plantar.__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["walk"], ("walk", "plantar --help")),
+        (["sim"], ("scene", "plantar sim --help")),
+        (["sim", "flat", "--nosuch"], ("--nosuch", "plantar sim --help")),
+        (["sim", "flat", "--seed", "x"], ("--seed", "integer")),
+        (["analyze", "--compare", "one"], ("--compare", "2 arguments")),
+        (["list", "formats", "twice", "thrice"], ("thrice",)),
+    ],
+)
+def test_wrong_arguments_are_one_line(
+    arguments: list[str], words: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert called(monkeypatch, *arguments) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.count("\n") == 1
+    assert all(word in said.err for word in words), said.err
+
+
+def test_no_arguments_are_the_help(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    assert called(monkeypatch) == 2
+    assert "Commands:" in capsys.readouterr().err
+
+
+def test_the_simulators_benchmark_without_the_simulator_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco", None)  # as if it were not installed
+    assert called(monkeypatch, "bench", "contact", "-o", str(tmp_path / "out")) == 2
+    assert capsys.readouterr().err == "plantar: mujoco is not installed; install it with: pip install 'plantar[sim]'\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+@linux
+def test_a_full_disk_behind_stdout_is_one_line() -> None:
+    done = shell("plantar list formats > /dev/full", PYTHONUNBUFFERED="")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "No space left" in done.stderr
+
+
+@linux
+def test_a_stdout_that_nobody_reads_is_no_message() -> None:
+    done = shell("plantar list formats | head -c 1 > /dev/null; echo ${PIPESTATUS[0]}", PYTHONUNBUFFERED="1")
+    assert done.stdout.strip() in ("0", "141")
+    assert done.stderr == ""
+    done = shell("(plantar list formats; echo $? >&2) | true", PYTHONUNBUFFERED="")
+    assert done.stderr.strip() in ("0", "141")
+
+
+@linux
+def test_an_ascii_terminal_is_written_to(tmp_path: Path) -> None:
+    (tmp_path / "größe.csv").write_text("t,a,b,c\n0,1,2,3\n0.01,1,2,3\n0.02,1,2,3\n")
+    done = shell(
+        f"cd {tmp_path} && plantar analyze größe.csv --layout ñ.json; plantar analyze größe.csv --side left -o ñ",
+        PYTHONIOENCODING="ascii",
+        LC_ALL="C",
+    )
+    assert "Traceback" not in done.stderr
+    assert "\\xf1" in done.stderr  # the layout's name, in what the terminal can show
+
+
+@linux
+@pytest.mark.parametrize(
+    ("number", "code", "words"), [(signal.SIGINT, 130, "interrupted"), (signal.SIGTERM, 143, "SIGTERM")]
+)
+def test_a_run_that_is_ended_leaves_nothing_and_says_so(
+    tmp_path: Path, number: signal.Signals, code: int, words: str
+) -> None:
+    command = [*PLANTAR, "sim", "flat", "--set", "steps=200", "--plot", "plots", "--record", "run.mcap"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for _ in range(600):
+        if any(tmp_path.rglob(".plantar-*")) and (tmp_path / "run.mcap").exists():
+            break
+        time.sleep(0.05)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == code, err
+    assert out == ""
+    assert words in err
+    assert err.count("\n") == 1
+    assert [p.name for p in tmp_path.iterdir() if p.name != "run.mcap"] == []  # a recording is kept as far as it went
