@@ -7,12 +7,14 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
-from plantar.errors import FormatError, InputError
+from plantar.console import one_line
+from plantar.errors import FormatError, InputError, PlantarError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import doubts
 from plantar.formats.units import find_unit
-from plantar.layout import SoleLayout
-from plantar.pressure_recording import PressureRecording
+from plantar.input_file import check_input, is_file, open_input
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.pressure_recording import RATES, PressureRecording
 
 __all__ = ["Format", "ReadOptions", "detect_format", "formats", "named_format", "read_recording"]
 
@@ -76,16 +78,13 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
     """
     known = formats()
     names = ", ".join(f"{f.name} ({f.title})" for f in known.values())
-    if Path(path).is_dir():
+    if os.path.isdir(path):
         for candidate in known.values():
-            if candidate.folders is not None and (Path(path) / candidate.folders).is_file():
+            if candidate.folders is not None and is_file(Path(path) / candidate.folders):
                 return candidate
         raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag); known: {names}")
-    try:
-        with open(path, "rb") as stream:
-            head = stream.read(_HEAD)
-    except (OSError, ValueError) as error:
-        raise FormatError(f"{path}: cannot be read ({getattr(error, 'strerror', None) or error})") from None
+    with open_input(path, FormatError) as stream:
+        head = stream.read(_HEAD)
     if not head:
         raise FormatError(f"{path}: the file is empty")
     for candidate in known.values():
@@ -121,17 +120,23 @@ def read_recording(
     known = known if layout is None else replace(known, layout=layout)
     if known.unit is not None and find_unit(known.unit) is None:
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
-    if known.rate_hz is not None and not 0.1 <= known.rate_hz <= 1e5:
-        raise InputError(f"a rate of {known.rate_hz} Hz is not possible; allowed: 0.1 to 100000")
+    if known.rate_hz is not None and not RATES[0] <= known.rate_hz <= RATES[1]:
+        raise InputError(f"a rate of {known.rate_hz} Hz is not possible; allowed: {RATES[0]:g} to {RATES[1]:g}")
     if chosen.read is None:
-        if not Path(path).is_file():
-            raise FormatError(f"{path}: cannot be read (no such file)")
+        check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
         recording = chosen.read(Path(path), known)
     except FormatError as error:
-        text = " ".join(str(error).split())
+        text = str(error)
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None
-    except (MemoryError, RecursionError):
+    except MemoryError:
         raise FormatError(f"{path}: the file asks for more memory than there is") from None
+    except PlantarError:
+        raise
+    except Exception as error:  # what a damaged file made of a reader; the cause is kept for who mends it
+        text = one_line(error)[:200]
+        raise FormatError(
+            f"{path}: not a file that can be read as {chosen.name} ({type(error).__name__}: {text})"
+        ) from error
     return replace(recording, warnings=tuple(dict.fromkeys([*recording.warnings, *doubts(recording)])))

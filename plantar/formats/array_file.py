@@ -8,10 +8,16 @@ writes such a file.
 from __future__ import annotations
 
 import json
+import math
 import zipfile
 import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +26,13 @@ from plantar.errors import FormatError, LayoutError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.layout import Side, SoleLayout
-from plantar.layout_file import layout_from_dict
-from plantar.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.input_file import open_input
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.layouts.layout_file import layout_from_dict
+from plantar.recordings.frame_table import MOST_VALUES
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.structured_text import JSON_MOST
+from plantar.zip_archive import open_archive
 
 __all__ = ["FORMAT"]
 
@@ -45,30 +55,51 @@ _BROKEN: tuple[type[Exception], ...] = (
 )
 _LARGEST = 4e9
 """Largest size of all arrays in bytes."""
+_SHOWN = 20  # arrays in a message
 
 
 def _recognises(head: bytes) -> bool:
     return head.startswith(b"\x93NUMPY") or (head.startswith(b"PK\x03\x04") and b".npy" in head[:4096])
 
 
+@dataclass(frozen=True)
+class _Array:
+    """An array of the file, of which only what is said before its values has been read."""
+
+    shape: tuple[int, ...]
+    dtype: np.dtype[Any]
+    read: Callable[[], NDArray[Any]]
+
+    @property
+    def size(self) -> int:
+        return math.prod(self.shape)
+
+
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """Read an NPZ or NPY file.
 
     Raises:
-        FormatError: If it is damaged, or holds no array of frames and cells.
+        FormatError: If it is damaged, too large, or holds no array of frames and cells.
     """
-    arrays = _arrays(path)
+    try:
+        with _arrays(path) as arrays:
+            return _recording(path, arrays, options)
+    except _BROKEN as error:
+        raise FormatError(f"{path}: not an array file that can be read ({type(error).__name__}: {error})") from None
+
+
+def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> PressureRecording:
     warnings: list[str] = []
-    tables = {k: _frames(a) for k, a in arrays.items() if a.ndim in (2, 3) and a.dtype.kind in "iufb" and a.size}
+    tables = {k: a for k, a in arrays.items() if len(a.shape) in (2, 3) and a.dtype.kind in "iufb" and a.size}
     if not tables:
-        held = ", ".join(f"{k} {a.shape}" for k, a in arrays.items()) or "nothing"
+        held = ", ".join(f"{k} {a.shape}" for k, a in islice(arrays.items(), _SHOWN)) or "nothing"
         raise FormatError(f"{path}: no array of frames and cells; the file holds {held}")
     force_like = {k: t for k, t in tables.items() if k.split("/")[-1] in ("force", "pressure")}
-    by_side: dict[Side, tuple[str, NDArray[np.float64]]] = {}
-    for key, table in (force_like or tables).items():
+    by_side: dict[Side, tuple[str, _Array]] = {}
+    for key, array in (force_like or tables).items():
         side = side_of(key.replace("/", " "))
         if side is not None:
-            by_side.setdefault(side, (key, table))
+            by_side.setdefault(side, (key, array))
     own_export = any(k.startswith("skin/") for k, _ in by_side.values())
     unit = unit_of_values(_text(arrays, "unit", "units") or ("N" if own_export else None), options, warnings)
     feet: dict[Side, FootRecording] = {}
@@ -76,14 +107,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         first = by_side.get("left") or by_side["right"]
         for side in ("left", "right"):
             if side in by_side:
-                values = by_side[side][1]
-                if len(values) != len(first[1]):
-                    raise FormatError(f"{path}: the feet have {len(first[1])} and {len(values)} frames")
-                feet[side] = cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
-        frames = len(first[1])
+                array = by_side[side][1]
+                if array.shape[0] != first[1].shape[0]:
+                    raise FormatError(f"{path}: the feet have {first[1].shape[0]} and {array.shape[0]} frames")
+                own = _layout(arrays, side, warnings)
+                feet[side] = cells_of_foot(side, _frames(array), unit, options, warnings, own=own)
+        frames = first[1].shape[0]
         prefix = first[0].rsplit("/", 1)[0] + "/time" if "/" in first[0] else ""
     else:
-        key, table = max((force_like or tables).items(), key=lambda item: item[1].size)
+        key, largest = max((force_like or tables).items(), key=lambda item: item[1].size)
+        table = _frames(largest)
         if len(tables) > 1:
             warnings.append(f"no array names a foot: the largest one, {key!r}, is read")
         stated = options.side or side_of(_text(arrays, "side", "foot") or "")
@@ -107,57 +140,83 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _arrays(path: Path) -> dict[str, NDArray[Any]]:
-    if not path.is_file():
-        raise FormatError(f"{path}: cannot be read (no such file)")
-    try:
-        with path.open("rb") as stream:
-            if stream.read(2) != b"PK":
-                stream.seek(0)
-                return {"values": np.lib.format.read_array(stream, allow_pickle=False)}
-            with zipfile.ZipFile(stream) as archive:
-                if sum(i.file_size for i in archive.infolist()) > _LARGEST:
-                    raise FormatError(f"{path}: the arrays are larger than {_LARGEST / 1e9:g} GB")
+@contextmanager
+def _arrays(path: Path) -> Iterator[dict[str, _Array]]:
+    """The arrays of a file by their names; their values can be read as long as it is open."""
+    with open_input(path, FormatError) as stream:
+        if stream.read(2) != b"PK":
             stream.seek(0)
-            with np.load(stream, allow_pickle=False) as loaded:
-                return {name: loaded[name] for name in loaded.files}
-    except FormatError:
-        raise
-    except _BROKEN as error:
-        raise FormatError(f"{path}: not an array file that can be read ({type(error).__name__}: {error})") from None
+            size = path.stat().st_size
+            yield {"values": _array(path, "values", lambda: path.open("rb"), size)}
+            return
+    with open_archive(path, FormatError, _LARGEST) as (archive, _):
+        parts = {p.filename: p for p in archive.infolist() if p.filename.endswith(".npy")}
+        yield {
+            name.removesuffix(".npy"): _array(path, name, partial(_opened, archive, name), part.file_size)
+            for name, part in parts.items()
+        }
 
 
-def _frames(array: NDArray[Any]) -> NDArray[np.float64]:
+def _opened(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
+    return archive.open(name)
+
+
+def _array(path: Path, name: str, opened: Callable[[], IO[bytes]], size: int) -> _Array:
+    """What an array says of itself, compared with the bytes that there are."""
+    with opened() as stream:
+        version = np.lib.format.read_magic(stream)
+        if version not in ((1, 0), (2, 0)):
+            raise ValueError(f"version {version[0]}.{version[1]} of numpy's format")
+        header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        shape, _, dtype = header(stream)
+        held = size - stream.tell()
+    if dtype.hasobject:
+        raise ValueError(f"array {name!r} holds Python objects, which are not unpickled")
+    if min(shape, default=0) < 0 or math.prod(shape) * dtype.itemsize != held:
+        raise FormatError(f"{path}: array {name!r} states a shape of {shape}, its {held} bytes are not: cut short?")
+    if math.prod(shape) > MOST_VALUES:
+        raise FormatError(f"{path}: array {name!r} of shape {shape} is too large; allowed: {MOST_VALUES:g} values")
+
+    def read() -> NDArray[Any]:
+        with opened() as stream:
+            return np.asarray(np.lib.format.read_array(stream, allow_pickle=False))
+
+    return _Array(shape, dtype, read)
+
+
+def _frames(array: _Array) -> NDArray[np.float64]:
     """An array as (frames, cells); a matrix of cells is laid out row by row."""
-    table = np.asarray(array, dtype=float).reshape(len(array), -1)
-    infinite = np.isinf(table)
-    if infinite.any():
-        table[infinite] = np.nan
+    table = np.asarray(array.read(), dtype=float).reshape(array.shape[0], -1)
+    for start in range(0, len(table), 4096):  # by blocks: a mask of all would be as large as the file
+        block = table[start : start + 4096]
+        block[np.isinf(block)] = np.nan
     return table
 
 
-def _text(arrays: dict[str, NDArray[Any]], *keys: str) -> str | None:
+def _text(arrays: dict[str, _Array], *keys: str) -> str | None:
     for key in keys:
         if key in arrays and arrays[key].dtype.kind in "US" and arrays[key].size == 1:
-            value = arrays[key].reshape(-1)[0]
+            if arrays[key].dtype.itemsize > 4 * JSON_MOST:
+                raise FormatError(f"the text {key!r} is larger than {JSON_MOST / 1e6:g} MB")
+            value = arrays[key].read().reshape(-1)[0]
             return value.decode("latin-1") if isinstance(value, bytes) else str(value)
     return None
 
 
-def _layout(arrays: dict[str, NDArray[Any]], side: Side, warnings: list[str]) -> SoleLayout | None:
+def _layout(arrays: dict[str, _Array], side: Side, warnings: list[str]) -> SoleLayout | None:
     text = _text(arrays, f"layout_{side}")
     if text is None:
         return None
     try:
         return layout_from_dict(json.loads(text), where=f"layout_{side}")
-    except (LayoutError, ValueError, TypeError) as error:
+    except (LayoutError, ValueError, TypeError, RecursionError) as error:
         warnings.append(f"the layout of the {side} sole cannot be read: {error}")
         return None
 
 
 def _times(
     path: Path,
-    arrays: dict[str, NDArray[Any]],
+    arrays: dict[str, _Array],
     prefix: str,
     frames: int,
     options: ReadOptions,
@@ -166,11 +225,10 @@ def _times(
     rate = options.rate_hz
     for key in ("rate_hz", "rate", "frequency", "fs"):
         if rate is None and key in arrays and arrays[key].size == 1 and arrays[key].dtype.kind in "iuf":
-            value = float(arrays[key].reshape(-1)[0])
-            rate = value if 0.1 <= value <= 1e5 else None
+            rate = possible_rate(float(arrays[key].read().reshape(-1)[0]), f"{key} states")
     for key in (prefix, "time", "time_s", "t", "times", "timestamps"):
         if options.rate_hz is None and key in arrays and arrays[key].dtype.kind in "iuf" and arrays[key].size == frames:
-            return sampling(np.asarray(arrays[key], dtype=float).reshape(-1), rate)
+            return sampling(np.asarray(arrays[key].read(), dtype=float).reshape(-1), rate)
     if rate is None:
         warnings.append(f"the file holds no times and no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
         rate = _USUAL_RATE

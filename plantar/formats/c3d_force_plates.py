@@ -1,15 +1,13 @@
 """Force plates in C3D files: the force, its moment and the centre of pressure of each plate, without cells.
 
-ezc3d reads the file in a process of its own: its native code might crash or ask for any amount of memory on
-damaged files, which must not take this process with it.
+ezc3d reads the file in a process of its own, with limits: its native code might crash or ask for any amount of memory
+on damaged files.
 """
 
 from __future__ import annotations
 
-import io
 import struct
-import subprocess
-import sys
+from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -17,15 +15,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.confined import confined
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.units import FORCES, LENGTHS
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording
+from plantar.input_file import check_input, open_input
+from plantar.layouts.layout import Side
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate
 
 __all__ = ["FORMAT", "plates_of_file"]
 
-_SECONDS = 120.0
+_LARGEST, _HEAD = 256e6, 1 << 16  # bytes
+_MEMORY, _MEMORY_A_BYTE = 250e6, 64.0  # ezc3d takes 48 times the file
+_SECONDS, _SECONDS_A_BYTE = 10.0, 3e-6
 _LEAST = 20.0
 """Vertical force in N from which a plate counts as stepped on."""
 
@@ -46,16 +48,19 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """
     if find_spec("ezc3d") is None:
         raise DependencyError("ezc3d", "formats")
-    if not path.is_file():
-        raise FormatError(f"{path}: cannot be read (no such file)")
-    held = _in_other_process(path)
+    size = check_input(path, FormatError, _LARGEST)
+    with open_input(path, FormatError) as stream:
+        head = stream.read(_HEAD)
+    if len(head) < 512 or head[1] != 0x50:
+        raise FormatError(f"{path}: not a C3D file that can be read (no C3D header)")
+    limits = {"memory": _MEMORY + _MEMORY_A_BYTE * size, "seconds": _SECONDS + _SECONDS_A_BYTE * size}
+    held = confined("plantar.formats.c3d_force_plates:plates_of_file", path, FormatError, "a C3D file", **limits)
     rate = options.rate_hz or float(held["rate"])
     count = int(held["plates"])
     if count == 0:
         raise FormatError(f"{path}: the C3D file holds no force plate (group FORCE_PLATFORM)")
-    if not 0.1 <= rate <= 1e5:
-        raise FormatError(f"{path}: an analog rate of {rate} Hz is not possible")
-    warnings: list[str] = []
+    possible_rate(rate, "its analog channels state")
+    warnings = _cut_short(head, held)
     plates = [_Plate(held, i, warnings) for i in range(count)]
     used = [p for p in plates if (p.force[:, 2] > _LEAST).any()]
     if not used:
@@ -77,6 +82,21 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         warnings=tuple(dict.fromkeys(warnings)),
         kind="plate",
     )
+
+
+def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
+    """A warning where the file holds fewer frames than its header states: the library reads what there is."""
+    first, last = struct.unpack_from("<HH", head, 6)
+    (samples,) = struct.unpack_from("<H", head, 18)
+    read = held["force_0"].shape[1]
+    stated = (last - first + 1) * samples
+    processor = (head[0] - 1) * 512 + 3
+    other_order = processor >= len(head) or head[processor] == 86  # SGI: bytes the other way round
+    if (
+        other_order or last == 65535 or last < first or not read < stated
+    ):  # long recordings state their frames elsewhere
+        return []
+    return [f"the file is cut short: {read} of {stated} frames are there"]
 
 
 class _Plate:
@@ -147,58 +167,28 @@ def _foot(side: Side, plates: list[_Plate]) -> FootRecording:
     return FootRecording(side, force[:, 2:3], None, total=force[:, 2], cop=cop, wrench=np.column_stack([force, moment]))
 
 
-def _in_other_process(path: Path) -> dict[str, NDArray[Any]]:
-    code = "import sys; from plantar.formats.c3d_force_plates import plates_of_file; plates_of_file(sys.argv[1])"
-    try:
-        done = subprocess.run(
-            [sys.executable, "-c", code, str(path.absolute())],
-            capture_output=True,
-            timeout=_SECONDS,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        raise FormatError(f"{path}: not a C3D file that can be read (it takes longer than {_SECONDS:g} s)") from None
-    try:
-        with np.load(io.BytesIO(done.stdout), allow_pickle=False) as held:
-            return {name: held[name] for name in held.files}
-    except (ValueError, OSError, EOFError, KeyError):
-        last = done.stderr.decode(errors="replace").strip().splitlines()
-        why = last[-1][:160] if last else f"the library ended with {done.returncode}"
-        raise FormatError(f"{path}: not a C3D file that can be read ({why})") from None
-
-
-def plates_of_file(path: str) -> None:
-    """Write the force plates of a C3D file to stdout as an NPZ; run in a process of its own.
+def plates_of_file(path: Path) -> dict[str, Any]:
+    """The force plates of a C3D file; called in a process of its own.
 
     Args:
         path: The file.
-    """
-    try:
-        import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
-    except (ImportError, ValueError, OSError):  # no such limit on this system: the time limit remains
-        pass
+    Returns:
+        "rate" in Hz and the number of "plates"; of each plate i "force_i", "cop_i", "tz_i" (3, n), "corners_i" (3, 4)
+        and the "units_i" of force, moment and length.
+    """
     import ezc3d  # 0.08 s
 
-    with open(path, "rb") as stream:
-        head = stream.read(512)
-    if len(head) < 512 or head[1] != 0x50:
-        raise ValueError("no C3D header")
-    first, last = struct.unpack_from("<HH", head, 6)
-    content = ezc3d.c3d(path, extract_forceplat_data=True)
-    out: dict[str, Any] = {"rate": float(content["header"]["analogs"]["frame_rate"]), "frames": np.array([first, last])}
+    content = ezc3d.c3d(str(path), extract_forceplat_data=True)
     plates = content["data"]["platform"]
-    out["plates"] = len(plates)
+    out: dict[str, Any] = {"rate": float(content["header"]["analogs"]["frame_rate"]), "plates": len(plates)}
     for i, plate in enumerate(plates):
         out[f"force_{i}"] = np.asarray(plate["force"], dtype=float)
         out[f"cop_{i}"] = np.asarray(plate["center_of_pressure"], dtype=float)
         out[f"tz_{i}"] = np.asarray(plate["Tz"], dtype=float)
         out[f"corners_{i}"] = np.asarray(plate["corners"], dtype=float)
         out[f"units_{i}"] = np.array([plate["unit_force"], plate["unit_moment"], plate["unit_position"]])
-    buffer = io.BytesIO()
-    np.savez(buffer, **out)
-    sys.stdout.buffer.write(buffer.getvalue())
+    return out
 
 
 FORMAT = Format(name="c3d", title="force plates in a C3D file", suffixes=(".c3d",), recognises=_recognises, read=_read)

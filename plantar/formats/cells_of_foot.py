@@ -11,8 +11,8 @@ from plantar.errors import FormatError
 from plantar.formats.format import ReadOptions
 from plantar.formats.polygon_layout import subset
 from plantar.formats.units import Unit, find_unit
-from plantar.layout import Side, SoleLayout
-from plantar.pressure_recording import FootRecording, layout_for
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.recordings.pressure_recording import FootRecording, layout_for
 
 __all__ = ["cells_of_foot", "halves", "unit_of_values"]
 

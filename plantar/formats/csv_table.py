@@ -20,10 +20,11 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.formats.text import encoding_of, number, number_in, open_text, row_of_numbers
+from plantar.formats.text import blocks_of_lines, encoding_of, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import find_unit
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
 
@@ -33,7 +34,11 @@ _TIME = re.compile(
 )
 _SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 _USUAL_RATE = 100.0
-_BLOCK = 2048
+_BLOCK, _BLOCK_VALUES = 2048, 4_000_000
+_FIRST = 32
+_MOST_COLUMNS, _MOST_COMMENTS, _LONGEST_NAME = 100_000, 1000, 200
+_MOST_NAMED = 10
+"""Columns that are left out by name in the warnings; of more their number is given."""
 
 
 def _recognises(head: bytes) -> bool:
@@ -71,7 +76,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if len(head) < 2:
             raise FormatError(f"{path}: the table has no rows")
         delimiter = _delimiter(head[1:])
-        first = [c.strip().strip('"') for c in head[0].split(delimiter)]
+        first = [c.strip().strip('"')[:_LONGEST_NAME] for c in head[0].split(delimiter)]
         named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
         lines = chain(head[1:] if named else head, _content(stream, comments))
         table = _table(path, lines, delimiter, len(first), warnings)
@@ -104,9 +109,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 def _facts(comments: list[str]) -> dict[str, str]:
     out: dict[str, str] = {}
     for line in comments:
-        match = re.match(r"#+\s*([A-Za-z_ ]+?)\s*[:=]\s*(.*)", line)
-        if match:
-            out[match[1].strip().lower()] = match[2].strip()
+        name, sign, value = re.sub(r"[:=]", "\n", line.lstrip("#"), count=1).partition("\n")
+        if sign and re.fullmatch(r"[A-Za-z_ ]+", name):
+            out[name.strip().lower()] = value.strip()
     return out
 
 
@@ -114,7 +119,8 @@ def _content(stream: TextIO, comments: list[str]) -> Iterator[str]:
     """The lines that hold something; those that begin with "#" are put aside."""
     for line in stream:
         if line.startswith("#"):
-            comments.append(line)
+            if len(comments) < _MOST_COMMENTS:
+                comments.append(line[:_LONGEST_NAME])
         elif line.strip():
             yield line.rstrip("\n")
 
@@ -123,24 +129,26 @@ def _table(
     path: Path, lines: Iterator[str], delimiter: str | None, width: int, warnings: list[str]
 ) -> NDArray[np.float64]:
     """The numbers (rows, width), NaN where a cell is empty or none; read block by block to have them there once."""
-    out = np.empty((0, width))
-    n = bad = short = 0
+    if width > _MOST_COLUMNS:
+        raise FormatError(f"{path}: a table of {width} columns cannot be read; allowed: up to {_MOST_COLUMNS}")
+    table = FrameTable(width, 0)
+    bad = short = 0
     last = ""
-    while block := list(islice(lines, _BLOCK)):
-        if n + len(block) > len(out):
+    for block in blocks_of_lines(lines, max(1, min(_BLOCK, _BLOCK_VALUES // width))):
+        if not len(table):
             usual = sum(map(len, block)) // len(block)  # rows may be shorter; what is not written takes no memory
-            room = n + len(block) + (path.stat().st_size // max(usual * 3 // 5, 2 * width) if n == 0 else n // 4)
-            larger = np.empty((room, width))
-            larger[:n] = out[:n]
-            out = larger
+            table = FrameTable(width, len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * width))
         rows, wrong, odd = _rows(block, delimiter, width)
-        out[n : n + len(block)] = rows
-        n, bad, short, last = n + len(block), bad + wrong, short + odd, block[-1]
-    out = out[:n]
-    if len(last.split(delimiter)) < width and n > 1:
-        out, short = out[:-1], short - 1
+        table.add(rows)
+        bad, short, last = bad + wrong, short + odd, block[-1]
+        if len(table) > _FIRST and max(short, bad / width) > 0.5 * len(table):  # no use in reading on
+            break
+    if len(last.split(delimiter)) < width and len(table) > 1:
+        table.drop_last()
+        short -= 1
         warnings.append("the last row is cut short: left out")
-    if short > 0.2 * n or bad > 0.2 * out.size:
+    out = table.rows
+    if short > 0.2 * len(out) or bad > 0.2 * out.size:
         raise FormatError(f"{path}: not a table of numbers: {short} rows of another width, {bad} cells of text")
     if short:
         warnings.append(f"{short} damaged row(s) count as not measured")
@@ -190,13 +198,18 @@ def _times(
     options: ReadOptions,
     warnings: list[str],
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
-    stated = options.rate_hz or next((number_in(v) for k, v in facts.items() if "rate" in k or "frequency" in k), None)
+    stated = options.rate_hz
+    words = next((v for k, v in facts.items() if "rate" in k or "frequency" in k), None)
+    if stated is None and words is not None:
+        stated = number_in(words)
+        if stated is None:
+            raise FormatError(f"a rate of {words[:40]!r} is no number (--rate overrides)")
     if at is None or options.rate_hz is not None:
         if stated is None:
             warnings.append(
                 f"the table has no times and states no rate: {_USUAL_RATE:g} Hz is assumed (--rate overrides)"
             )
-        rate = stated or _USUAL_RATE
+        rate = _USUAL_RATE if stated is None else possible_rate(stated, "the table states")
         return np.arange(len(table)) / rate, rate, ()
     name = names[at] if names else ""
     match = re.search(r"[\[(]\s*(\w+)\s*[\])]|[_ ](s|ms|us|ns|secs?|seconds)\"?\s*$", name, re.IGNORECASE)
@@ -231,17 +244,22 @@ def _feet(
     columns: dict[Side | None, list[tuple[int, int | None]]] = {}
     found: list[str] = []
     parts = [_name_and_unit(names[i] if names else "") for i in cells]
+    left_out: list[str] = []
     measured = any(find_unit(u) is not None for _, u in parts if u)  # then what is in degrees or g0 is no load
     for i, (name, unit_of_column) in zip(cells, parts, strict=True):
         last = re.findall(r"\d+", name)
         foreign = measured and unit_of_column is not None and find_unit(unit_of_column) is None
         if names and (foreign or not last):
             if name.strip():
-                warnings.append(f"column {names[i]!r} is no cell: left out")
+                left_out.append(names[i])
             continue
         if unit_of_column:
             found.append(unit_of_column)
-        columns.setdefault(side_of(re.sub(r"\d+", " ", name)), []).append((i, int(last[-1]) if last else None))
+        columns.setdefault(side_of(re.sub(r"\d+", " ", name)), []).append((i, int(last[-1][-18:]) if last else None))
+    if len(left_out) > _MOST_NAMED:
+        warnings.append(f"{len(left_out)} columns are no cells: left out, {left_out[0]!r} to {left_out[-1]!r}")
+    else:
+        warnings += [f"column {name!r} is no cell: left out" for name in left_out]
     unit_text = stated or (max(set(found), key=found.count) if found else None)
     if len({find_unit(u) for u in found}) > 1:
         raise FormatError(f"the columns are in different units: {', '.join(sorted(set(found)))}")
@@ -250,7 +268,6 @@ def _feet(
     if not columns:
         raise FormatError("no column of the table is a cell")
     feet: dict[Side, FootRecording] = {}
-    sides: tuple[Side, Side] = ("left", "right")
     if None in columns and len(columns) == 1:
         own = options.side or side_of(facts.get("side", ""), facts.get("foot", ""))
         indices = [i for i, _ in columns[None]]
@@ -264,7 +281,7 @@ def _feet(
         return feet
     if None in columns:
         warnings.append(f"{len(columns[None])} column(s) name no foot: left out")
-    for side in sides:
+    for side in SIDES:
         if side in columns:
             ids = [c for _, c in columns[side] if c is not None]
             values = _taken(table, [i for i, _ in columns[side]])

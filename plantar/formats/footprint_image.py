@@ -13,13 +13,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import DependencyError, FormatError, InputError
+from plantar.errors import FormatError, InputError
 from plantar.formats.format import Format
+from plantar.formats.image_size import stated_size
+from plantar.input_file import read_input
+from plantar.optional_library import optional_library
 
 __all__ = ["FORMAT", "FootprintImage", "Print", "read_footprints"]
 
 _MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*", b"BM")
-_MOST_PIXELS = 200_000_000
+_LARGEST = 250e6
+"""Most bytes of a file, and of an image once it is decoded: 83 million pixels in colour."""
+_SCAN, _MOST_SCANNED = b"\xff\xda", 2e9
+"""What begins each scan of a JPEG, and how many pixels all of them may go over."""
 _WORKING = 1600
 """Longer side in pixels that is enough to outline a foot; larger images are reduced."""
 
@@ -77,27 +83,17 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     """
     if mm_per_pixel is not None and not (np.isfinite(mm_per_pixel) and 0.001 <= mm_per_pixel <= 50.0):
         raise InputError(f"--mm-per-pixel {mm_per_pixel} is not possible; allowed: 0.001 to 50")
-    try:
+    with optional_library("cv2", "formats"):
         import cv2  # 0.1 s: only where an image is read
-    except ImportError:
-        raise DependencyError("cv2", "formats") from None
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    data = read_input(path, FormatError, _LARGEST)
     warnings: list[str] = []
-    image = _decoded(cv2, path, data)
+    image, factor = _decoded(cv2, path, data)
     if mm_per_pixel is None:
         mm_per_pixel = _stated_resolution(data)
         if mm_per_pixel is None:
             warnings.append("the image states no resolution: no lengths and areas; give --mm-per-pixel")
         else:
             warnings.append(f"{mm_per_pixel:.4g} mm a pixel, from the resolution that the image states")
-    factor = min(1.0, _WORKING / max(image.shape[:2]))
-    if factor < 1.0:
-        size = max(1, round(image.shape[1] * factor)), max(1, round(image.shape[0] * factor))
-        factor = size[0] / image.shape[1]
-        image = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     pixel = None if mm_per_pixel is None else mm_per_pixel * 1e-3 / factor
     mask = _foreground(cv2, image)
     prints = _prints(cv2, mask, pixel, warnings)
@@ -107,40 +103,58 @@ def read_footprints(path: Path, mm_per_pixel: float | None = None) -> FootprintI
     return FootprintImage(path, pixel, picture, tuple(prints), tuple(warnings))
 
 
-def _decoded(cv2: Any, path: Path, data: bytes) -> NDArray[np.uint8]:
-    """The image as BGR over white, upright whatever its bit depth."""
-    size = _stated_size(data)
-    if size is not None and (size[0] * size[1] > _MOST_PIXELS or min(size) < 1):
-        raise FormatError(f"{path}: an image of {size[0]} x {size[1]} pixels is too large to read")
+def _decoded(cv2: Any, path: Path, data: bytes) -> tuple[NDArray[np.uint8], float]:
+    """The image as BGR over white, upright whatever its bit depth, and how much it was reduced by."""
+    _refuse_large(path, data)
     previous = cv2.utils.logging.getLogLevel() if hasattr(cv2, "utils") else None
     try:
         if previous is not None:
             cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
         raw = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_UNCHANGED)
+        raw, factor = (None, 1.0) if raw is None or min(raw.shape[:2]) < 16 else _reduced(cv2, raw)
     except cv2.error:
         raw = None
     finally:
         if previous is not None:
             cv2.utils.logging.setLogLevel(previous)
-    if raw is None or raw.size == 0 or min(raw.shape[:2]) < 16:
+    if raw is None:
         raise FormatError(f"{path}: not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)")
     if raw.dtype != np.uint8:
-        low, high = float(np.nanmin(raw)), float(np.nanmax(raw))
-        raw = ((np.nan_to_num(raw.astype(float)) - low) * (255.0 / max(high - low, 1e-9))).clip(0, 255).astype(np.uint8)
-    if raw.ndim == 2:
-        return np.asarray(cv2.cvtColor(raw, cv2.COLOR_GRAY2BGR))
+        raw = raw.astype(float)
+        known = raw[np.isfinite(raw)]
+        low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+        share = (np.nan_to_num(raw, nan=low, posinf=high, neginf=low) - low) / max(high - low, 1e-9)
+        raw = (share * 255.0).clip(0, 255).astype(np.uint8)
+    if raw.ndim == 2 or raw.shape[2] == 1:
+        return np.asarray(cv2.cvtColor(raw, cv2.COLOR_GRAY2BGR)), factor
     if raw.shape[2] == 4:
         alpha = raw[:, :, 3:].astype(float) / 255.0
-        return np.asarray((raw[:, :, :3] * alpha + 255.0 * (1.0 - alpha)).astype(np.uint8))
-    return np.asarray(raw[:, :, :3])
+        return np.asarray((raw[:, :, :3] * alpha + 255.0 * (1.0 - alpha)).astype(np.uint8)), factor
+    return np.asarray(raw[:, :, :3]), factor
 
 
-def _stated_size(data: bytes) -> tuple[int, int] | None:
-    """Width and height of a PNG before it is decoded: a damaged one may announce any amount of memory."""
-    if data.startswith(_MAGIC[0]) and len(data) >= 24:
-        width, height = struct.unpack_from(">II", data, 16)
-        return int(width), int(height)
-    return None
+def _refuse_large(path: Path, data: bytes) -> None:
+    """Refuse an image that takes more memory or time than it can mean, before it is decoded."""
+    size = stated_size(data)
+    if size is None or min(size.width, size.height) < 16:
+        raise FormatError(f"{path}: not an image that can be read (PNG, JPEG, TIFF or BMP of 16 x 16 pixels or more)")
+    if size.memory > _LARGEST:
+        raise FormatError(
+            f"{path}: an image of {size.width} x {size.height} pixels takes {size.memory / 1e6:.0f} MB; "
+            f"allowed: up to {_LARGEST / 1e6:.0f} MB"
+        )
+    scans = data.count(_SCAN) if data.startswith(_MAGIC[1]) else 0
+    if scans * size.width * size.height > _MOST_SCANNED:
+        raise FormatError(f"{path}: a JPEG of {scans} scans of {size.width} x {size.height} pixels takes too long")
+
+
+def _reduced(cv2: Any, image: NDArray[Any]) -> tuple[NDArray[Any], float]:
+    """The image, no larger than is enough to outline a foot, and by how much it was reduced."""
+    factor = min(1.0, _WORKING / max(image.shape[:2]))
+    if factor == 1.0:
+        return image, 1.0
+    size = max(1, round(image.shape[1] * factor)), max(1, round(image.shape[0] * factor))
+    return cv2.resize(image, size, interpolation=cv2.INTER_AREA), size[0] / image.shape[1]
 
 
 def _stated_resolution(data: bytes) -> float | None:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from plantar.layout import Side, SoleLayout
-from plantar.pressure_recording import PressureRecording
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Format", "ReadOptions"]
 

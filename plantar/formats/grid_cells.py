@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, LayoutError
-from plantar.layout import DEFAULT_RANGES, Side, SoleLayout
-from plantar.polygon import convex_hull
+from plantar.geometry.polygon import convex_hull
+from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 
 __all__ = ["grid_cells"]
 

@@ -1,4 +1,4 @@
-"""Plantar's own recordings (MCAP), as `plantar.recorder` writes them."""
+"""Plantar's own recordings (MCAP), as `plantar.recordings.recorder` writes them."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.format import Format, ReadOptions
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
-from plantar.recording import MCAP_MAGIC, Recording, Table, read_mcap
+from plantar.recordings.mcap_content import MCAP_MAGIC
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.recordings.recording import Recording, Table, read_mcap
+from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 def _recognises(head: bytes) -> bool:
@@ -32,14 +31,14 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     recording = read_mcap(path)
     warnings = list(recording.warnings)
     tables: dict[Side, Table] = {}
-    for side in _SIDES:
+    for side in SIDES:
         table = recording.topics.get(f"/skin/{side}")
         if table is not None and "force" in table.fields and len(table) > 0:
             tables[side] = table
     if not tables:
         return _other_bag(path, options, ", ".join(recording.topics) or "none")
     first = next(iter(tables.values()))
-    time, rate, notes = sampling(first.time, None)
+    time, rate, notes = sampling(first.time, None, options.rate_hz)
     warnings += notes
     feet: dict[Side, FootRecording] = {}
     for side, table in tables.items():
@@ -53,7 +52,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         elif len(own) != force.shape[1]:
             raise FormatError(f"{path}: the {side} sole has {force.shape[1]} taxels, layout '{own.name}' {len(own)}")
         feet[side] = FootRecording(side, force, own, placement=_placement(recording, side, time))
-    missing = [side for side in _SIDES if side not in feet]
+    missing = [side for side in SIDES if side not in feet]
     if missing:
         warnings.append(f"no taxel forces of the {cast(str, missing[0])} foot: one foot is analysed")
     return PressureRecording(

@@ -8,6 +8,8 @@ its cells cover a part of the sole.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -16,15 +18,19 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.moticon_insole import LENGTH, WIDTH, moticon_insole
-from plantar.formats.text import number, open_text
+from plantar.formats.text import blocks_of_lines, number, open_text
 from plantar.formats.units import Unit, find_unit
-from plantar.layout import Side, SoleLayout
-from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
 
 _CHANNEL = re.compile(r"(left|right)\s+(.*?)\s*(?:\[(.*)\])?\s*$", re.IGNORECASE)
 _USUAL_UNIT = "N/cm2"
+_LARGEST_HEADER, _MOST_CHANNELS, _LONGEST_NAME = 1000, 10_000, 200
+_FIRST = 32
 
 
 def _recognises(head: bytes) -> bool:
@@ -40,25 +46,27 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     """
     warnings: list[str] = []
     with open_text(path) as stream:
-        header, names, delimiter, rows = _take(path, list(stream))
-    table = _numbers(path, rows, delimiter, names, warnings)
-    time, rate, notes = sampling(table[:, 0], options.rate_hz)
+        lines = iter(stream)
+        header, channels, delimiter = _take_header(path, lines)
+        wanted = _wanted(channels)
+        table = _numbers(path, lines, delimiter, channels, wanted, warnings)
+    names = [channels[i] for i in wanted]
+    time, rate, notes = sampling(table[:, 0], None, options.rate_hz)
     size = _size(header, warnings)
     feet: dict[Side, FootRecording] = {}
-    sides: tuple[Side, Side] = ("left", "right")
     units: set[str] = set()
     raw = False
-    for side in sides:
+    for side in SIDES:
         columns = _columns(names, side)
         cells = sorted(
-            (int(key.split()[-1]), i) for key, (i, _) in columns.items() if re.fullmatch(r"pressure \d+", key)
+            (int(key.split()[-1]), i, unit) for key, (i, unit) in columns.items() if re.fullmatch(r"pressure \d+", key)
         )
-        if not cells or np.isnan(table[:, [i for _, i in cells]]).all():
+        if not cells or np.isnan(table[:, [i for _, i, _ in cells]]).all():
             continue
-        unit = _unit(path, options, [columns[f"pressure {c}"][1] for c, _ in cells], warnings)
+        unit = _unit(path, options, [stated for _, _, stated in cells], warnings)
         raw = raw or unit.kind == "raw"
         units.add(unit.name)
-        pressure = table[:, [i for _, i in cells]]
+        pressure = table[:, [i for _, i, _ in cells]]
         total = _total(path, columns, table, side, warnings)
         layout = _layout(path, side, size, pressure, unit, total, options, warnings)
         cop = _device_cop(columns, table, size, side) if options.layout is None else None
@@ -84,47 +92,82 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _take(path: Path, lines: list[str]) -> tuple[dict[str, str], list[str], str, list[str]]:
-    """Facts of the header, names of the channels, the delimiter, and the lines of data."""
+def _wanted(channels: list[str]) -> list[int]:
+    """Columns of the time and of the feet's channels that hold numbers."""
+    found = [i for i, n in enumerate(channels) if i > 0 and _CHANNEL.match(n)]
+    return [0, *(i for i in found if not re.search(r"label|events|steps", channels[i], re.IGNORECASE))]
+
+
+def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], list[str], str]:
+    """Facts of the header, names of the channels, and the delimiter."""
     header: dict[str, str] = {}
-    names: list[str] = []
-    delimiter = "\t"
-    for i, line in enumerate(lines):
+    for line in islice(lines, _LARGEST_HEADER):
         text = line.lstrip("\ufeff").rstrip("\n")
         content = text.lstrip("# ")
         if re.match(r"\"?time\b.*(left|right) ", content, re.IGNORECASE):
             delimiter = next((d for d in "\t;," if d in content), "\t")
-            names = [c.strip().strip('"') for c in content.split(delimiter)]
-            return header, names, delimiter, [x for x in lines[i + 1 :] if x.strip() and not x.startswith("#")]
+            names = [c.strip().strip('"')[:_LONGEST_NAME] for c in content.split(delimiter)]
+            if len(names) > _MOST_CHANNELS:
+                raise FormatError(f"{path}: {len(names)} channels cannot be read; allowed: up to {_MOST_CHANNELS}")
+            return header, names, delimiter
         if text.startswith("#") and ":" in content:
             key, value = content.split(":", 1)
-            header[key.strip().lower()] = value.strip()
+            header[key.strip()[:_LONGEST_NAME].lower()] = value.strip()[:_LONGEST_NAME]
     raise FormatError(f"{path}: not a Moticon export: no line names the channels ('# time', 'left pressure 1', ...)")
 
 
-def _numbers(path: Path, rows: list[str], delimiter: str, names: list[str], warnings: list[str]) -> NDArray[np.float64]:
-    """The table (n, channels); NaN where a value is missing or is none, such as the labels of events."""
-    wanted = [i for i, n in enumerate(names) if i == 0 or _CHANNEL.match(n)]
-    wanted = [i for i in wanted if i == 0 or not re.search(r"label|events|steps", names[i], re.IGNORECASE)]
-    if not rows:
-        raise FormatError(f"{path}: the file holds no row of data")
-    if len(rows) > 1 and (rows[-1].count(delimiter) != rows[0].count(delimiter) or not rows[-1].endswith("\n")):
-        full = rows[-1].count(delimiter) == rows[0].count(delimiter)
-        if not full:
-            rows = rows[:-1]
-            warnings.append("the last row is cut short: left out")
-    out = np.full((len(rows), len(names)), np.nan)
+def _numbers(
+    path: Path, lines: Iterator[str], delimiter: str, names: list[str], wanted: list[int], warnings: list[str]
+) -> NDArray[np.float64]:
+    """The wanted channels (n, channels); NaN where a value is missing or is none, such as the labels of events."""
+    rows = (x for x in lines if x.strip() and not x.startswith("#"))
+    table = FrameTable(len(wanted), 0)
     bad = short = 0
-    for k, line in enumerate(rows):
-        cells = line.rstrip("\n").split(delimiter)
-        if len(cells) != len(names):
-            if len(cells) > len(names) and not any(c.strip() for c in cells[len(names) :]):
-                cells = cells[: len(names)]
-            else:
-                short += 1
-                continue
-        for i in wanted:
-            text = cells[i]
+    first = last = ""
+    for block in blocks_of_lines(rows):
+        if not len(table):
+            first = block[0]
+            usual = sum(map(len, block)) // len(block)
+            table = FrameTable(len(wanted), len(block) + path.stat().st_size // max(usual * 3 // 5, 1))
+        values, wrong, odd = _block(block, delimiter, len(names), wanted)
+        table.add(values)
+        bad, short, last = bad + wrong, short + odd, block[-1]
+        if len(table) > _FIRST and short > 0.5 * len(table):  # no use in reading on
+            break
+    if not len(table):
+        raise FormatError(f"{path}: the file holds no row of data")
+    if len(table) > 1 and last.count(delimiter) != first.count(delimiter):
+        table.drop_last()
+        short -= _cells(last, delimiter, len(names)) is None
+        warnings.append("the last row is cut short: left out")
+    if short > 0.2 * len(table):
+        raise FormatError(f"{path}: {short} of {len(table)} rows do not have {len(names)} columns; the file is damaged")
+    if short:
+        warnings.append(f"{short} damaged row(s) count as not measured")
+    if bad:
+        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
+    return table.rows
+
+
+def _cells(line: str, delimiter: str, columns: int) -> list[str] | None:
+    """Cells of a row; None where it has another number of them. Empty ones too many do not count."""
+    cells = line.rstrip("\n").split(delimiter)
+    if len(cells) < columns or any(c.strip() for c in cells[columns:]):
+        return None
+    return cells
+
+
+def _block(block: list[str], delimiter: str, columns: int, wanted: list[int]) -> tuple[NDArray[np.float64], int, int]:
+    """Numbers (rows, wanted) of some lines, how many cells are none, and how many lines have another width."""
+    out = np.full((len(block), len(wanted)), np.nan)
+    bad = short = 0
+    for k, line in enumerate(block):
+        cells = _cells(line, delimiter, columns)
+        if cells is None:
+            short += 1
+            continue
+        for i, column in enumerate(wanted):
+            text = cells[column]
             if text and not text.isspace():
                 try:
                     out[k, i] = float(text)
@@ -133,13 +176,7 @@ def _numbers(path: Path, rows: list[str], delimiter: str, names: list[str], warn
                     bad += value is None
                     out[k, i] = np.nan if value is None else value
     out[~np.isfinite(out)] = np.nan
-    if short > 0.2 * len(rows):
-        raise FormatError(f"{path}: {short} of {len(rows)} rows do not have {len(names)} columns; the file is damaged")
-    if short:
-        warnings.append(f"{short} damaged row(s) count as not measured")
-    if bad:
-        warnings.append(f"{bad} value(s) are no numbers: they count as not measured")
-    return out
+    return out, bad, short
 
 
 def _columns(names: list[str], side: Side) -> dict[str, tuple[int, str]]:

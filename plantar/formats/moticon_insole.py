@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.cell_layout import edge_neighbours, shared_vertices
 from plantar.errors import FormatError
 from plantar.formats.nominal_insole import insole_outline
-from plantar.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
+from plantar.layouts.cell_layout import edge_neighbours, shared_vertices
+from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
 __all__ = ["LENGTH", "WIDTH", "moticon_insole"]
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
+from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
 __all__ = ["CELL_AREA", "DEFAULT_SIZE", "ROWS", "insole_outline", "nominal_insole"]
 

@@ -8,6 +8,7 @@ forces. Frames that are too wide come on several pages. Summary pages (MVP, MPP)
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,14 +21,27 @@ from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text
 from plantar.formats.units import LENGTHS, find_unit
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording, layout_for
+from plantar.layouts.layout import Side
+from plantar.recordings.frame_table import MOST_VALUES
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate
 
 __all__ = ["FORMAT"]
 
 _LARGEST = 1024
+_MOST_PAGES, _MOST_EMPTY = 200_000, 1000
+_SMALL, _MOST_A_BYTE = 8_000_000, 8
+"""Values of all frames' whole matrices that any file may mean, and for each of its bytes; usual is one a byte."""
 _USUAL_SIZE, _USUAL_RATE = 0.005, 100.0
 _THRESHOLD = 1e3
+_PICTURE = re.compile(r"Pict-No\.?\s*:\s*(\d{1,9})")
+_NO_FRAME = re.compile(r"\bPage\b|\bM[VP]P\b")
+_FACTS = {
+    "file": re.compile(r"File:\s*(.*?)\s*(?:Matrix:|$)", re.IGNORECASE),
+    "matrix": re.compile(r"Matrix:\s*(\d{1,6}\s*x\s*\d{1,6})\b", re.IGNORECASE),
+    "area": re.compile(r"Sensor area:\s*([\d.,]+\s*\S+)", re.IGNORECASE),
+    "size": re.compile(r"Sensor size:\s*(.*)$", re.IGNORECASE),
+    "time": re.compile(r"Time/picture:\s*(.*)$", re.IGNORECASE),
+}
 
 
 def _recognises(head: bytes) -> bool:
@@ -37,14 +51,55 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Page:
-    """One frame as its pages give it."""
+    """One frame as its pages give it.
+
+    Attributes:
+        picture: Its number.
+        columns: Numbers of the columns that are shown.
+        tables: For each page the numbers of its rows and columns, and the pressures (rows, columns).
+        force: The force that the page states, in N.
+        damaged: How many cells or rows are none.
+    """
 
     picture: int
-    rows: list[tuple[int, list[str]]] = field(default_factory=list)
     columns: list[int] = field(default_factory=list)
     force: float | None = None
-    cells: list[tuple[int, int, float]] = field(default_factory=list)
     damaged: int = 0
+    tables: list[tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]] = field(default_factory=list)
+    labels: list[int] = field(default_factory=list)
+    values: list[NDArray[np.float64]] = field(default_factory=list)
+    rows_shown: set[int] = field(default_factory=set)
+    columns_shown: set[int] = field(default_factory=set)
+
+    def close(self) -> None:
+        """Put the rows that were read into one table."""
+        self.tables.append((np.array(self.labels), np.array(self.columns), np.array(self.values)))
+        self.rows_shown.update(self.labels)
+        self.columns_shown.update(self.columns)
+        self.labels, self.values = [], []
+
+    @property
+    def cells(self) -> int:
+        """Number of its cells."""
+        return sum(values.size for _, _, values in self.tables)
+
+    def goes_on_with(self, page: _Page) -> bool:
+        """Whether a page shows other columns, or other rows of the same columns, of the same frame."""
+        if self.picture != page.picture:
+            return False
+        if self.columns_shown.isdisjoint(page.columns):
+            return True
+        return self.columns == page.columns and self.rows_shown.isdisjoint(page.rows_shown)
+
+    def join(self, page: _Page) -> None:
+        """Take in another page of the same frame."""
+        if self.columns_shown.isdisjoint(page.columns):
+            self.columns += page.columns
+        self.tables += page.tables
+        self.rows_shown |= page.rows_shown
+        self.columns_shown |= page.columns_shown
+        self.force = page.force if self.force is None else self.force
+        self.damaged += page.damaged
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -60,15 +115,21 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     frames = _frames(pages, warnings)
     if not frames:
         raise FormatError(f"{path}: the file holds no frame (no page with Pict-No. and a table)")
-    indices = np.array([(r, c) for f in frames for r, c, _ in f.cells])
-    if not len(indices) or indices.min() < 1 or indices.max() > _LARGEST:
+    ends = np.array([(r.min(), r.max(), c.min(), c.max()) for f in frames for r, c, _ in f.tables])
+    if ends.min() < 1 or ends.max() > _LARGEST:
         raise FormatError(f"{path}: the tables hold no pressures in rows and columns 1 to {_LARGEST}")
-    columns, rows = _matrix(facts, indices, warnings)
+    columns, rows = _matrix(facts, (int(ends[:, 3].max()), int(ends[:, 1].max())), warnings)
     size = _sensor_size(facts, warnings)
+    most = min(MOST_VALUES, _SMALL + _MOST_A_BYTE * path.stat().st_size)
+    if len(frames) * rows * columns > most:
+        raise FormatError(
+            f"{path}: {len(frames)} frames of {rows} x {columns} cells are more than its tables can mean; "
+            f"allowed for a file of this size: {most / 1e6:.3g} million values"
+        )
     pressure = np.zeros((len(frames), rows, columns))
     for i, frame in enumerate(frames):
-        r, c, v = np.array(frame.cells).T
-        pressure[i, r.astype(int) - 1, c.astype(int) - 1] = v
+        for r, c, values in frame.tables:
+            pressure[i, r[:, None] - 1, c - 1] = values
     stated = np.array([np.nan if f.force is None else f.force for f in frames])
     factor = _unit(path, options, pressure, stated, size[0] * size[1], warnings)
     rate = options.rate_hz or _rate(facts, warnings)
@@ -107,33 +168,42 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _pages(lines: object, facts: dict[str, str]) -> list[_Page]:
+def _pages(lines: Iterable[str], facts: dict[str, str]) -> list[_Page]:
+    """The pages that hold a table, in their order."""
     pages: list[_Page] = []
     page: _Page | None = None
-    for line in lines:  # type: ignore[attr-defined]
+    begun = 0
+
+    def finish() -> None:
+        if page is not None and page.labels:
+            page.close()
+            pages.append(page)
+            if len(pages) > _MOST_PAGES:
+                raise FormatError(f"more than {_MOST_PAGES} pages with a table; allowed: up to as many")
+
+    for line in lines:
         text = line.strip("\f\n ")
         if not text.strip():
             continue
-        picture = re.search(r"Pict-No\.?\s*:\s*(\d+)", text)
+        picture = _PICTURE.search(text) if ":" in text else None
         if picture:
+            finish()
             page = _Page(int(picture[1]))
-            pages.append(page)
+            begun += 1
+            if begun > _MOST_EMPTY + 2 * len(pages):
+                raise FormatError(f"{begun - len(pages)} of {begun} pages hold no table; the file is damaged")
             continue
-        if re.search(r"\bPage\b|\bM[VP]P\b", text):  # a new page; a summary's table is nobody's frame
+        if _NO_FRAME.search(text):  # a new page; a summary's table is nobody's frame
+            finish()
             page = None
             continue
-        for key, pattern in (
-            ("file", r"File:\s*(.*?)\s*(?:Matrix:|$)"),
-            ("matrix", r"Matrix:\s*(\d+\s*x\s*\d+)"),
-            ("area", r"Sensor area:\s*([\d.,]+\s*\S+)"),
-            ("size", r"Sensor size:\s*(.*)$"),
-            ("time", r"Time/picture:\s*(.*)$"),
-        ):
-            match = re.search(pattern, text, re.IGNORECASE)
+        for key, pattern in _FACTS.items() if ":" in text else ():
+            match = pattern.search(text)
             if match and match[1]:
                 facts.setdefault(key, match[1])
         if page is not None:
             _take_row(page, text)
+    finish()
     return pages
 
 
@@ -142,44 +212,34 @@ def _take_row(page: _Page, text: str) -> None:
     label = cells[0].strip()
     if not page.columns:
         numbers = [c.strip() for c in cells if c.strip() and c.strip().lower() != "force"]
-        if numbers and all(n.isascii() and n.isdigit() for n in numbers):
+        if numbers and all(_is_count(n) for n in numbers):
             page.columns = [int(n) for n in numbers]
         return
     if label.lower() == "force":
         page.force = number(cells[len(page.columns) + 1]) if len(cells) > len(page.columns) + 1 else None
-    elif label.isascii() and label.isdigit() and len(cells) > len(page.columns):
-        for column, cell in zip(page.columns, cells[1:], strict=False):
-            value = number(cell)
-            page.cells.append((int(label), column, np.nan if value is None else value))
-            page.damaged += value is None
-        page.rows.append((int(label), []))
+    elif _is_count(label) and len(cells) > len(page.columns):
+        values = [number(cell) for cell in cells[1 : len(page.columns) + 1]]
+        page.labels.append(int(label))
+        page.values.append(np.array([np.nan if v is None else v for v in values]))
+        page.damaged += sum(v is None for v in values)
     elif label:
         page.damaged += 1
+
+
+def _is_count(text: str) -> bool:
+    return text.isascii() and text.isdigit() and len(text) < 10
 
 
 def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
     """Pages put together to frames; a last frame that is cut short and damaged ones are reported."""
     frames: list[_Page] = []
     for page in pages:
-        whole = bool(page.cells)
-        if not whole:
-            continue
-        last = frames[-1] if frames else None
-        if last is not None and last.picture == page.picture and set(last.columns).isdisjoint(page.columns):
-            last.cells += page.cells
-            last.columns += page.columns
-            last.force = page.force if last.force is None else last.force
-        elif last is not None and last.picture == page.picture and last.columns == page.columns:
-            if {r for r, _ in last.rows}.isdisjoint(r for r, _ in page.rows):
-                last.cells += page.cells
-                last.rows += page.rows
-                last.force = page.force if last.force is None else last.force
-            else:
-                frames.append(page)
+        if frames and frames[-1].goes_on_with(page):
+            frames[-1].join(page)
         else:
             frames.append(page)
-    usual = int(np.median([len(f.cells) for f in frames])) if frames else 0
-    if len(frames) > 1 and len(frames[-1].cells) < 0.95 * usual and frames[-1].force is None:
+    usual = int(np.median([f.cells for f in frames])) if frames else 0
+    if len(frames) > 1 and frames[-1].cells < 0.95 * usual and frames[-1].force is None:
         frames.pop()
         warnings.append("the last frame is cut short: left out")
     damaged = sum(f.damaged > 0 for f in frames)
@@ -188,9 +248,8 @@ def _frames(pages: list[_Page], warnings: list[str]) -> list[_Page]:
     return frames
 
 
-def _matrix(facts: dict[str, str], indices: NDArray[np.int64], warnings: list[str]) -> tuple[int, int]:
-    """Columns and rows of the platform."""
-    needed = int(indices[:, 1].max()), int(indices[:, 0].max())
+def _matrix(facts: dict[str, str], needed: tuple[int, int], warnings: list[str]) -> tuple[int, int]:
+    """Columns and rows of the platform, of which the tables show as many as are needed."""
     match = re.match(r"(\d+)\s*x\s*(\d+)", facts.get("matrix", ""))
     if match is None:
         warnings.append(f"the file states no size of the matrix: {needed[1]} rows and {needed[0]} columns are shown")
@@ -266,13 +325,16 @@ def _unit(
 def _rate(facts: dict[str, str], warnings: list[str]) -> float:
     text = facts.get("time", "")
     value = number_in(text)
-    if value is None or value <= 0.0:
+    if value is None and text.strip():
+        raise FormatError(f"the time per picture {text.strip()[:40]!r} is no number (--rate overrides)")
+    if value is None:
         warnings.append(f"the file states no time per picture: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
         return _USUAL_RATE
     if not re.fullmatch(r"\s*\d+(?:[.,]\d+)?\s*m?s\W*", text):
         warnings.append(f"the time per picture {text.strip()!r} is not clear: check the rate")
     in_s = re.search(r"\d\s*s", text) is not None
-    return 1.0 / (value if in_s else value * 1e-3)
+    period = value if in_s else value * 1e-3
+    return possible_rate(1.0 / period if period else np.inf, f"the time per picture {text.strip()[:40]!r} means")
 
 
 FORMAT = Format(name="emed", title="Novel emed export", suffixes=(".lst",), recognises=_recognises, read=_read)

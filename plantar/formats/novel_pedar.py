@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, islice
 from pathlib import Path
 from warnings import catch_warnings, simplefilter
 
@@ -21,20 +22,25 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREA, DEFAULT_SIZE, nominal_insole
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
+from plantar.formats.text import blocks_of_lines, open_text
 from plantar.formats.units import Unit, find_unit, plain
-from plantar.layout import Side, SoleLayout
-from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
+from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
 
 
 _COLUMNS = re.compile(r"\s*time\s*\[\s*s(?:ecs?)?\s*\]", re.IGNORECASE)
-_NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
+_NUMBER = r"[-+]?\d+(?:[.,]\d*)?(?:[eE][-+]?\d+)?"
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
-_LARGEST_HEADER = 400
+_CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
+_MOST_CORNERS = 64
+_LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
 _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")
 """Units that the exporting programs write."""
-_BLOCK = 2048
+_BLOCK, _BLOCK_VALUES = 2048, 4_000_000
 
 
 def _recognises(head: bytes) -> bool:
@@ -50,19 +56,16 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         FormatError: If the file is not such an export, states an unknown unit, or holds no frames.
     """
     notes: list[str] = []
-    try:
-        with path.open(encoding="latin-1", newline=None) as stream:
-            lines = iter(stream)
-            header, columns = _take_header(path, lines)
-            text = "\n".join(header)
-            sides = _sides(text, columns, options, notes)
-            rows, tail = _take_rows(path, lines, len(columns), [span for _, span in sides])
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    with open_text(path, "latin-1") as stream:
+        lines = iter(stream)
+        header, columns = _take_header(path, lines)
+        text = "\n".join(header)
+        sides = _sides(text, columns, options, notes)
+        rows, tail = _take_rows(path, lines, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
     layout = options.layout
     unit = _unit(path, text, options, warnings)
-    time, rate, doubts = sampling(rows.time, options.rate_hz or _rate(text))
+    time, rate, doubts = sampling(rows.time, None if options.rate_hz else _rate(text), options.rate_hz)
     warnings += doubts
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
@@ -93,11 +96,11 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):
-            cells = re.findall(r"(?<![\w.])\d+(?![\w.])", _COLUMNS.sub("", line, count=1))
+            cells = re.findall(r"(?<![\w.])\d{1,9}(?![\w.])", _COLUMNS.sub("", line, count=1))
             if not cells:
                 raise FormatError(f"{path}: the row of column names lists no cells")
             return header, [int(c) for c in cells]
-        header.append(line.rstrip("\n"))
+        header.append(line[:_LONGEST_FACT].rstrip("\n"))
         if len(header) > _LARGEST_HEADER:
             break
     raise FormatError(f"{path}: not a pedar or pliance export: no row of column names that starts with time[secs]")
@@ -113,57 +116,46 @@ class _Rows:
 
 
 def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[range]) -> tuple[_Rows, list[str]]:
-    """Frames up to the next section; also the lines after them.
-
-    The arrays are made for as many frames as the file's size suggests and written block by block, so that a long
-    recording is in memory once.
-    """
+    """Frames up to the next section; also the lines after them that may give the cells' corners."""
     tail: list[str] = []
-    time = np.empty(0)
-    values = [np.empty((0, len(span))) for span in spans]
-    n = 0
-    while not tail:
-        block: list[str] = []
+
+    def frames() -> Iterator[str]:
         for line in lines:
             if _LABELS.match(line):
-                tail = [line, *lines]
-                break
+                tail.extend(islice((x for x in chain([line], lines) if _CORNER.match(x)), _MOST_CORNERS))
+                return
             if line.strip():
-                block.append(line)
-            if len(block) == _BLOCK:
-                break
-        if not block:
-            break
+                yield line
+
+    times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
+    bad = 0
+    for block in blocks_of_lines(frames(), max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1)))):
         rows = _frames(block, cells)
-        if n + len(rows) > len(time):
-            room = n + len(rows) + (path.stat().st_size // max(len(line) for line in block) if n == 0 else n // 4)
-            time, values = _larger(time, room), [_larger(v, room) for v in values]
-        time[n : n + len(rows)] = rows[:, 0]
-        for own, span in zip(values, spans, strict=True):
-            own[n : n + len(rows)] = rows[:, 1 + span.start : 1 + span.stop]
-        n += len(rows)
-    if n == 0:
+        if not len(times):
+            expected = path.stat().st_size // max(len(line) for line in block)
+            times, values = FrameTable(1, expected), [FrameTable(len(span), expected) for span in spans]
+        times.add(rows[:, :1])
+        for table, span in zip(values, spans, strict=True):
+            table.add(rows[:, 1 + span.start : 1 + span.stop])
+        bad += int(np.isnan(rows[:, 1]).sum())
+        if bad > max(0.5 * len(times), 8):  # no use in reading on
+            break
+    if not len(times):
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    bad = np.isnan(values[0][:n, 0])
+    damaged = np.isnan(values[0].rows[:, 0])
     warnings: list[str] = []
-    if bad[-1]:
-        n -= 1
+    if damaged[-1]:
+        for table in (times, *values):
+            table.drop_last()
         warnings.append("the last frame is cut short: left out")
-    damaged = int(bad[:n].sum())
-    if damaged == n:
+    n, bad = len(times), int(damaged[: len(times)].sum())
+    if bad == n:
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    if damaged > 0.2 * n:
-        raise FormatError(f"{path}: {damaged} of {n} frames do not have {cells} numbers; the file is damaged")
-    if damaged:
-        warnings.append(f"{damaged} damaged frame(s) are treated as not measured")
-    return _Rows(time[:n], [v[:n] for v in values], tuple(warnings)), tail
-
-
-def _larger(array: NDArray[np.float64], rows: int) -> NDArray[np.float64]:
-    """An array with more rows, of which only those that are written take memory."""
-    out = np.empty((rows, *array.shape[1:]))
-    out[: len(array)] = array
-    return out
+    if bad > 0.2 * n:
+        raise FormatError(f"{path}: {bad} of {n} frames do not have {cells} numbers; the file is damaged")
+    if bad:
+        warnings.append(f"{bad} damaged frame(s) are treated as not measured")
+    return _Rows(times.rows[:, 0], [table.rows for table in values], tuple(warnings)), tail
 
 
 def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
@@ -275,11 +267,12 @@ def _unit(path: Path, text: str, options: ReadOptions, warnings: list[str]) -> U
 
 def _rate(text: str) -> float | None:
     rate = _field(text, rf"scanning\s+rate\s*\[Hz\]:?\s*({_NUMBER})")
-    if rate and float(rate.replace(",", ".")) > 0.0:
-        return float(rate.replace(",", "."))
+    if rate:
+        return possible_rate(float(rate.replace(",", ".")), "the header states")
     period = _field(text, rf"time\s+per\s+frame\s*\[secs?\]:?\s*({_NUMBER})")
-    if period and float(period.replace(",", ".")) > 0.0:
-        return 1.0 / float(period.replace(",", "."))
+    if period:
+        seconds = float(period.replace(",", "."))
+        return possible_rate(1.0 / seconds if seconds else np.inf, f"the time per frame of {period[:40]} s means")
     return None
 
 
@@ -287,8 +280,7 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
     """Which columns belong to which foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
-    sides: tuple[Side, Side] = ("left", "right")
-    for side in sides:
+    for side in SIDES:
         cells = _field(text, rf"{side}\s+insole:[ \t]*([\d,;\t ]*)")
         if cells:
             listed[side] = len(re.findall(r"\d+", cells))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from plantar.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["doubts"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.formats.polygon_layout import polygon_layout
-from plantar.layout import Side, SoleLayout
+from plantar.layouts.layout import Side, SoleLayout
 
 __all__ = ["corner_table", "layout_of_corners"]
 

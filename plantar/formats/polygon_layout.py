@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, LayoutError
-from plantar.layout import DEFAULT_RANGES, Side, SoleLayout
-from plantar.polygon import area, centroid, convex_hull
+from plantar.geometry.polygon import area, centroid, convex_hull
+from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout
 
 __all__ = ["polygon_layout", "subset"]
 

@@ -7,24 +7,34 @@ topic or field calls a force is taken as N, a pressure as Pa, anything else as r
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.confined import confined
 from plantar.errors import DependencyError, FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.input_file import check_input, is_file
+from plantar.layouts.layout import Side
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.structured_text import JSON_MOST
 
-__all__ = ["FORMAT", "read_bag"]
+__all__ = ["FORMAT", "read_bag", "series_of_bag"]
 
-_LEAST_CELLS = 3
+_LEAST_CELLS, _MOST_CELLS = 3, 20_000
+"""Numbers in an array that may be a sole: a picture has more."""
 _DEPTH = 3
+_FOLDERS = "metadata.yaml"
+_MEMORY, _MEMORY_A_BYTE = 300e6, 30.0
+_SECONDS, _SECONDS_A_BYTE = 10.0, 2e-6
 
 
 def _recognises(head: bytes) -> bool:
@@ -45,21 +55,18 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         FormatError: If the bag is damaged or holds no topic with an array of numbers.
         DependencyError: If rosbags is not installed.
     """
-    if not path.exists() or (path.is_dir() and not (path / "metadata.yaml").is_file()):
-        raise FormatError(f"{path}: cannot be read (no such file, or a folder that is no ROS 2 bag)")
-    try:
-        import rosbags  # noqa: F401  0.1 s: only where a bag is read
-    except ImportError:
-        raise DependencyError("rosbags", "formats") from None
-    try:
-        series = _series(path)
-    except FormatError:
-        raise
-    except Exception as error:  # the library raises what its parsing happens to hit: SQLite, YAML, struct, codec errors
-        text = " ".join(str(error).split())[:200]
-        raise FormatError(f"{path}: not a ROS bag that can be read ({type(error).__name__}: {text})") from None
+    if os.path.isdir(path) and not is_file(path / _FOLDERS):
+        raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag)")
+    if find_spec("rosbags") is None:
+        raise DependencyError("rosbags", "formats")
+    size = _size(path)
+    limits = {"memory": _MEMORY + _MEMORY_A_BYTE * size, "seconds": _SECONDS + _SECONDS_A_BYTE * size}
+    held = confined("plantar.formats.ros_bag:series_of_bag", path, FormatError, "a ROS bag", **limits)
+    series = {name: (held[f"{name}:times"], held[f"{name}:values"]) for name in held["names"].tolist()}
     if not series:
-        raise FormatError(f"{path}: no topic of the bag carries an array of {_LEAST_CELLS} numbers or more")
+        raise FormatError(
+            f"{path}: no topic of the bag carries an array of {_LEAST_CELLS} to {_MOST_CELLS} numbers more than once"
+        )
     warnings: list[str] = []
     named = {key: side_of(key.replace("/", " ")) for key in series}
     by_side: dict[Side, str] = {}
@@ -78,7 +85,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
         warnings.append(f"ROS messages state no unit: {agreed} is assumed from their names (--unit overrides)")
     unit = unit_of_values(agreed, options, warnings, "the bag")
     stamps, first = series[chosen[0]]
-    time, rate, notes = sampling(stamps - stamps[0], options.rate_hz)
+    time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
     feet: dict[Side, FootRecording] = {}
     if by_side:
         for side in ("left", "right"):
@@ -106,12 +113,51 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _series(path: Path) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Times (n,) in s and values (n, k) of each array in each topic, by "<topic>/<field>"."""
+def _size(path: Path) -> int:
+    """Bytes of a bag: of its file, or of all files in its folder, which are regular ones."""
+    if not os.path.isdir(path):
+        return check_input(path, FormatError)
+    check_input(path / _FOLDERS, FormatError, JSON_MOST)
+    return sum(check_input(p, FormatError) for p in path.iterdir() if p.suffix != "")
+
+
+class _Series:
+    """The messages of one array: their times, and the rows of each length that occurs."""
+
+    def __init__(self) -> None:
+        self.times: list[float] = []
+        self.widths: list[int] = []
+        self.rows: dict[int, FrameTable] = {}
+
+    def add(self, time: float, row: NDArray[np.float64]) -> None:
+        self.times.append(time)
+        self.widths.append(len(row))
+        self.rows.setdefault(len(row), FrameTable(len(row), 0)).add(row[None])
+
+    def table(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Times (n,) in s, in order, and values (n, k); NaN where a message is of another length than most."""
+        width = int(np.median(self.widths))
+        width = width if width in self.rows else max(self.rows, key=lambda w: len(self.rows[w]))
+        values = np.full((len(self.times), width), np.nan)
+        values[np.array(self.widths) == width] = self.rows[width].rows
+        values[~np.isfinite(values)] = np.nan
+        order = np.argsort(self.times, kind="stable")
+        return np.array(self.times)[order], values[order]
+
+
+def series_of_bag(path: Path) -> dict[str, Any]:
+    """The arrays in a bag's topics; called in a process of its own.
+
+    Args:
+        path: Folder of a ROS 2 bag, or one of its files.
+
+    Returns:
+        The "names" of the arrays, "<topic>/<field>", and of each "<name>:times" (n,) in s and "<name>:values" (n, k).
+    """
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
 
-    gathered: dict[str, tuple[list[float], list[NDArray[np.float64]]]] = {}
+    gathered: dict[str, _Series] = {}
     with AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as reader:
         skipped: set[str] = set()
         for connection, nanoseconds, data in reader.messages():
@@ -123,22 +169,14 @@ def _series(path: Path) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float
             seconds = nanoseconds * 1e-9 if stamp is None else float(stamp.sec) + 1e-9 * float(stamp.nanosec)
             for name, values in _arrays(message, _DEPTH):
                 found = True
-                times, rows = gathered.setdefault(f"{connection.topic}/{name}", ([], []))
-                times.append(seconds)
-                rows.append(values)
-            if not found and not gathered.get(connection.topic):
+                gathered.setdefault(f"{connection.topic}/{name}", _Series()).add(seconds, values)
+            if not found:
                 skipped.add(connection.topic)
-    out: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
-    for key, (times, rows) in gathered.items():
-        width = int(np.median([len(r) for r in rows]))
-        values = np.full((len(rows), width), np.nan)
-        for i, row in enumerate(rows):
-            if len(row) == width:
-                values[i] = np.where(np.isfinite(row), row, np.nan)
-        order = np.argsort(times, kind="stable")
-        if len(rows) > 1:
-            out[key] = np.array(times)[order], values[order]
-    return out
+    out: dict[str, Any] = {}
+    names = [name for name, series in gathered.items() if len(series.times) > 1]
+    for name in names:
+        out[f"{name}:times"], out[f"{name}:values"] = gathered[name].table()
+    return {"names": np.array(names, dtype=str), **out}
 
 
 def _arrays(message: Any, depth: int) -> Iterator[tuple[str, NDArray[np.float64]]]:
@@ -146,7 +184,7 @@ def _arrays(message: Any, depth: int) -> Iterator[tuple[str, NDArray[np.float64]
     for name in getattr(message, "__dataclass_fields__", {}):
         value = getattr(message, name, None)
         if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
-            if value.size >= _LEAST_CELLS:
+            if _LEAST_CELLS <= value.size <= _MOST_CELLS:
                 yield name, np.asarray(value, dtype=float).reshape(-1)
         elif depth and name not in ("layout", "header") and hasattr(value, "__dataclass_fields__"):
             for inner, array in _arrays(value, depth - 1):
@@ -164,6 +202,6 @@ FORMAT = Format(
     suffixes=(".db3", ".mcap", ".bag", "folder"),
     recognises=_recognises,
     read=read_bag,
-    folders="metadata.yaml",
+    folders=_FOLDERS,
 )
 """The entry of the registry."""

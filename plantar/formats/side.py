@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from plantar.layout import Side
+from plantar.layouts.layout import Side
 
 __all__ = ["side_of"]
 

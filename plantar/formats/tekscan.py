@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain, islice
 from pathlib import Path
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +21,26 @@ from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
-from plantar.pressure_recording import FootRecording, Kind, PressureRecording, layout_for, sampling
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import (
+    FootRecording,
+    Kind,
+    PressureRecording,
+    layout_for,
+    possible_rate,
+    sampling,
+)
 
 __all__ = ["FORMAT"]
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
 _LARGEST_HEADER = 500
-_LARGEST = 2_000_000
+_LARGEST = 200_000
+"""Most cells of a matrix."""
+_MOST_EXTRA = 1000  # lines
+_FIRST = 32
+"""Frames by which the matrix is known where the header does not state it, and a file is given up."""
 _USUAL_PITCH, _USUAL_RATE = 5.08e-3, 100.0
 _THRESHOLD = 1e3
 _WIDEST_FOOT = 0.16
@@ -49,7 +63,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     with open_text(path) as stream:
         lines = iter(stream)
         header, first = _take_header(path, lines)
-        numbers, matrices = _take_frames(path, first, lines, header, warnings)
+        numbers, (rows, columns), table = _take_frames(path, first, lines, header, warnings)
     unit = _unit(path, header, options, warnings)
     pitch = _pitch(header, warnings)
     rate = options.rate_hz or _rate(header, warnings)
@@ -61,11 +75,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     else:
         time = np.arange(len(numbers)) / rate
     time, rate, notes = sampling(time, rate)
-    rows, columns = matrices.shape[1:]
-    present = np.asarray(~np.isnan(matrices).all(axis=0))
+    present = _measuring(table.rows)
     if not present.any():
         raise FormatError(f"{path}: no cell of the matrix holds a number")
-    flat = matrices.reshape(len(matrices), -1)[:, present.ravel()]
+    flat = table.columns(present)
     kind: Kind = "insole"
     if columns * pitch[1] > _WIDEST_FOOT or rows * pitch[0] > _LONGEST_FOOT:
         kind = "platform"
@@ -77,13 +90,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         raise FormatError(f"{path}: the sensor has {flat.shape[1]} cells, layout '{layout.name}' {len(layout)}")
     if layout is None:
         name = f"{header.get('SENSOR_TYPE', 'Tekscan sensor')} of {rows} x {columns}".strip()
-        layout = grid_cells(present, *pitch, side=side or "left", name=name, threshold=_THRESHOLD)
+        layout = grid_cells(
+            present.reshape(rows, columns), *pitch, side=side or "left", name=name, threshold=_THRESHOLD
+        )
         if kind == "insole":
             warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
     if unit.kind == "pressure":
-        flat = flat * (unit.factor * layout.areas)
+        flat *= unit.factor * layout.areas
     elif unit.kind == "force":
-        flat = flat * unit.factor
+        flat *= unit.factor
     foot = FootRecording(side or "left", flat, layout)
     return PressureRecording(
         path=path,
@@ -97,6 +112,14 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         raw=unit.kind == "raw",
         grid=(rows, columns),
     )
+
+
+def _measuring(frames: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which cells hold a number in any frame; looked at in blocks, since a mask of all is as large as the file."""
+    out = np.zeros(frames.shape[1], dtype=bool)
+    for start in range(0, len(frames), 1024):
+        out |= ~np.isnan(frames[start : start + 1024]).all(axis=0)
+    return out
 
 
 def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.Match[str]]:
@@ -119,13 +142,52 @@ def _take_header(path: Path, lines: Iterator[str]) -> tuple[dict[str, str], re.M
 
 def _take_frames(
     path: Path, first: re.Match[str], lines: Iterator[str], header: dict[str, str], warnings: list[str]
-) -> tuple[list[int], NDArray[np.float64]]:
-    """Numbers of the frames and their readings (n, rows, columns); NaN where there is no cell or no number."""
+) -> tuple[list[int], tuple[int, int], FrameTable]:
+    """Numbers of the frames, rows and columns of the matrix, and its readings, a frame a row.
+
+    NaN where there is no cell or no number. One frame is in memory as text at a time.
+    """
+    stated = _stated(header, "ROWS")
+    bodies = _bodies(first, lines, _LARGEST if stated is None else stated)
+    known = list(islice(bodies, 1 if stated else _FIRST))
+    if not known:
+        raise FormatError(f"{path}: the first frame has no end")
+    shape, delimiter = _shape(path, header, stated, [body for _, body in known])
+    usual = sum(len(line) + 1 for _, body in known for line in body) // len(known)
+    table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // max(3 * usual, 1))  # frames may be shorter
     numbers: list[int] = []
-    bodies: list[list[str]] = []
+    odd = 0
+    last_is_cut = False
+    for number_of_frame, body in chain(known, bodies):
+        odd += last_is_cut  # which was not the last one
+        last_is_cut = len(body) != shape[0]
+        values, bad = (None, 0) if last_is_cut else _matrix(body, delimiter, *shape)
+        table.add(np.full((1, shape[0] * shape[1]), np.nan) if values is None else values.reshape(1, -1))
+        numbers.append(number_of_frame)
+        odd += bad > 0
+        if len(table) == _FIRST and odd > 0.5 * _FIRST:  # no use in reading on
+            break
+    if last_is_cut:
+        numbers.pop()
+        table.drop_last()
+        warnings.append("the last frame is cut short: left out")
+    stop = _stated(header, "END_FRAME")
+    if stop is not None and not last_is_cut and numbers[-1] != stop:
+        warnings.append(f"the header announces frames up to {stop}, the file ends with frame {numbers[-1]}")
+    if not len(table) or odd > 0.2 * len(table):
+        raise FormatError(
+            f"{path}: {odd} of {len(table) + last_is_cut} frames are no matrix of {shape[0]} x {shape[1]} numbers"
+        )
+    if odd:
+        warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
+    return numbers, shape, table
+
+
+def _bodies(first: re.Match[str], lines: Iterator[str], most: int) -> Iterator[tuple[int, list[str]]]:
+    """The frames one by one: their numbers and the lines of their matrices. One that has no end ends them."""
     found: re.Match[str] | None = first
     while found is not None:
-        numbers.append(int(found[1]))
+        number_of_frame = int(found[1][-18:])
         body: list[str] = []
         found = None
         for line in lines:
@@ -134,49 +196,40 @@ def _take_frames(
                 break
             if line.strip(" ,;\t\n"):
                 body.append(line.strip())
-        bodies.append(body)
-    rows = _stated(header, "ROWS") or int(np.median([len(b) for b in bodies]))
-    delimiter = next((d for d in ";\t," if bodies[0] and d in bodies[0][0]), None)
-    widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in bodies[0]] or [0]
+                if len(body) > most + _MOST_EXTRA:
+                    return
+        yield number_of_frame, body
+
+
+def _shape(
+    path: Path, header: dict[str, str], rows: int | None, bodies: list[list[str]]
+) -> tuple[tuple[int, int], str | None]:
+    """Rows and columns of the matrix, and the sign between its cells."""
+    first = bodies[0]
+    rows = rows or int(np.median([len(b) for b in bodies]))
+    delimiter = next((d for d in ";\t," if first and d in first[0]), None)
+    widths = [len([c for c in _cells(line, delimiter) if c.strip()]) for line in first] or [0]
     columns = _stated(header, "COLS") or int(np.median(widths))
-    if rows * columns * len(bodies) > 200 * _LARGEST:
-        raise FormatError(f"{path}: {len(bodies)} frames of {rows} x {columns} cells are too many to hold in memory")
     if rows < 1 or columns < 1 or rows * columns > _LARGEST:
-        raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read")
+        raise FormatError(f"{path}: a matrix of {rows} x {columns} cells cannot be read; allowed: up to {_LARGEST}")
     if int(np.median(widths)) != columns:
         raise FormatError(f"{path}: the header states {columns} columns, the rows of the matrix have {max(widths)}")
-    out = np.full((len(bodies), rows, columns), np.nan)
-    odd = cut = 0
-    for i, body in enumerate(bodies):
-        whole = len(body) == rows
-        bad = 0
-        values = _fast(body, delimiter, rows, columns) if whole else None
-        if values is None and whole:
-            values = np.full((rows, columns), np.nan)
-            for r, line in enumerate(body):
-                cells = _cells(line, delimiter)[:columns]
-                blank = ["" if c.strip().upper() == "B" else c for c in cells]
-                row, wrong = row_of_numbers(blank)
-                bad += wrong + (len(cells) != columns)
-                values[r, : len(row)] = row
-        if values is not None:
-            out[i] = values
-            odd += bad > 0
-        elif i == len(bodies) - 1:
-            cut += 1
-        else:
-            odd += 1
-    stop = _stated(header, "END_FRAME")
-    if cut:
-        numbers, out = numbers[:-1], out[:-1]
-        warnings.append("the last frame is cut short: left out")
-    elif stop is not None and numbers[-1] != stop:
-        warnings.append(f"the header announces frames up to {stop}, the file ends with frame {numbers[-1]}")
-    if not len(out) or odd > 0.2 * len(out):
-        raise FormatError(f"{path}: {odd} of {len(bodies)} frames are no matrix of {rows} x {columns} numbers")
-    if odd:
-        warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
-    return numbers, out
+    return (rows, columns), delimiter
+
+
+def _matrix(body: list[str], delimiter: str | None, rows: int, columns: int) -> tuple[NDArray[np.float64], int]:
+    """A whole matrix (rows, columns), and how many of its cells hold what is neither a number nor "B"."""
+    values = _fast(body, delimiter, rows, columns)
+    if values is not None:
+        return values, 0
+    bad = 0
+    values = np.full((rows, columns), np.nan)
+    for r, line in enumerate(body):
+        cells = _cells(line, delimiter)[:columns]
+        row, wrong = row_of_numbers(["" if c.strip().upper() == "B" else c for c in cells])
+        bad += wrong + (len(cells) != columns)
+        values[r, : len(row)] = row
+    return values, bad
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
@@ -192,8 +245,10 @@ def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> ND
         return None
     text = delimiter.join(line.rstrip(f"{delimiter} ") for line in body).replace("B", "nan")
     try:
-        values = np.array(text.split(delimiter), dtype=float)
-    except ValueError:
+        with catch_warnings():
+            simplefilter("error")
+            values = np.fromstring(text, sep=delimiter)
+    except (ValueError, DeprecationWarning):
         return None
     if len(values) != rows * columns or np.isinf(values).any() or (values < -1e9).any():
         return None
@@ -264,13 +319,15 @@ def _pitch(header: dict[str, str], warnings: list[str]) -> tuple[float, float]:
 def _rate(header: dict[str, str], warnings: list[str]) -> float:
     text = header.get("SECONDS_PER_FRAME", "")
     period = number_in(text)
-    if period is not None and period > 0.0:
+    if period is None and text:
+        raise FormatError(f"SECONDS_PER_FRAME {text[:40]!r} is no number (--rate overrides)")
+    if period is not None:
         if number(text) is None:
             warnings.append(f"SECONDS_PER_FRAME {text!r} is not clear: check the rate")
-        return 1.0 / period
+        return possible_rate(1.0 / period if period else np.inf, f"SECONDS_PER_FRAME {text[:40]!r} means")
     rate = number_in(header.get("FREQUENCY", header.get("FRAMES_PER_SECOND", "")))
-    if rate is not None and rate > 0.0:
-        return rate
+    if rate is not None:
+        return possible_rate(rate, "the header states")
     warnings.append(f"the header states no SECONDS_PER_FRAME: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
     return _USUAL_RATE
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TextIO
 
@@ -11,30 +12,80 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.input_file import open_input
 
-__all__ = ["encoding_of", "number", "number_in", "open_text", "row_of_numbers", "seconds_of_clock"]
+__all__ = ["blocks_of_lines", "encoding_of", "number", "number_in", "open_text", "row_of_numbers", "seconds_of_clock"]
 
+_LONGEST_LINE = 1_000_000
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
-def open_text(path: Path) -> TextIO:
-    """A text file opened for reading line by line, its encoding found from its beginning, its line ends made one.
+def open_text(path: Path, encoding: str | None = None, longest: int = _LONGEST_LINE) -> TextIO:
+    """A text file opened for reading line by line, its line ends made one.
 
     Args:
         path: The file.
+        encoding: Its encoding; found from its beginning where None.
+        longest: Longest line in bytes that is read; a longer one is an error where it is met.
 
     Returns:
         The open stream.
 
     Raises:
-        FormatError: If the file cannot be read.
+        FormatError: If the file cannot be read, or is no regular one.
     """
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(1 << 20)
-        return path.open(encoding=encoding_of(head), errors="replace", newline=None)
-    except OSError as error:
-        raise FormatError(f"{path}: cannot be read ({error.strerror})") from None
+    stream = open_input(path, FormatError)
+    if encoding is None:
+        encoding = encoding_of(stream.read(1 << 20))
+        stream.seek(0)
+    lines = _Lines(stream.detach(), longest, str(path))  # type: ignore[attr-defined]
+    return io.TextIOWrapper(lines, encoding=encoding, errors="replace", newline=None)
+
+
+class _Lines(io.BufferedReader):
+    """The bytes of a text whose lines have an end: one that has none would be taken into memory as a whole."""
+
+    def __init__(self, stream: io.RawIOBase, longest: int, where: str) -> None:
+        super().__init__(stream, 1 << 17)
+        self._longest = longest
+        self._where = where
+        self._without_end = 0
+
+    def read1(self, size: int = -1, /) -> bytes:
+        """Some bytes, as the text layer asks for them."""
+        data = super().read1(size)
+        end = max(data.rfind(b"\n"), data.rfind(b"\r"))
+        self._without_end = len(data) - 1 - end + (self._without_end if end < 0 else 0)
+        if self._without_end > self._longest:
+            raise FormatError(f"{self._where}: a line is longer than {self._longest / 1e6:g} MB: not a text of lines")
+        return data
+
+
+def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16_000_000) -> Iterator[list[str]]:
+    """Lines in blocks that are small whatever the lines are.
+
+    Args:
+        lines: The lines; more can be taken from them where the blocks were left.
+        most: Most lines a block.
+        characters: Characters from which a block ends sooner.
+
+    Yields:
+        The blocks, one line or more each.
+
+    Example:
+        >>> [len(block) for block in blocks_of_lines(iter(["ab", "c", "d", "e"]), most=3, characters=2)]
+        [1, 2, 1]
+    """
+    block: list[str] = []
+    size = 0
+    for line in lines:
+        block.append(line)
+        size += len(line)
+        if len(block) == most or size >= characters:
+            yield block
+            block, size = [], 0
+    if block:
+        yield block
 
 
 def encoding_of(head: bytes) -> str:

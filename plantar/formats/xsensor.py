@@ -21,13 +21,16 @@ from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.layouts.layout import Side
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 
 __all__ = ["FORMAT"]
 
 _USUAL_SIZE, _USUAL_RATE = 0.0086, 100.0
 _LARGEST = 100_000
+"""Most cells of a matrix, and rows and columns that are believed."""
+_MOST_SENSORS, _MOST_FACTS, _MOST_EMPTY, _LONGEST_NAME = 100, 1000, 1000, 200
 _THRESHOLD = 1e3
 _KEYWORDS = ("FRAME", "SENSOR", "GROUP", "SENSELS", "DATE", "TIME")
 _ENOUGH = 50.0
@@ -41,16 +44,42 @@ def _recognises(head: bytes) -> bool:
 
 @dataclass
 class _Sensor:
-    """One insole over all frames."""
+    """One insole over all frames: the numbers of those that hold a whole matrix of it, and the matrices as rows."""
 
     name: str
     rows: int = 0
     columns: int = 0
     frames: list[int] = field(default_factory=list)
-    values: list[NDArray[np.float64]] = field(default_factory=list)
+    values: FrameTable = field(default_factory=lambda: FrameTable(0, 0))
     load: list[float] = field(default_factory=list)
     contact: list[float] = field(default_factory=list)
     damaged: int = 0
+
+    def add(self, frame: int, rows: list[NDArray[np.float64]], file_size: int) -> None:
+        """Take the matrix of a frame if it is whole and of the sensor's shape; the first one says what that is."""
+        stated = self.rows or len(rows)
+        widths = {len(r) for r in rows}
+        if len(rows) != stated or len(widths) != 1 or stated * len(rows[0]) > _LARGEST:
+            return
+        if not self.frames:
+            self.rows, self.columns = stated, len(rows[0])
+            self.values = FrameTable(self.rows * self.columns, file_size // (2 * self.rows * self.columns))
+        if widths == {self.columns} and self.frames[-1:] != [frame]:
+            self.frames.append(frame)
+            self.values.add(np.concatenate(rows)[None])
+
+    def of_frames(self, count: int) -> NDArray[np.float64]:
+        """The matrices (count, cells) of the first frames; NaN where one is missing."""
+        if self.frames == list(range(len(self.frames))) and len(self.frames) >= count:
+            return self.values.rows[:count]
+        if count > _MOST_EMPTY + 5 * len(self.frames):
+            raise FormatError(
+                f"{len(self.frames)} of {count} frames hold a matrix of {self.name!r}; the file is damaged"
+            )
+        out = np.full((count, self.rows * self.columns), np.nan)
+        there = np.array(self.frames) < count
+        out[np.array(self.frames)[there]] = self.values.rows[there]
+        return out
 
 
 @dataclass
@@ -69,10 +98,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         FormatError: If the file holds no whole matrix, or states a unit that is not known.
     """
     with open_text(path) as stream:
-        scan = _scan(stream)
+        scan = _scan(stream, path.stat().st_size)
     warnings: list[str] = []
     frames = len(scan.clock)
-    sensors = {name: s for name, s in scan.sensors.items() if s.values}
+    sensors = {name: s for name, s in scan.sensors.items() if s.frames}
     if not frames or not sensors:
         raise FormatError(f"{path}: the file holds no frame with a matrix of SENSELS")
     last = max(s.frames[-1] for s in sensors.values())
@@ -87,10 +116,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     grid = None
     for side, sensor in _sides(path, sensors, options, warnings):
         shape = sensor.rows, sensor.columns
-        values = np.full((frames, shape[0] * shape[1]), np.nan)
-        for i, matrix in zip(sensor.frames, sensor.values, strict=True):
-            if i < frames and matrix.shape == shape:
-                values[i] = matrix.ravel()
+        values = sensor.of_frames(frames)
         lost = int(np.isnan(values).all(axis=1).sum())
         if lost:
             warnings.append(f"{lost} frame(s) of the {side} insole are missing: they count as not measured")
@@ -122,7 +148,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _scan(stream: TextIO) -> _Scan:
+def _scan(stream: TextIO, file_size: int) -> _Scan:
     scan = _Scan()
     sensor: _Sensor | None = None
     rows: list[NDArray[np.float64]] | None = None
@@ -130,17 +156,14 @@ def _scan(stream: TextIO) -> _Scan:
 
     def finish() -> None:
         nonlocal rows
-        if rows is not None and sensor is not None and rows and len(scan.clock):
-            stated = sensor.rows or len(rows)
-            if len(rows) == stated and len({len(r) for r in rows}) == 1 and stated * len(rows[0]) <= _LARGEST:
-                sensor.rows, sensor.columns = stated, sensor.columns or len(rows[0])
-                if not sensor.frames or sensor.frames[-1] != len(scan.clock) - 1:
-                    sensor.frames.append(len(scan.clock) - 1)
-                    sensor.values.append(np.array(rows))
+        if rows and sensor is not None and len(scan.clock):
+            sensor.add(len(scan.clock) - 1, rows, file_size)
         rows = None
 
     for line in stream:
         if rows is not None and sensor is not None and _is_row(line, len(rows), sensor.rows):
+            if len(rows) > (sensor.rows or _LARGEST // max(1, len(rows[0]) if rows else 1)):
+                continue  # a matrix of too many rows is never taken
             row = _row(line, delimiter, sensor.columns)
             if row is None:
                 sensor.damaged += 1
@@ -159,6 +182,8 @@ def _scan(stream: TextIO) -> _Scan:
             finish()
             sensor = None
             scan.clock.append(None)
+            if len(scan.clock) > _MOST_EMPTY + 5 * max((len(s.frames) for s in scan.sensors.values()), default=0):
+                raise FormatError(f"fewer than one in five of {len(scan.clock)} frames hold a matrix of SENSELS")
         elif word == "GROUP":
             finish()
             sensor = None
@@ -166,13 +191,15 @@ def _scan(stream: TextIO) -> _Scan:
             scan.clock[-1] = seconds_of_clock(value)
         elif word == "SENSOR":
             finish()
-            sensor = scan.sensors.setdefault(value, _Sensor(value))
+            sensor = scan.sensors.setdefault(value[:_LONGEST_NAME], _Sensor(value[:_LONGEST_NAME]))
+            if len(scan.sensors) > _MOST_SENSORS:
+                raise FormatError(f"more than {_MOST_SENSORS} sensors; one or two feet can be read")
             sensor.load.append(np.nan)
             sensor.contact.append(np.nan)
         elif word == "SENSELS":
             rows = [] if sensor is not None else None
         elif sensor is None:
-            scan.facts.setdefault(key.lower(), value)
+            _keep(scan.facts, key, value)
         else:
             _take_fact(scan.facts, sensor, key, value)
     finish()
@@ -202,7 +229,13 @@ def _take_fact(facts: dict[str, str], sensor: _Sensor, key: str, value: str) -> 
     elif low.startswith("contact area") and figure is not None:
         sensor.contact[-1] = figure * (1e-4 if "cm" in low else 1e-6 if "mm" in low else np.nan)
     elif low.startswith(("sensel", "average pressure")):
-        facts.setdefault(low if low.startswith("sensel") else "average pressure", f"{value} {key}")
+        _keep(facts, low if low.startswith("sensel") else "average pressure", f"{value} {key}")
+
+
+def _keep(facts: dict[str, str], key: str, value: str) -> None:
+    """Keep the first value of a key; of a damaged file with no end of keys only so many."""
+    if len(facts) < _MOST_FACTS:
+        facts.setdefault(key[:_LONGEST_NAME].lower(), value[:_LONGEST_NAME])
 
 
 def _row(line: str, delimiter: str, columns: int) -> NDArray[np.float64] | None:
@@ -301,7 +334,7 @@ def _cell(
     contact = np.array([c for c, load in zip(sensor.contact, sensor.load, strict=True) if load > _ENOUGH])
     loaded = [
         int((m > 0.0).sum())
-        for m, load in zip(sensor.values, sensor.load[: len(sensor.values)], strict=False)
+        for m, load in zip(sensor.values.rows, sensor.load[: len(sensor.values)], strict=False)
         if load > _ENOUGH
     ]
     n = min(len(contact), len(loaded))
@@ -321,7 +354,7 @@ def _check_load(
     sensor: _Sensor, values: NDArray[np.float64], factor: float, frames: int, side: Side, warnings: list[str]
 ) -> None:
     """The stated load tells a wrong unit or cell size."""
-    sums = np.array([np.nansum(m) * factor for m in sensor.values])
+    sums = np.array([np.nansum(m) * factor for m in sensor.values.rows])
     load = np.array(sensor.load[: len(sums)])
     known = (load > _ENOUGH) & (sums > 0.0) if len(load) == len(sums) else np.zeros(0, dtype=bool)
     if known.any():

@@ -10,7 +10,7 @@ import numpy as np
 from plantar import PlantarError
 from plantar.formats import read_recording
 from plantar.formats.format import ReadOptions
-from plantar.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import PressureRecording
 
 
 def survive_corruption(
@@ -52,6 +52,9 @@ def survive_corruption(
             recording = read_recording(path, options=options)
         except PlantarError as error:
             lines.append(str(error))
+            unexpected = error.__cause__
+            if unexpected is not None:
+                raise AssertionError(f"trial {trial}: the reader did not expect {unexpected!r}") from unexpected
             continue
         read += 1
         assert np.isfinite(recording.time).all()

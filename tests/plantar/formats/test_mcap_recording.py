@@ -9,8 +9,8 @@ import pytest
 
 from plantar import FormatError, hex_layout, mirrored
 from plantar.formats import read_recording
-from plantar.layout import SoleLayout
-from plantar.recorder import Recorder
+from plantar.layouts.layout import SoleLayout
+from plantar.recordings.recorder import Recorder
 
 
 @pytest.fixture

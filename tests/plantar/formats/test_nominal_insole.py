@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from plantar.formats.nominal_insole import CELL_AREA, ROWS, nominal_insole
-from plantar.polygon import signed_margin
+from plantar.geometry.polygon import signed_margin
 
 
 @pytest.mark.parametrize("size", sorted(CELL_AREA))

@@ -11,7 +11,7 @@ import pytest
 from plantar import FormatError, InputError, SoleLayout, hex_layout, write_layout
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
-from plantar.layout_file import layout_to_dict
+from plantar.layouts.layout_file import layout_to_dict
 
 from .corruption import survive_corruption
 
@@ -214,8 +214,8 @@ def test_arrays(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
 def test_a_plantar_recording_survives_the_way_over_npz_and_csv(
     tmp_path: Path, layout: SoleLayout, values: np.ndarray
 ) -> None:
-    from plantar.recorder import Recorder
-    from plantar.recording import read_mcap
+    from plantar.recordings.recorder import Recorder
+    from plantar.recordings.recording import read_mcap
 
     with Recorder(tmp_path / "run.mcap", {}, {"left": layout}) as recorder:
         channel = recorder.channel("/skin/left", [("force", len(layout))])
