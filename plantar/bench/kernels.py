@@ -8,12 +8,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import enclosing, inscribed, polygon
 from plantar.bench import references as exact
 from plantar.bench import rivals
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.bench.soles import Contact, contacts
-from plantar.outline import Outline, concave_outline
+from plantar.geometry import enclosing, inscribed, polygon
+from plantar.geometry.outline import Outline, concave_outline
 
 __all__ = ["OFFSET", "compare_shapes"]
 

@@ -9,19 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import batch, polygon
 from plantar.bench import references as exact
 from plantar.bench.comparison import Reference, Result, Route, compare
 from plantar.bench.kernels import OFFSET
 from plantar.bench.rivals import Corners, hull_shapely
 from plantar.bench.soles import contacts, sole_of
-from plantar.feet import FeetPercept
-from plantar.foot_tick import walking_tick
+from plantar.geometry import polygon
 from plantar.kernels import is_compiled, python_form
-from plantar.layout import SoleLayout
-from plantar.percept import Percept
-from plantar.reading import Reading
-from plantar.sole_pose import SolePose
+from plantar.layouts.layout import SoleLayout
+from plantar.percepts import batch
+from plantar.percepts.feet import FeetPercept
+from plantar.percepts.foot_tick import walking_tick
+from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose
+from plantar.sensing.reading import Reading
 
 __all__ = ["FRAMES", "TAXELS", "compare_forms", "compare_percepts", "compare_recordings"]
 
@@ -258,6 +259,7 @@ def compare_recordings(frames: int = FRAMES, rounds: int = 5) -> Iterator[tuple[
     level = layout.force_threshold
     routes = [
         Route("plantar", lambda f: batch.wrenches(layout, f, out=out), [force], _few, ours=True),
+        Route("plantar, with area and CoP", lambda f: batch.loads(layout, f).wrench, [force], _few, ours=True),
         Route("np.where @", lambda f: np.where(f > level, f, 0.0) @ back, [force], _few),
         Route("BLAS, no threshold", lambda f: f @ back, [force], _few, approximate=True),
         Route("copy of the forces", lambda f: np.copyto(target, f), [force]),

@@ -126,6 +126,9 @@ def targets(results: Sequence[Result]) -> list[Target]:
         out.append(
             Target("wrench of a recording, of the copy bandwidth", 40.0, 100.0 * share, "%", True, "100000 x 102")
         )
+    for r in _of(results, "wrench of a recording", "plantar, with area and CoP"):
+        text = "wrench, area and CoP of a recording against its wrench alone"
+        out.append(Target(text, 2.5, r.ratio, "times", False, r.size))
     ours = [r for r in results if r.ours and r.error is not None]
     for text, bound, kept in (
         (

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 
 __all__ = [
     "Corners",

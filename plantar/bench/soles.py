@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.hex_lattice import HexLattice
-from plantar.layout import SoleLayout, mirrored
-from plantar.tiling import hex_layout
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.layouts.layout import SoleLayout, mirrored
+from plantar.layouts.tiling import hex_layout
 
 __all__ = ["SIZES", "Contact", "contacts", "foot_outline", "sole_of"]
 

@@ -92,10 +92,12 @@ def test_targets_take_the_worst_size_and_say_whether_they_are_met():
 def test_the_share_of_the_copy_bandwidth_counts_what_is_read_and_written():
     found = [
         result("wrench of a recording", "plantar", 10.0, 1.0),
+        result("wrench of a recording", "plantar, with area and CoP", 30.0, 3.0),
         result("wrench of a recording", "copy of the forces", 8.0, 0.8, None),
     ]
     assert copy_share(found) == pytest.approx((102 + 6) / (2 * 102) * 0.8)
     assert copy_share(found[:1]) is None
+    assert [(t.figure, t.met) for t in targets(found) if "CoP" in t.what] == [(3.0, False)]
 
 
 def test_the_report_holds_every_result(tmp_path):

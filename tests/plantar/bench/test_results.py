@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plantar.bench.results import differing, not_finite, numbers
-from plantar.outline import Outline
+from plantar.geometry.outline import Outline
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 

@@ -8,15 +8,19 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import activation, batch, force, health, pressure_wrench, sole_pose, zmp
 from plantar.bench import references as exact
 from plantar.bench.results import differing, not_finite
-from plantar.bench.stress_soles import Block, unit_wrenches
-from plantar.bench.tally import Tally
-from plantar.feet import FeetPercept
-from plantar.foot_tick import walking_tick
-from plantar.percept import Percept
-from plantar.sole_pose import SolePose
+from plantar.bench.stress.soles import Block, unit_wrenches
+from plantar.bench.stress.tally import Tally
+from plantar.mechanics import zmp
+from plantar.mechanics.lip import divergent_component
+from plantar.mechanics.wrench import wrench_at
+from plantar.percepts import batch, sole_pose
+from plantar.percepts.feet import FeetPercept
+from plantar.percepts.foot_tick import walking_tick
+from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose
+from plantar.sensing import activation, force, health, pressure_wrench
 
 __all__ = ["FORCE_CHECKS", "LAST_CHECKS"]
 
@@ -210,12 +214,12 @@ def _balance_points(block: Block, tally: Tally) -> None:
     size = np.abs(wrenches).max(axis=1, keepdims=True) + 1e-300
     moments = np.where(loaded[:, None], np.abs(back - wrenches) / size, 0.0).max(axis=1)
     tally.add("Percept.zero_moment_wrench_in_sole", block, moments, 1e-12)
-    there = force.wrench_at(force.wrench_at(wrenches, at), -at)
+    there = wrench_at(wrench_at(wrenches, at), -at)
     far = size * (1.0 + float(np.abs(at).max()))
     tally.add("wrench_at: there and back", block, _error(there, wrenches, far), 1e-14)
     points = [zmp.zmp_in_plane(w, float(at[2])) for w in wrenches]
     tally.add("zmp_in_plane", block, not_finite(points))
-    flat_points = [force.zmp_of_wrench(w) for w in wrenches]
+    flat_points = [zmp.zmp_of_wrench(w) for w in wrenches]
     tally.add("zmp_of_wrench", block, not_finite(flat_points))
     pressed = np.array([p.pressure_driven_wrench_in_sole for p in percepts])
     area = np.array([p.contact_area for p in percepts])[:, None]
@@ -256,9 +260,9 @@ def _balance_points(block: Block, tally: Tally) -> None:
     com = at + np.array([0.0, 0.0, 0.8])
     pivot = [zmp.centroidal_moment_pivot(w, com, float(at[2])) for w in world]
     tally.add("centroidal_moment_pivot", block, not_finite(pivot))
-    dcm = zmp.divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
+    dcm = divergent_component(np.broadcast_to(com, (len(block), 3)), world[:, :3] * 0.0 + 0.5, 3.5)
     tally.add("divergent_component", block, np.abs(dcm - com - 0.5 / 3.5).max(axis=1) / float(np.abs(com).max()), 1e-15)
-    composite = [force.zmp_of_feet([c, c], [1.0, 2.0]) for c in cops]
+    composite = [zmp.zmp_of_feet([c, c], [1.0, 2.0]) for c in cops]
     there_is = np.array([a is not None and b is not None for a, b in zip(composite, cops, strict=True)])
     found = np.array([np.zeros(2) if c is None else c for c in composite])
     off = np.where(there_is, np.abs(found - place[:, :2]).max(axis=1), 0.0)

@@ -8,15 +8,15 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import enclosing, inscribed, polygon
 from plantar.bench import references as exact
 from plantar.bench.results import not_finite
 from plantar.bench.rings import Rings
-from plantar.bench.stress_soles import Block
-from plantar.bench.tally import Tally
-from plantar.contact_rectangle import safe_rectangle
-from plantar.outline import Outline, concave_outline, feet_outline
-from plantar.support import feet_support_polygon
+from plantar.bench.stress.soles import Block
+from plantar.bench.stress.tally import Tally
+from plantar.geometry import enclosing, inscribed, polygon
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.geometry.outline import Outline, concave_outline, feet_outline
+from plantar.percepts.support import feet_support_polygon
 
 __all__ = ["SHAPE_CHECKS"]
 

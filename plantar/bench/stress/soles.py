@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from plantar.bench.rings import Rings
 from plantar.bench.soles import foot_outline, sole_of
-from plantar.cell_layout import joined_layout, layout_of_cells
-from plantar.curved_sole import laid_over
-from plantar.hex_lattice import HexLattice
-from plantar.layout import SoleLayout, mirrored
-from plantar.percept import Percept
-from plantar.reading import Reading
-from plantar.sole_pose import SolePose
-from plantar.tiling import grid_layout, hex_layout
+from plantar.layouts.cell_layout import joined_layout, layout_of_cells
+from plantar.layouts.curved_sole import laid_over
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.layouts.layout import SoleLayout, mirrored
+from plantar.layouts.tiling import grid_layout, hex_layout
+from plantar.percepts.percept import Percept
+from plantar.percepts.sole_pose import SolePose
+from plantar.sensing.reading import Reading
 
 __all__ = ["Block", "blocks_of", "stress_soles", "unit_wrenches"]
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from plantar.bench.stress_soles import Block
+from plantar.bench.stress.soles import Block
 
 __all__ = ["Tally", "Tested"]
 

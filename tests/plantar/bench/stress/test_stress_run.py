@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar import polygon
 from plantar.bench.rings import Rings
-from plantar.bench.stress import stress
-from plantar.bench.stress_soles import blocks_of, stress_soles
+from plantar.bench.stress.soles import blocks_of, stress_soles
+from plantar.bench.stress.stress_run import stress
 from plantar.errors import InputError
+from plantar.geometry import polygon
 
 
 def test_a_short_run_sees_no_failure():

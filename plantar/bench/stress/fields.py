@@ -7,11 +7,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar import body_skin, ground_plane, proximity, temperature, virtual_wrench
 from plantar.bench.results import differing
 from plantar.bench.rings import Rings
-from plantar.bench.stress_soles import Block
-from plantar.bench.tally import Tally
+from plantar.bench.stress.soles import Block
+from plantar.bench.stress.tally import Tally
+from plantar.sensing import body_skin, ground_plane, proximity, temperature, virtual_wrench
 
 __all__ = ["FIELD_CHECKS"]
 
@@ -150,9 +150,9 @@ def _skin(block: Block, tally: Tally) -> None:
     layout = block.layout
     felt = np.clip(block.force, -1e12, 1e12)
     active = body_skin.active_cells(felt, block.proximity, 1.0, 0.02)
-    one = np.where(np.isfinite(felt), felt, 0.0)
-    two = np.where(np.isfinite(block.proximity), block.proximity, 0.0)
-    wanted = (np.isfinite(felt) & (one > 1.0)) | (np.isfinite(block.proximity) & (two > 0.02))
+    alive = [np.abs(values) <= 1e100 for values in (felt, block.proximity)]  # 1e300 is no signal either
+    one, two = (np.where(is_alive, v, 0.0) for is_alive, v in zip(alive, (felt, block.proximity), strict=True))
+    wanted = (alive[0] & (one > 1.0)) | (alive[1] & (two > 0.02))
     tally.add("active_cells", block, (active != wanted).any(axis=1))
     pseudo = body_skin.pseudo_force(felt, block.proximity, 2.0, 0.5, active)
     right = np.where(wanted, 2.0 * one + 0.5 * two, 0.0)

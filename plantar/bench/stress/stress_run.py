@@ -8,11 +8,11 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from plantar.bench.stress_fields import FIELD_CHECKS
-from plantar.bench.stress_force import FORCE_CHECKS, LAST_CHECKS
-from plantar.bench.stress_shapes import SHAPE_CHECKS
-from plantar.bench.stress_soles import blocks_of, stress_soles
-from plantar.bench.tally import Tally, Tested
+from plantar.bench.stress.fields import FIELD_CHECKS
+from plantar.bench.stress.force import FORCE_CHECKS, LAST_CHECKS
+from plantar.bench.stress.shapes import SHAPE_CHECKS
+from plantar.bench.stress.soles import blocks_of, stress_soles
+from plantar.bench.stress.tally import Tally, Tested
 from plantar.errors import InputError
 
 __all__ = ["StressResult", "stress"]

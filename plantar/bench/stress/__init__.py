@@ -1,0 +1,1 @@
+"""The stress run: odd readings for every function of the perception."""
