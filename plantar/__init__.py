@@ -13,12 +13,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plantar.activation import TaxelActivation, active_taxels, hysteresis
-    from plantar.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
-    from plantar.cell_layout import joined_layout, layout_of_cells
-    from plantar.contact_rectangle import safe_rectangle
-    from plantar.curved_sole import laid_over
-    from plantar.enclosing import bounding_box, enclosing_parallelogram, oriented_box
     from plantar.errors import (
         DependencyError,
         FootError,
@@ -31,13 +25,10 @@ if TYPE_CHECKING:
         RobotError,
         SceneError,
     )
-    from plantar.feet import FeetPercept
-    from plantar.foot_tick import FootTick, walking_tick
-    from plantar.force import center_of_pressure, ground_reaction_wrench, wrench_at, zmp_of_feet, zmp_of_wrench
-    from plantar.ground_plane import GroundPlane, fit_ground_plane, ground_points
-    from plantar.health import StuckMonitor, TaxelHealth, fill_from_neighbours, stuck_taxels
-    from plantar.hex_lattice import HexLattice
-    from plantar.inscribed import (
+    from plantar.geometry import polygon
+    from plantar.geometry.contact_rectangle import safe_rectangle
+    from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
+    from plantar.geometry.inscribed import (
         Circle,
         inscribed_circle,
         inscribed_parallelogram,
@@ -47,19 +38,49 @@ if TYPE_CHECKING:
         rectangle_in_outline,
         rectangle_in_outline_any_angle,
     )
-    from plantar.layout import SoleLayout, mirrored
-    from plantar.layout_file import read_layout, write_layout
-    from plantar.outline import Outline, concave_outline, feet_outline
-    from plantar.percept import Percept
-    from plantar.pressure_wrench import joint_torque, pressure_driven_wrench
-    from plantar.proximity import HeightContour, height_contours, near_taxels, preemptive_polygon, proximity_measure
-    from plantar.reading import Reading
-    from plantar.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
-    from plantar.support import feet_support_polygon
-    from plantar.temperature import temperature_footprint, temperature_wrench
-    from plantar.tiling import grid_layout, hex_layout
-    from plantar.virtual_wrench import SoleWrenchSwitch, early_stop, sole_wrenches, virtual_ground_reaction_wrench
-    from plantar.zmp import centroidal_moment_pivot, divergent_component, zero_moment_wrench, zmp_in_plane
+    from plantar.geometry.outline import Outline, concave_outline, feet_outline
+    from plantar.layouts.cell_layout import joined_layout, layout_of_cells
+    from plantar.layouts.curved_sole import laid_over
+    from plantar.layouts.hex_lattice import HexLattice
+    from plantar.layouts.layout import SoleLayout, mirrored
+    from plantar.layouts.layout_file import read_layout, write_layout
+    from plantar.layouts.tiling import grid_layout, hex_layout
+    from plantar.mechanics.lip import divergent_component
+    from plantar.mechanics.wrench import wrench_at
+    from plantar.mechanics.zmp import (
+        centroidal_moment_pivot,
+        zero_moment_wrench,
+        zmp_in_plane,
+        zmp_of_feet,
+        zmp_of_wrench,
+    )
+    from plantar.percepts import batch
+    from plantar.percepts.feet import FeetPercept
+    from plantar.percepts.foot_tick import FootTick, walking_tick
+    from plantar.percepts.percept import Percept
+    from plantar.percepts.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
+    from plantar.percepts.support import feet_support_polygon
+    from plantar.sensing.activation import TaxelActivation, active_taxels, hysteresis
+    from plantar.sensing.body_skin import active_cells, patch_signal, pseudo_force, skin_wrench
+    from plantar.sensing.force import center_of_pressure, ground_reaction_wrench
+    from plantar.sensing.ground_plane import GroundPlane, fit_ground_plane, ground_points
+    from plantar.sensing.health import StuckMonitor, TaxelHealth, fill_from_neighbours, stuck_taxels
+    from plantar.sensing.pressure_wrench import joint_torque, pressure_driven_wrench
+    from plantar.sensing.proximity import (
+        HeightContour,
+        height_contours,
+        near_taxels,
+        preemptive_polygon,
+        proximity_measure,
+    )
+    from plantar.sensing.reading import Reading
+    from plantar.sensing.temperature import temperature_footprint, temperature_wrench
+    from plantar.sensing.virtual_wrench import (
+        SoleWrenchSwitch,
+        early_stop,
+        sole_wrenches,
+        virtual_ground_reaction_wrench,
+    )
 
 __version__ = "0.1.0"
 
@@ -92,6 +113,7 @@ __all__ = [
     "__version__",
     "active_cells",
     "active_taxels",
+    "batch",
     "bounding_box",
     "center_of_pressure",
     "centroidal_moment_pivot",
@@ -122,6 +144,7 @@ __all__ = [
     "near_taxels",
     "oriented_box",
     "patch_signal",
+    "polygon",
     "preemptive_polygon",
     "pressure_driven_wrench",
     "proximity_measure",
@@ -149,76 +172,78 @@ __all__ = [
 
 # Module of each name above that is not an error.
 _MODULE_OF_NAME = {
-    "Circle": "inscribed",
-    "FeetPercept": "feet",
-    "FootTick": "foot_tick",
-    "GroundPlane": "ground_plane",
-    "HeightContour": "proximity",
-    "HexLattice": "hex_lattice",
-    "Outline": "outline",
-    "Percept": "percept",
-    "Reading": "reading",
-    "SoleLayout": "layout",
-    "SolePose": "sole_pose",
-    "SoleWrenchSwitch": "virtual_wrench",
-    "StuckMonitor": "health",
-    "TaxelActivation": "activation",
-    "TaxelHealth": "health",
-    "active_cells": "body_skin",
-    "active_taxels": "activation",
-    "bounding_box": "enclosing",
-    "center_of_pressure": "force",
-    "centroidal_moment_pivot": "zmp",
-    "concave_outline": "outline",
-    "divergent_component": "zmp",
-    "early_stop": "virtual_wrench",
-    "enclosing_parallelogram": "enclosing",
-    "feet_outline": "outline",
-    "feet_support_polygon": "support",
-    "fill_from_neighbours": "health",
-    "fit_ground_plane": "ground_plane",
-    "grid_layout": "tiling",
-    "ground_points": "ground_plane",
-    "ground_reaction_wrench": "force",
-    "height_contours": "proximity",
-    "hex_layout": "tiling",
-    "hysteresis": "activation",
-    "inscribed_circle": "inscribed",
-    "inscribed_parallelogram": "inscribed",
-    "inscribed_rectangle": "inscribed",
-    "inscribed_rectangle_any_angle": "inscribed",
-    "inscribed_triangle": "inscribed",
-    "joined_layout": "cell_layout",
-    "joint_torque": "pressure_wrench",
-    "laid_over": "curved_sole",
-    "layout_of_cells": "cell_layout",
-    "mirrored": "layout",
-    "near_taxels": "proximity",
-    "oriented_box": "enclosing",
-    "patch_signal": "body_skin",
-    "preemptive_polygon": "proximity",
-    "pressure_driven_wrench": "pressure_wrench",
-    "proximity_measure": "proximity",
-    "pseudo_force": "body_skin",
-    "read_layout": "layout_file",
-    "rectangle_in_outline": "inscribed",
-    "rectangle_in_outline_any_angle": "inscribed",
-    "safe_rectangle": "contact_rectangle",
-    "skin_wrench": "body_skin",
-    "sole_wrenches": "virtual_wrench",
-    "stuck_taxels": "health",
-    "temperature_footprint": "temperature",
-    "temperature_wrench": "temperature",
-    "virtual_ground_reaction_wrench": "virtual_wrench",
-    "walking_tick": "foot_tick",
-    "wrench_at": "force",
-    "wrench_of_feet": "sole_pose",
-    "write_layout": "layout_file",
-    "zero_moment_wrench": "zmp",
-    "zmp_in_plane": "zmp",
-    "zmp_of_feet": "force",
-    "zmp_of_soles": "sole_pose",
-    "zmp_of_wrench": "force",
+    "Circle": "geometry.inscribed",
+    "FeetPercept": "percepts.feet",
+    "FootTick": "percepts.foot_tick",
+    "GroundPlane": "sensing.ground_plane",
+    "HeightContour": "sensing.proximity",
+    "HexLattice": "layouts.hex_lattice",
+    "Outline": "geometry.outline",
+    "Percept": "percepts.percept",
+    "Reading": "sensing.reading",
+    "SoleLayout": "layouts.layout",
+    "SolePose": "percepts.sole_pose",
+    "SoleWrenchSwitch": "sensing.virtual_wrench",
+    "StuckMonitor": "sensing.health",
+    "TaxelActivation": "sensing.activation",
+    "TaxelHealth": "sensing.health",
+    "active_cells": "sensing.body_skin",
+    "active_taxels": "sensing.activation",
+    "batch": "percepts",
+    "bounding_box": "geometry.enclosing",
+    "center_of_pressure": "sensing.force",
+    "centroidal_moment_pivot": "mechanics.zmp",
+    "concave_outline": "geometry.outline",
+    "divergent_component": "mechanics.lip",
+    "early_stop": "sensing.virtual_wrench",
+    "enclosing_parallelogram": "geometry.enclosing",
+    "feet_outline": "geometry.outline",
+    "feet_support_polygon": "percepts.support",
+    "fill_from_neighbours": "sensing.health",
+    "fit_ground_plane": "sensing.ground_plane",
+    "grid_layout": "layouts.tiling",
+    "ground_points": "sensing.ground_plane",
+    "ground_reaction_wrench": "sensing.force",
+    "height_contours": "sensing.proximity",
+    "hex_layout": "layouts.tiling",
+    "hysteresis": "sensing.activation",
+    "inscribed_circle": "geometry.inscribed",
+    "inscribed_parallelogram": "geometry.inscribed",
+    "inscribed_rectangle": "geometry.inscribed",
+    "inscribed_rectangle_any_angle": "geometry.inscribed",
+    "inscribed_triangle": "geometry.inscribed",
+    "joined_layout": "layouts.cell_layout",
+    "joint_torque": "sensing.pressure_wrench",
+    "laid_over": "layouts.curved_sole",
+    "layout_of_cells": "layouts.cell_layout",
+    "mirrored": "layouts.layout",
+    "near_taxels": "sensing.proximity",
+    "oriented_box": "geometry.enclosing",
+    "patch_signal": "sensing.body_skin",
+    "polygon": "geometry",
+    "preemptive_polygon": "sensing.proximity",
+    "pressure_driven_wrench": "sensing.pressure_wrench",
+    "proximity_measure": "sensing.proximity",
+    "pseudo_force": "sensing.body_skin",
+    "read_layout": "layouts.layout_file",
+    "rectangle_in_outline": "geometry.inscribed",
+    "rectangle_in_outline_any_angle": "geometry.inscribed",
+    "safe_rectangle": "geometry.contact_rectangle",
+    "skin_wrench": "sensing.body_skin",
+    "sole_wrenches": "sensing.virtual_wrench",
+    "stuck_taxels": "sensing.health",
+    "temperature_footprint": "sensing.temperature",
+    "temperature_wrench": "sensing.temperature",
+    "virtual_ground_reaction_wrench": "sensing.virtual_wrench",
+    "walking_tick": "percepts.foot_tick",
+    "wrench_at": "mechanics.wrench",
+    "wrench_of_feet": "percepts.sole_pose",
+    "write_layout": "layouts.layout_file",
+    "zero_moment_wrench": "mechanics.zmp",
+    "zmp_in_plane": "mechanics.zmp",
+    "zmp_of_feet": "mechanics.zmp",
+    "zmp_of_soles": "percepts.sole_pose",
+    "zmp_of_wrench": "mechanics.zmp",
 }
 
 if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a name that does not exist
@@ -227,7 +252,9 @@ if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a n
         """Load a public name at first use."""
         if name not in __all__:
             raise AttributeError(f"module 'plantar' has no attribute {name!r}")
-        value = getattr(import_module(f"plantar.{_MODULE_OF_NAME.get(name, 'errors')}"), name)
+        place = f"plantar.{_MODULE_OF_NAME.get(name, 'errors')}"
+        module = import_module(place)
+        value = getattr(module, name) if hasattr(module, name) else import_module(f"{place}.{name}")
         globals()[name] = value
         return value
 

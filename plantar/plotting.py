@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from plantar.atomic import replacing
 from plantar.errors import InputError
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["COLOURS", "FORMATS", "draw_cells", "draw_classes", "draw_raster", "new_figure", "save_figure", "thinned"]
 
