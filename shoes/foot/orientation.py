@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.optional_library import optional_library
+
 __all__ = ["AXES", "Axis", "flat_share", "forward_axis", "levelled", "rotation_forward", "rotation_up"]
 
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
@@ -47,7 +49,8 @@ def rotation_forward(forward: Axis) -> Array:
 
 def _resting_plane(triangles: Array) -> tuple[Array, float]:
     """Normal of the largest plane of the convex hull's lower side, and its share of the silhouette."""
-    from scipy.spatial import ConvexHull, QhullError
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
 
     points = np.unique(triangles.reshape(-1, 3).round(6), axis=0)
     try:
@@ -74,7 +77,8 @@ def _resting_plane(triangles: Array) -> tuple[Array, float]:
 
 def _flat_area(triangles: Array, normal: Array) -> float:
     """Share of the silhouette that faces of the mesh have in its outermost plane with a normal."""
-    from scipy.spatial import ConvexHull
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull
 
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)

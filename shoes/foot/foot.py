@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.outline import rounded_rectangle, tidy
+from shoes.geometry.outline import rounded_rectangle, tidy
 from shoes.units import MM_PER_M, to_mm
 
 __all__ = ["FOOT_LENGTHS", "Foot", "foot_from_dimensions", "foot_from_outline"]

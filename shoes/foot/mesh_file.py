@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError
+from plantar.optional_library import optional_library
+from shoes.cad_kernel import load_cadquery
 
 __all__ = ["MESH_FORMATS", "Unit", "read_mesh"]
 
@@ -85,10 +87,8 @@ def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit |
 
 
 def _read_with_trimesh(file: Path, kind: str, data: bytes) -> NDArray[np.float64]:
-    try:
+    with optional_library("trimesh", "shoes"):
         import trimesh
-    except ImportError:
-        raise DependencyError("trimesh", "shoes") from None
     if kind == ".stl":
         _check_stl(file, data)
     with np.errstate(all="ignore"):  # coordinates that are not finite are reported below
@@ -100,8 +100,6 @@ def _read_with_trimesh(file: Path, kind: str, data: bytes) -> NDArray[np.float64
 
 def _read_step(file: Path) -> NDArray[np.float64]:
     """Triangles in mm of all shapes of a STEP file; its own unit is converted while it is read."""
-    from shoes.tray import load_cadquery
-
     if b"ISO-10303-21" not in file.read_bytes()[:200]:
         raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
     cq = load_cadquery()

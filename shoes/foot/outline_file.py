@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import DependencyError, FootError, InputError
-from shoes.foot import Foot, foot_from_outline
-from shoes.foot_mesh import unit_scale
-from shoes.mesh_file import Unit
-from shoes.orientation import AXES, Axis, rotation_forward
-from shoes.outline import single_outline
+from plantar.optional_library import optional_library
+from shoes.foot.foot import Foot, foot_from_outline
+from shoes.foot.foot_mesh import unit_scale
+from shoes.foot.mesh_file import Unit
+from shoes.foot.orientation import AXES, Axis, rotation_forward
+from shoes.geometry.outline import single_outline
 
 __all__ = ["OUTLINE_FORMATS", "foot_from_drawing", "read_outline"]
 
@@ -186,12 +187,10 @@ def _read_dxf(data: bytes) -> tuple[Lines, Unit | None, float]:
     """Lines of a DXF's model space."""
     import io
 
-    try:
+    with optional_library("ezdxf", "shoes"):
         from ezdxf import path as paths
         from ezdxf import recover
         from ezdxf.lldxf.const import DXFError
-    except ImportError:
-        raise DependencyError("ezdxf", "shoes") from None
     document, _ = recover.read(io.BytesIO(data))
     unit, factor = _DXF_UNITS.get(int(document.header.get("$INSUNITS", 0)), (None, 1.0))
     found = []
@@ -239,9 +238,10 @@ def _read_geojson(data: bytes) -> tuple[Lines, Unit | None, float]:
 
 def _read_svg(data: bytes) -> tuple[Lines, Unit | None, float]:
     """Lines of an SVG's shapes, with the transforms of their groups."""
-    from fontTools.pens.recordingPen import DecomposingRecordingPen
-    from fontTools.svgLib.path import parse_path
-    from fontTools.svgLib.path.shapes import PathBuilder
+    with optional_library("fontTools", "shoes"):
+        from fontTools.pens.recordingPen import DecomposingRecordingPen
+        from fontTools.svgLib.path import parse_path
+        from fontTools.svgLib.path.shapes import PathBuilder
 
     root = ElementTree.fromstring(data)
     unit, factor, start = _svg_unit(root)

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.robot_model import read_foot_body, side_of_name
-from shoes.stl import write_stl
+from shoes.foot.robot_model import read_foot_body, side_of_name
+from shoes.papers.stl import write_stl
 
 Shape = Callable[..., NDArray[np.float64]]
 
@@ -151,3 +151,23 @@ def test_the_real_robots_feet_are_those_of_its_meshes(real_data: Path) -> None:
     expected = [-0.0951, -0.05, -0.1077, 0.1571, 0.05, 0.007]  # feet/jvrc1.json
     assert bounds(left.triangles) == pytest.approx(expected, abs=2e-4)
     assert bounds(right.triangles) == pytest.approx(expected, abs=2e-4)
+
+
+def test_links_that_are_fixed_in_a_circle_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "circle.urdf"
+    joint = '<joint name="{0}{1}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'
+    joints = joint.format("a", "b") + joint.format("b", "a")
+    path.write_text(f'<robot name="c"><link name="a"/><link name="b"/>{joints}</robot>')
+    with pytest.raises(FootError, match="fixed to itself"):
+        read_foot_body(path, "a")
+
+
+def test_a_mesh_that_lies_elsewhere_is_not_read(tmp_path: Path, box: Shape) -> None:
+    (tmp_path / "robot" / "xml").mkdir(parents=True)
+    (tmp_path / "other").mkdir()
+    write_stl(box((-60, 140), (-45, 45), (-100, -40)), tmp_path / "other" / "foot.stl")
+    geometry = '<visual><geometry><mesh filename="../../other/foot.stl"/></geometry></visual>'
+    path = tmp_path / "robot" / "xml" / "robot.urdf"
+    path.write_text(f'<robot name="r"><link name="foot">{geometry}</link></robot>')
+    with pytest.raises(FootError, match=r"lies elsewhere; allowed: .*PLANTAR_MODEL_FOLDERS"):
+        read_foot_body(path, "foot")

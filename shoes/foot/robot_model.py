@@ -14,16 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.mesh_file import read_mesh
-from shoes.primitives import primitive
-from shoes.transforms import Pose, mjcf_rotation, rpy_rotation
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.model_files import folders_of_model, mesh_of_urdf, named_file, parsed_model
+from shoes.foot.mesh_file import read_mesh
+from shoes.geometry.primitives import primitive
+from shoes.geometry.transforms import Pose, mjcf_rotation
 
 __all__ = ["MODEL_FORMATS", "BodyGeometry", "read_foot_body", "side_of_name"]
 
 MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")
 """File endings of robot models that are read."""
 
-_MOST_INCLUDES = 100
 _SHOWN = 14  # names in a message
 
 Array = NDArray[np.float64]
@@ -78,9 +79,9 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
         FootError: If the file or one of its meshes cannot be read, or there is no such body, or it has no geometry.
     """
     file = Path(path)
-    root = _parsed(file)
+    root = parsed_model(file, FootError)
     if root.tag == "robot":
-        bodies = _urdf_bodies(file, root)
+        bodies = _urdf_bodies(file, root, body)
     elif root.tag == "mujoco":
         bodies = _mjcf_bodies(file, root)
     else:
@@ -101,26 +102,6 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     )
 
 
-def _parsed(file: Path, depth: int = 0) -> Element:
-    """The XML of a model, MJCF includes put in their place."""
-    if depth > _MOST_INCLUDES:
-        raise FootError(f"{file}: includes itself")
-    try:
-        root = ElementTree.fromstring(file.read_bytes())
-    except OSError as error:
-        raise FootError(f"{file}: cannot be read ({error.strerror}); give an MJCF or URDF file") from None
-    except ElementTree.ParseError as error:
-        raise FootError(f"{file}: not a readable XML file ({error})") from None
-    if root.tag == "robot":
-        return root
-    for parent in root.iter():
-        for place, child in reversed(list(enumerate(parent))):
-            if child.tag == "include":
-                included = _parsed(file.parent / child.get("file", ""), depth + 1)
-                parent[place : place + 1] = list(included)
-    return root
-
-
 Shape = Any  # a callable that gives triangles: meshes are read only of the body that is asked for
 Bodies = dict[str, tuple[list[Shape], list[Shape]]]
 
@@ -137,14 +118,15 @@ def _numbers(text: str | None, default: tuple[float, ...], where: str) -> Array:
     return out
 
 
-def _urdf_bodies(file: Path, root: Element) -> Bodies:
-    """Drawn and colliding shapes of every link of a URDF."""
+def _urdf_bodies(file: Path, root: Element, wanted: str | None) -> Bodies:
+    """The links of a URDF; drawn and colliding shapes of the wanted one and of what is fixed to it."""
 
     def pose(element: Element | None) -> Pose:
         if element is None:
             return Pose()
         xyz = _numbers(element.get("xyz"), (0.0, 0.0, 0.0), f"{file}: origin")
-        return Pose(xyz[:3], rpy_rotation(_numbers(element.get("rpy"), (0.0, 0.0, 0.0), f"{file}: origin")))
+        roll, pitch, yaw = _numbers(element.get("rpy"), (0.0, 0.0, 0.0), f"{file}: origin")[:3].tolist()
+        return Pose(xyz[:3], rotation_from_angles(yaw, pitch, roll))
 
     joints = {}
     for joint in root.findall("joint"):
@@ -162,19 +144,26 @@ def _urdf_bodies(file: Path, root: Element) -> Bodies:
         return out
 
     links = {link.get("name", ""): link for link in root.findall("link")}
-    bodies: Bodies = {}
-    for name in links:
-        found: tuple[list[Shape], list[Shape]] = ([], [])
-        queue = [(name, Pose(np.zeros(3), turned(name)))]
+    fixed: dict[str, list[tuple[str, Pose]]] = {}
+    for child_link, (parent_link, kind, step) in joints.items():
+        if kind == "fixed":
+            fixed.setdefault(parent_link, []).append((child_link, step))
+    bodies: Bodies = {name: ([], []) for name in links}
+    if wanted in links:
+        found = bodies[wanted]
+        queue = [(wanted, Pose(np.zeros(3), turned(wanted)))]
+        seen: set[str] = set()
         while queue:
             here, at = queue.pop()
+            if here in seen:
+                raise FootError(f"{file}: link '{here}' is fixed to itself, by way of others")
+            seen.add(here)
             for place, tag in enumerate(("visual", "collision")):
                 for item in links[here].findall(tag) if here in links else ():
                     geometry = item.find("geometry")
                     if geometry is not None and len(geometry):
                         found[place].append(_urdf_shape(file, geometry[0], at @ pose(item.find("origin"))))
-            queue += [(c, at @ p) for c, (parent, kind, p) in joints.items() if parent == here and kind == "fixed"]
-        bodies[name] = found
+            queue += [(child_link, at @ step) for child_link, step in fixed.get(here, ())]
     return bodies
 
 
@@ -183,7 +172,7 @@ def _urdf_shape(file: Path, shape: Element, at: Pose) -> Shape:
         where = f"{file}: <{shape.tag}>"
         if shape.tag == "mesh":
             scale = _numbers(shape.get("scale"), (1.0, 1.0, 1.0), where)
-            return at.moved(read_mesh(_mesh_path(file, shape.get("filename", "")))[0], scale)
+            return at.moved(read_mesh(mesh_of_urdf(file, shape.get("filename", ""), FootError, where))[0], scale)
         radius, length = (_numbers(shape.get(k), (0.0,), where)[0] for k in ("radius", "length"))
         if shape.tag == "box":
             return at.moved(primitive("box", 0.5 * _numbers(shape.get("size"), (0.0, 0.0, 0.0), where), where))
@@ -193,19 +182,6 @@ def _urdf_shape(file: Path, shape: Element, at: Pose) -> Shape:
         return at.moved(primitive(shape.tag, np.array(sizes[shape.tag]), where))
 
     return read
-
-
-def _mesh_path(file: Path, name: str) -> Path:
-    """Where a URDF's mesh lies: `package://` is looked for beside the file and in the folders above it."""
-    plain = re.sub(r"^(package|model|file)://", "", name)
-    if name.startswith("file://") or (not name.startswith(("package:", "model:")) and Path(plain).is_absolute()):
-        return Path(plain)
-    inside = Path(*Path(plain).parts[1:]) if len(Path(plain).parts) > 1 else Path(plain)
-    for folder in (file.parent, *file.resolve().parents):
-        for candidate in (folder / plain, folder / inside):
-            if candidate.is_file():
-                return candidate
-    return file.parent / plain
 
 
 @dataclass
@@ -315,7 +291,8 @@ def _mjcf_shape(
             folder = compiler.get("meshdir", compiler.get("assetdir", ""))
             stated = Path(mesh["file"])
             stated = Path(stated.name) if compiler.get("strippath", "false") == "true" else stated
-            triangles = read_mesh(file.parent / folder / stated)[0]
+            path = named_file(file.parent / folder / stated, folders_of_model(file), FootError, where)
+            triangles = read_mesh(path)[0]
             origin = _numbers(mesh.get("refpos"), (0.0, 0.0, 0.0), where)
             turn = mjcf_rotation({"quat": mesh.get("refquat", "1 0 0 0")}, False, "xyz", where)
             scale = _numbers(mesh.get("scale"), (1.0, 1.0, 1.0), where)

@@ -12,7 +12,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.mesh_file import read_mesh
+from shoes.foot.mesh_file import read_mesh
 
 Shape = Callable[..., NDArray[np.float64]]
 

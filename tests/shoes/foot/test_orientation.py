@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from shoes.orientation import AXES, flat_share, forward_axis, levelled, rotation_forward, rotation_up
+from shoes.foot.orientation import AXES, flat_share, forward_axis, levelled, rotation_forward, rotation_up
 
 Shape = Callable[..., NDArray[np.float64]]
 

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
-from shoes.foot import FOOT_LENGTHS, Foot
-from shoes.mesh_file import Unit, read_mesh
-from shoes.orientation import AXES, Axis, flat_share, forward_axis, levelled, rotation_forward, rotation_up
-from shoes.outline import apart, cut_below, outline_below, outline_of, touching
+from shoes.foot.foot import FOOT_LENGTHS, Foot
+from shoes.foot.mesh_file import Unit, read_mesh
+from shoes.foot.orientation import AXES, Axis, flat_share, forward_axis, levelled, rotation_forward, rotation_up
+from shoes.geometry.outline import apart, cut_below, outline_below, outline_of, touching
 
 __all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
 

@@ -1,0 +1,1 @@
+"""Reading a foot: mesh, robot model or outline, and which way it points."""
