@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.outline import cut_below, outline_below, ring, rounded_rectangle, single_outline, tidy
+from shoes.geometry.outline import cut_below, outline_below, ring, rounded_rectangle, single_outline, tidy
 
 Shape = Callable[..., NDArray[np.float64]]
 

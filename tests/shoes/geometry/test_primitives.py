@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import FootError
-from shoes.pad import volume_of
-from shoes.primitives import primitive
+from shoes.geometry.primitives import primitive
+from shoes.solid.pad import volume_of
 
 
 @pytest.mark.parametrize(

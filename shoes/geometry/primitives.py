@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import DependencyError, FootError
+from plantar.errors import FootError
+from plantar.optional_library import optional_library
 
 __all__ = ["primitive"]
 
@@ -32,10 +33,8 @@ def primitive(kind: str, size: NDArray[np.float64], where: str) -> NDArray[np.fl
     count = _SIZES[kind]
     if len(size) < count or not (size[:count] > 0.0).all():
         raise FootError(f"{where}: a {kind} needs {count} sizes above 0")
-    try:
+    with optional_library("trimesh", "shoes"):
         from trimesh import creation
-    except ImportError:
-        raise DependencyError("trimesh", "shoes") from None
     if kind == "box":
         mesh = creation.box(extents=2.0 * size[:3])
     elif kind == "cylinder":

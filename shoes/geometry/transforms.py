@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.mechanics.rotation import rotation_from_vector
 
-__all__ = ["Pose", "mjcf_rotation", "rpy_rotation"]
+__all__ = ["Pose", "mjcf_rotation"]
 
 Array = NDArray[np.float64]
 
@@ -45,23 +46,6 @@ class Pose:
             triangles = triangles * scale
             triangles = triangles[:, ::-1] if np.prod(scale) < 0.0 else triangles
         return np.asarray(triangles @ self.rotation.T + self.position)
-
-
-def _about(axis: Array, angle: float) -> Array:
-    """Rotation (3, 3) about a unit axis."""
-    k = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-    return np.asarray(np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k)
-
-
-def rpy_rotation(rpy: Array) -> Array:
-    """Rotation (3, 3) from roll, pitch and yaw in rad about fixed axes, as URDF has it.
-
-    Example:
-        >>> rpy_rotation(np.array([0.0, 0.0, np.pi / 2])).round(3)[:, 0].tolist()
-        [0.0, 1.0, 0.0]
-    """
-    x, y, z = np.eye(3)
-    return _about(z, rpy[2]) @ _about(y, rpy[1]) @ _about(x, rpy[0])
 
 
 def mjcf_rotation(attributes: Mapping[str, str], degrees: bool, sequence: str, where: str) -> Array:
@@ -106,13 +90,14 @@ def _rotation(name: str, values: Array, degrees: bool, sequence: str) -> Array:
     unit = math.pi / 180.0 if degrees else 1.0
     if name == "quat":
         w, *v = _unit(values)
-        return _about(_unit(np.array(v)), 2.0 * math.atan2(math.hypot(*v), w)) if math.hypot(*v) > 1e-12 else np.eye(3)
+        sine = math.hypot(*v)
+        return rotation_from_vector(2.0 * math.atan2(sine, w) * _unit(np.array(v))) if sine > 1e-12 else np.eye(3)
     if name == "axisangle":
-        return _about(_unit(values[:3]), values[3] * unit)
+        return rotation_from_vector(values[3] * unit * _unit(values[:3]))
     if name == "euler":
         out = np.eye(3)
         for letter, angle in zip(sequence, values, strict=True):
-            turn = _about(np.eye(3)["xyz".index(letter.lower())], angle * unit)
+            turn = rotation_from_vector(angle * unit * np.eye(3)["xyz".index(letter.lower())])
             out = turn @ out if letter.isupper() else out @ turn
         return out
     if name == "xyaxes":
@@ -123,4 +108,4 @@ def _rotation(name: str, values: Array, degrees: bool, sequence: str) -> Array:
     axis = np.cross([0.0, 0.0, 1.0], z)
     if np.linalg.norm(axis) < 1e-12:
         return np.eye(3) if z[2] > 0.0 else np.diag([1.0, -1.0, -1.0])
-    return _about(_unit(axis), math.acos(max(-1.0, min(1.0, float(z[2])))))
+    return rotation_from_vector(math.acos(max(-1.0, min(1.0, float(z[2])))) * _unit(axis))

@@ -1,0 +1,1 @@
+"""Outlines, transforms and sections."""
