@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.errors import FootError, InputError
-from plantar.hex_lattice import HexLattice
-from shoes.fit import fit_lattice, whole_cell_region
-from shoes.outline import rounded_rectangle
+from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.lattice_fit import fit_lattice, whole_cell_region
+from shoes.geometry.outline import rounded_rectangle
 
 WIDTH = math.sqrt(2 / math.sqrt(3))  # flat to flat of a hexagon of area 1
 

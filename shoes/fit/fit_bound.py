@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.hex_lattice import HexLattice
+from plantar.layouts.hex_lattice import HexLattice
 
 __all__ = ["CellBound", "bound_whole_cells"]
 

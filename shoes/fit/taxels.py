@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.hex_lattice import HexLattice
-from shoes.fit import LatticeFit, fit_lattice
+from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.lattice_fit import LatticeFit, fit_lattice
 
 __all__ = ["CORNER", "CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
 
@@ -176,7 +176,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     """So many cells within a distance of the sole, of which the rim cuts the least; None where they do not fit."""
     import shapely
 
-    from shoes.fit_bound import bound_whole_cells
+    from shoes.fit.fit_bound import bound_whole_cells
 
     # Gentle corners stay one point: a cut cell gets no short edges.
     region = shapely.set_precision(sole.simplify(0.1).buffer(reach, join_style="mitre", mitre_limit=CUT_CORNER), 1e-4)

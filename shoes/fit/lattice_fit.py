@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
-from plantar.hex_lattice import HexLattice, hexagon_side
-from shoes.fit_bound import bound_whole_cells
+from plantar.layouts.hex_lattice import HexLattice, hexagon_side
+from shoes.fit.fit_bound import bound_whole_cells
 
 __all__ = ["CELL_AREAS", "LatticeFit", "fit_lattice", "whole_cell_region"]
 

@@ -10,10 +10,10 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.hex_lattice import HexLattice
-from shoes.fit import fit_lattice
-from shoes.fit_bound import bound_whole_cells
-from shoes.outline import rounded_rectangle
+from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.fit_bound import bound_whole_cells
+from shoes.fit.lattice_fit import fit_lattice
+from shoes.geometry.outline import rounded_rectangle
 
 
 def whole_cells(region: shapely.Polygon, lattice: HexLattice) -> int:

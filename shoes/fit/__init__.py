@@ -1,0 +1,1 @@
+"""Taxels on the face of the shoe: lattice fit and its bound."""
