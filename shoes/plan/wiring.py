@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from shoes.block import Block, Step
-from shoes.heel import LIP, PLAY, POST, holder_depth
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan
+from shoes.plan.block import Block, Step
+from shoes.plan.heel import LIP, PLAY, POST, holder_depth
+from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = ["cable_outlines", "hole_outline", "pocket_outlines", "wiring_steps"]
 

@@ -1,5 +1,7 @@
 """Strength of the printed part: beams under 1.5 x body weight on a third of the sole, and the thickness they need.
 
+The plan takes the thickness from here before anything is built; the last check states the stresses that it comes to.
+
 The pressure p = load_factor m g / (load_share A) acts on the plate from below; the foot, which is stiff, carries it
 where it touches. Beams of 1 mm width, ribs and wall left out, so on the safe side:
 
@@ -19,9 +21,9 @@ from typing import Any
 
 import numpy as np
 
-from shoes.foot import Foot
-from shoes.materials import GRAVITY
-from shoes.outline import ring
+from plantar.mechanics.lip import GRAVITY
+from shoes.foot.foot import Foot
+from shoes.geometry.outline import ring
 from shoes.parameters import ShoeParameters
 
 __all__ = ["LoadCase", "Member", "check_strength", "estimated_mass", "load_case", "strengthened"]

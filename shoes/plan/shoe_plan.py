@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.cell_layout import layout_of_cells
 from plantar.errors import FootError, LayoutError
-from plantar.layout import Side, SoleLayout, mirrored
-from plantar.tiling import hex_layout
-from shoes.block import moved_edges
-from shoes.foot import Foot
-from shoes.heel import Heel, find_heel
-from shoes.outline import ring, single_outline, tidy
+from plantar.layouts.cell_layout import layout_of_cells
+from plantar.layouts.layout import Side, SoleLayout, mirrored
+from plantar.layouts.tiling import hex_layout
+from shoes.fit.taxels import CORNER, TaxelFit
+from shoes.foot.foot import Foot
+from shoes.geometry.outline import ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
-from shoes.taxels import CORNER, TaxelFit
+from shoes.plan.block import moved_edges
+from shoes.plan.heel import Heel, find_heel
 from shoes.units import to_m
 
 __all__ = ["ShoePlan", "grown", "mirrored_plan", "plan_shoe"]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.outline import ring
+from shoes.geometry.outline import ring
 from shoes.parameters import ShoeParameters
 
 __all__ = ["LIP", "PLAY", "POST", "Heel", "find_heel", "holder_depth"]

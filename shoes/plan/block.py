@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.outline import ring
+from shoes.geometry.outline import ring
 
 __all__ = ["Block", "Groove", "Step", "box_block", "mirrored_block", "mirrored_step", "moved_edges", "tapered"]
 

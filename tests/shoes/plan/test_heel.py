@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
-from shoes.heel import Heel, find_heel, holder_depth
 from shoes.parameters import ShoeParameters
+from shoes.plan.heel import Heel, find_heel, holder_depth
 
 P = ShoeParameters()
 
