@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.outline import GRID
+from shoes.geometry.outline import GRID
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan
+from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = ["pad_rim", "pad_surface", "volume_of"]
 

@@ -10,10 +10,10 @@ import shapely
 from numpy.typing import NDArray
 
 from shoes import build_shoe
-from shoes.body import cavity_levels, mark_outline
-from shoes.foot import Foot
-from shoes.foot_mesh import foot_from_triangles
+from shoes.foot.foot import Foot
+from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
+from shoes.solid.body import cavity_levels, mark_outline
 
 
 def test_upright_walls_have_one_level(small_foot: Foot) -> None:

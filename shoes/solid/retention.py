@@ -9,11 +9,11 @@ from typing import Any, Literal
 import numpy as np
 
 from plantar.errors import FootError
-from shoes.block import Block, Step, box_block
-from shoes.foot import Foot
-from shoes.outline import tidy
+from shoes.foot.foot import Foot
+from shoes.geometry.outline import tidy
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan, grown
+from shoes.plan.block import Block, Step, box_block
+from shoes.plan.shoe_plan import ShoePlan, grown
 
 __all__ = ["Retention", "choose_retention", "retention_steps"]
 

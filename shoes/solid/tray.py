@@ -9,27 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import DependencyError, FootError
-from shoes.block import Block, Groove, Step
-from shoes.outline import ring
+from plantar.errors import FootError
+from shoes.cad_kernel import load_cadquery
+from shoes.geometry.outline import ring
+from shoes.plan.block import Block, Groove, Step
 
-__all__ = ["build_solid", "load_cadquery", "read_step", "surface_of", "write_step"]
-
-
-def load_cadquery() -> Any:
-    """The cadquery module; loading it takes seconds.
-
-    Raises:
-        DependencyError: If it is not installed.
-    """
-    try:
-        import cadquery
-        from OCP.Message import Message, Message_PrinterOStream
-    except ImportError:
-        raise DependencyError("cadquery", "shoes") from None
-    # The kernel prints what it finds wrong in a file to stdout, which belongs to the command; errors are raised anyhow.
-    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())
-    return cadquery
+__all__ = ["build_solid", "read_step", "surface_of", "write_step"]
 
 
 def build_solid(steps: Sequence[Step]) -> Any:

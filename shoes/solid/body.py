@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from plantar.layout import Side
-from shoes.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
-from shoes.foot import Foot
-from shoes.lettering import lettering
-from shoes.outline import ring, tidy
+from plantar.layouts.layout import Side
+from shoes.foot.foot import Foot
+from shoes.geometry.outline import ring, tidy
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan, grown
-from shoes.retention import Retention, retention_steps
-from shoes.wiring import pocket_outlines, wiring_steps
+from shoes.plan.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
+from shoes.plan.shoe_plan import ShoePlan, grown
+from shoes.plan.wiring import pocket_outlines, wiring_steps
+from shoes.solid.lettering import lettering
+from shoes.solid.retention import Retention, retention_steps
 
 __all__ = ["LEVELS", "cavity_levels", "mark_outline", "mirrored_steps", "shoe_steps"]
 

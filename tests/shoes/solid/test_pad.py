@@ -7,7 +7,7 @@ import shapely
 import trimesh
 
 from shoes import Foot, ShoeParameters, build_shoe
-from shoes.pad import pad_rim, pad_surface, volume_of
+from shoes.solid.pad import pad_rim, pad_surface, volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])

@@ -11,10 +11,10 @@ import shapely
 
 from plantar.errors import FootError
 from shoes import Foot, ShoeParameters, ShoeReport, build_shoe
-from shoes.block import Block, Groove, Step, box_block, tapered
-from shoes.section import section
-from shoes.tray import build_solid, read_step, surface_of, write_step
-from shoes.wiring import cable_outlines, hole_outline, pocket_outlines
+from shoes.geometry.section import section
+from shoes.plan.block import Block, Groove, Step, box_block, tapered
+from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
+from shoes.solid.tray import build_solid, read_step, surface_of, write_step
 
 
 def test_the_solid_is_one_and_its_sections_are_the_plan(exported: tuple[ShoeReport, Path]) -> None:

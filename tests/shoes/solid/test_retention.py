@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from shoes import build_shoe
-from shoes.foot import Foot
-from shoes.foot_mesh import foot_from_triangles
+from shoes.foot.foot import Foot
+from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan
-from shoes.retention import choose_retention, retention_steps
+from shoes.plan.shoe_plan import ShoePlan
+from shoes.solid.retention import choose_retention, retention_steps
 
 
 @pytest.fixture(scope="module")
