@@ -13,8 +13,8 @@ import shapely
 from numpy.typing import NDArray
 
 from shoes import ShoeReport
-from shoes.check import check_shoe, corner_errors
-from shoes.tray import read_step
+from shoes.checks.check import check_shoe, corner_errors
+from shoes.solid.tray import read_step
 
 Shape = Callable[..., NDArray[np.float64]]
 

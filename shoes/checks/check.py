@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.errors import DependencyError
-from plantar.layout import DEFAULT_RANGES
+from plantar.layouts.layout import DEFAULT_RANGES
+from plantar.optional_library import optional_library
 from shoes.build import Shoe, ShoeBuild
-from shoes.mounting import Mounting, check_mounting
-from shoes.outline import ring
+from shoes.checks.mounting import Mounting, check_mounting
+from shoes.checks.printability import Printing, choose_direction, print_hours
+from shoes.geometry.outline import ring
+from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan
-from shoes.printability import Printing, choose_direction, print_hours
-from shoes.section import thinnest_wall
-from shoes.strength import LoadCase, Member, check_strength
+from shoes.plan.shoe_plan import ShoePlan
+from shoes.plan.strength import LoadCase, Member, check_strength
+from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
 from shoes.units import to_mm
-from shoes.wiring import cable_outlines, hole_outline, pocket_outlines
 
 __all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
 
@@ -99,10 +99,8 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     Returns:
         The measures and checks; nothing is raised for a check that does not hold.
     """
-    try:
+    with optional_library("trimesh", "shoes"):
         import trimesh
-    except ImportError:
-        raise DependencyError("trimesh", "shoes") from None
     assert build.retention is not None
     p = build.parameters
     mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))

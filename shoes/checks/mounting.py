@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import Side
-from shoes.body import LEVELS
-from shoes.foot import Foot
-from shoes.outline import ring
+from plantar.layouts.layout import Side
+from shoes.foot.foot import Foot
+from shoes.geometry.outline import ring
+from shoes.geometry.section import cut_segments, section
 from shoes.parameters import ShoeParameters
-from shoes.retention import Retention
-from shoes.section import cut_segments, section
+from shoes.solid.body import LEVELS
+from shoes.solid.retention import Retention
 
 __all__ = ["Mounting", "check_mounting"]
 

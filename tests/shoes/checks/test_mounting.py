@@ -10,10 +10,10 @@ import pytest
 from numpy.typing import NDArray
 
 from shoes import Foot
-from shoes.foot_mesh import foot_from_triangles
-from shoes.mounting import check_mounting
+from shoes.checks.mounting import check_mounting
+from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
-from shoes.retention import Retention
+from shoes.solid.retention import Retention
 
 Shape = Callable[..., NDArray[np.float64]]
 P = ShoeParameters(lead_in=0.0)
