@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from shoes import ShoeReport
-from shoes.drawing import draw_shoe
+from shoes.papers.drawing import draw_shoe
 
 
 @pytest.mark.parametrize("index", [0, 1])

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 
 from plantar.atomic import write_text
 from plantar.errors import InputError
-from plantar.layout_file import layout_to_dict
-from shoes.bill import Part, Weights, bill_of_parts, bill_text, weigh
+from plantar.layouts.layout_file import layout_to_dict
 from shoes.build import Progress, Shoe, ShoeBuild
-from shoes.check import ShoeCheck, check_shoe
-from shoes.drawing import draw_shoe
-from shoes.package_3mf import write_3mf
-from shoes.pad import pad_surface
-from shoes.picture import draw_picture
-from shoes.stl import read_stl, write_stl
-from shoes.tray import read_step, write_step
+from shoes.checks.check import ShoeCheck, check_shoe
+from shoes.papers.bill import Part, Weights, bill_of_parts, bill_text, weigh
+from shoes.papers.drawing import draw_shoe
+from shoes.papers.package_3mf import write_3mf
+from shoes.papers.picture import draw_picture
+from shoes.papers.stl import read_stl, write_stl
+from shoes.solid.pad import pad_surface
+from shoes.solid.tray import read_step, write_step
 from shoes.units import to_m
 
 __all__ = ["ShoeReport", "export_shoe"]

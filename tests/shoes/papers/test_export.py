@@ -14,9 +14,9 @@ import trimesh
 from plantar import read_layout
 from plantar.errors import InputError
 from shoes import Foot, ShoeReport, build_shoe, export_shoe
-from shoes.mesh_file import read_mesh
+from shoes.foot.mesh_file import read_mesh
 from shoes.parameters import ShoeParameters, read_parameters
-from shoes.tray import read_step
+from shoes.solid.tray import read_step
 
 
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:

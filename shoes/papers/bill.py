@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from shoes.build import Shoe, ShoeBuild
-from shoes.pad import pad_surface, volume_of
+from shoes.solid.pad import pad_surface, volume_of
 from shoes.units import to_mm
 
 __all__ = ["Part", "Weights", "bill_of_parts", "bill_text", "weigh"]

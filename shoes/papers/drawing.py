@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from plantar.plotting import COLOURS, new_figure, save_figure
 from shoes.build import Shoe, ShoeBuild
-from shoes.outline import ring
-from shoes.pad import pad_rim
-from shoes.section import section_along
+from shoes.geometry.outline import ring
+from shoes.geometry.section import section_along
+from shoes.solid.pad import pad_rim
 from shoes.units import to_mm
 
 __all__ = ["draw_shoe"]

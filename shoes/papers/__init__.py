@@ -1,0 +1,1 @@
+"""What is written: drawing, picture, bill of parts, printable files."""
