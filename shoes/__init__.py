@@ -5,13 +5,13 @@ A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the t
 """
 
 from shoes.build import Shoe, ShoeBuild, build_shoe
-from shoes.check import ShoeCheck
-from shoes.export import ShoeReport, export_shoe
-from shoes.foot import Foot, foot_from_dimensions, foot_from_outline
-from shoes.foot_mesh import foot_from_mesh
+from shoes.checks.check import ShoeCheck
+from shoes.fit.taxels import TaxelFit, fit_taxels
+from shoes.foot.foot import Foot, foot_from_dimensions, foot_from_outline
+from shoes.foot.foot_mesh import foot_from_mesh
+from shoes.papers.export import ShoeReport, export_shoe
 from shoes.parameters import ShoeParameters, read_parameters
-from shoes.plan import ShoePlan
-from shoes.taxels import TaxelFit, fit_taxels
+from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = [
     "Foot",

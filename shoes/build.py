@@ -10,16 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.layout import Side, SoleLayout
-from shoes.block import Block, Step
-from shoes.body import mark_outline, mirrored_steps, shoe_steps
-from shoes.foot import Foot
+from plantar.layouts.layout import Side, SoleLayout
+from shoes.cad_kernel import load_cadquery
+from shoes.fit.taxels import TaxelFit, fit_taxels
+from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
-from shoes.plan import ShoePlan, mirrored_plan, plan_shoe
-from shoes.retention import Retention, choose_retention
-from shoes.strength import strengthened
-from shoes.taxels import TaxelFit, fit_taxels
-from shoes.tray import build_solid, load_cadquery, surface_of
+from shoes.plan.block import Block, Step
+from shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
+from shoes.plan.strength import strengthened
+from shoes.solid.body import mark_outline, mirrored_steps, shoe_steps
+from shoes.solid.retention import Retention, choose_retention
+from shoes.solid.tray import build_solid, surface_of
 
 __all__ = ["Progress", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
 
@@ -110,7 +111,7 @@ def build_shoe(
         FootError: If the foot cannot carry the taxels.
 
     Example:
-        >>> from shoes.foot import foot_from_dimensions
+        >>> from shoes.foot.foot import foot_from_dimensions
         >>> foot = foot_from_dimensions("a", length=0.2, width=0.1, sole_center=(0.02, 0.0), corner_radius=0.01)
         >>> build = build_shoe(foot, layout_only=True)
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]

@@ -8,10 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-__all__ = ["GRAVITY", "MATERIALS", "Material"]
-
-GRAVITY = 9.81
-"""Standard gravity in m/s^2."""
+__all__ = ["MATERIALS", "Material"]
 
 
 @dataclass(frozen=True)

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError
+from plantar.structured_text import read_json, read_toml
 from shoes.materials import MATERIALS, Material
 
 __all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]
@@ -211,15 +210,8 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
     file = Path(path)
     if file.suffix.lower() not in (".json", ".toml"):
         raise InputError(f"parameter file {file} ends in '{file.suffix}'; allowed: .json, .toml")
-    try:
-        text = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not a text file"
-        raise InputError(f"parameter file {file} cannot be read ({reason})") from None
-    try:
-        values = json.loads(text) if file.suffix.lower() == ".json" else tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"parameter file {file} is not valid {file.suffix[1:].upper()} ({error})") from None
+    read = read_json if file.suffix.lower() == ".json" else read_toml
+    values = read(file, InputError, f"parameter file {file}")
     if isinstance(values, dict) and isinstance(values.get("parameters"), dict):
         values = values["parameters"]
     if not isinstance(values, dict):

@@ -139,7 +139,7 @@ def box() -> Callable[..., Triangles]:
 @pytest.fixture
 def stl(tmp_path: Path) -> Callable[..., Path]:
     """Writes triangles to an STL file and gives its path."""
-    from shoes.stl import write_stl
+    from shoes.papers.stl import write_stl
 
     def write(triangles: Triangles, name: str = "foot.stl") -> Path:
         with np.errstate(invalid="ignore"):  # a test may write what is not finite

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from plantar import read_layout
 from plantar.errors import FootError, InputError
 from shoes import Foot, ShoeBuild, ShoeParameters, build_shoe, export_shoe, foot_from_dimensions, foot_from_mesh
-from shoes.check import ShoeCheck, check_shoe
-from shoes.foot_mesh import foot_from_triangles
-from shoes.stl import read_stl, write_stl
-from shoes.tray import read_step, write_step
+from shoes.checks.check import ShoeCheck, check_shoe
+from shoes.foot.foot_mesh import foot_from_triangles
+from shoes.papers.stl import read_stl, write_stl
+from shoes.solid.tray import read_step, write_step
 
 NAMES = (
     "flat_box",

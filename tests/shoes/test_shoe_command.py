@@ -191,8 +191,8 @@ def test_a_robots_model_and_a_drawing_give_layouts(run: Run, stl: Writer, box: S
 
 
 def test_a_step_file_is_a_foot(run: Run, tmp_path: Path) -> None:
-    from shoes.block import Step, box_block
-    from shoes.tray import build_solid, write_step
+    from shoes.plan.block import Step, box_block
+    from shoes.solid.tray import build_solid, write_step
 
     write_step(build_solid([Step("add", "a", (box_block((-60, -45, 0), (140, 45, 50)),))]), str(tmp_path / "foot.step"))
     code, out, err = run(tmp_path / "foot.step", "--layout-only", "-o", tmp_path / "out", "--json")
