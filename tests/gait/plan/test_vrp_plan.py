@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from gait.vrp_plan import VrpPlan
+from gait.plan.vrp_plan import VrpPlan
 from plantar.errors import InputError
 
 OMEGA = 3.5

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.layout import Side
+from plantar.layouts.layout import Side
+from plantar.mechanics.rotation import level_rotation
 
-__all__ = ["Footstep", "level_rotation", "other_side", "straight_plan"]
+__all__ = ["Footstep", "other_side", "straight_plan"]
 
 
 @dataclass(frozen=True)
@@ -41,12 +42,6 @@ class Footstep:
     def rotation_sole_to_world(self) -> NDArray[np.float64]:
         """Rotation (3, 3) of a level sole with this heading."""
         return level_rotation(self.yaw)
-
-
-def level_rotation(yaw: float) -> NDArray[np.float64]:
-    """Rotation (3, 3) to the world from a level frame with a heading in rad."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def other_side(side: Side) -> Side:

@@ -93,7 +93,7 @@ class VrpPlan:
         waypoints: NDArray[np.float64],
         omega: float,
     ) -> None:
-        self.times: list[float] = times.tolist()
+        self.times: tuple[float, ...] = tuple(times.tolist())
         self._times = times
         self.vrps = vrps
         self.omega = omega
@@ -116,6 +116,9 @@ class VrpPlan:
             self._rate[i] = rx, ry
             self._end_offset[i] = ox, oy
             self.dcm_waypoints[i] = x, y
+
+        for array in (self._times, self.vrps, self.dcm_waypoints):
+            array.flags.writeable = False  # handed out: a plan is changed by making another one
 
     def _start_com(self, com: NDArray[np.float64]) -> None:
         self._com_offset: list[NDArray[np.float64]] = []  # B of each segment, as far as it was asked for
@@ -158,7 +161,7 @@ class VrpPlan:
         Example:
             >>> plan = VrpPlan([0.0, 1.0, 1.3, 3.0], [[0, 0], [0, 0], [0, 0.1], [0, 0.1]], omega=3.5)
             >>> plan.replanned([0.5, 1.0], [[0, 0], [0.02, 0]], 2).times
-            [0.5, 1.0, 1.3, 3.0]
+            (0.5, 1.0, 1.3, 3.0)
         """
         head, points, move = np.asarray(times, float), np.asarray(vrps, float).reshape(-1, 2), np.asarray(shift, float)
         m = len(head)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gait.footsteps import Footstep, other_side, straight_plan
+from gait.plan.footsteps import Footstep, other_side, straight_plan
 from plantar.errors import InputError
 
 

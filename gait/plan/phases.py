@@ -1,0 +1,215 @@
+"""Walking state machine: which foot carries, which one swings, and when (T 4.16). Pure: no clock, no sensors inside."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from functools import cached_property
+
+from plantar.errors import InputError
+from plantar.settings.schema import Settings, number
+from plantar.sides import Side, other_side
+
+__all__ = ["Phase", "PhaseKind", "Timing", "WalkSchedule"]
+
+
+class PhaseKind(IntEnum):
+    """What the feet do."""
+
+    STANDING = 0
+    DOUBLE_SUPPORT = 1
+    SINGLE_SUPPORT = 2
+
+
+@dataclass(frozen=True)
+class Timing(Settings):
+    """Durations of a walk in s.
+
+    Attributes:
+        single_support: t_ss.
+        double_support: t_ds.
+        start: First double support, in which the weight shifts from both feet to the first stance foot.
+        end: Last double support, in which the weight returns between the feet.
+        settle: Standing time after the last step.
+    """
+
+    single_support: float = number(0.9, "s", 0.2, 10)
+    double_support: float = number(0.3, "s", 0.02, 10)
+    start: float = number(1.2, "s", 0.2, 60)
+    end: float = number(1.0, "s", 0.2, 60)
+    settle: float = number(2.0, "s", 0, 600)
+
+
+@dataclass(frozen=True)
+class Phase:
+    """A phase of the walk.
+
+    Attributes:
+        kind: Standing, double support or single support.
+        step: Index of the footstep that is being taken or comes next; the number of steps at the end.
+        start: Time in s at which the phase begins.
+        end: Time in s at which it ends (inf for the final standing).
+        swing: The swing foot in single support, else None.
+        wait: Time in s, at the end of a single support, for which the foot has to be down already.
+    """
+
+    kind: PhaseKind
+    step: int
+    start: float
+    end: float
+    swing: Side | None = None
+    wait: float = 0.0
+
+    @property
+    def stance(self) -> Side | None:
+        """The only carrying foot in single support, else None."""
+        return None if self.swing is None else other_side(self.swing)
+
+    @property
+    def touchdown(self) -> float:
+        """Time in s at which the swing foot of a single support is planned to touch the ground."""
+        return self.end - self.wait if self.wait else self.end
+
+
+@dataclass(frozen=True)
+class WalkSchedule:
+    """Phases of a walk over time, one after another without gaps. A value: a change makes another schedule.
+
+    Attributes:
+        phases: The phases in order; the last one is the standing at the end.
+        timing: The durations.
+
+    Example:
+        >>> schedule = WalkSchedule.of(("left", "right"), Timing())
+        >>> schedule.at(1.3).kind.name, schedule.at(1.3).swing, round(schedule.walking_end, 2)
+        ('SINGLE_SUPPORT', 'left', 4.3)
+    """
+
+    phases: tuple[Phase, ...]
+    timing: Timing
+
+    @classmethod
+    def of(cls, sides: Sequence[Side], timing: Timing, begin: float = 0.0) -> WalkSchedule:
+        """The schedule of a walk that begins from standing.
+
+        Args:
+            sides: The foot of each step in order.
+            timing: The durations.
+            begin: Time in s at which the first double support begins; before it the robot stands.
+
+        Returns:
+            The schedule.
+        """
+        phases = [Phase(PhaseKind.STANDING, 0, -math.inf, begin)]
+        return cls((*phases, *_walked(sides, 0, begin, timing, timing.start)), timing)
+
+    @property
+    def walking_end(self) -> float:
+        """Time in s at which the last double support ends."""
+        return self.phases[-1].start
+
+    @property
+    def end(self) -> float:
+        """Time in s at which the robot has walked and settled."""
+        return self.walking_end + self.timing.settle
+
+    @property
+    def steps(self) -> int:
+        """Number of steps of the walk, from its beginning on."""
+        return self.phases[-1].step
+
+    @cached_property
+    def _starts(self) -> list[float]:
+        return [phase.start for phase in self.phases]
+
+    def at(self, time: float) -> Phase:
+        """The phase at a time in s."""
+        return self.phases[self.index(time)]
+
+    def index(self, time: float) -> int:
+        """Index in `phases` of the phase at a time in s; of the first one that is kept before that."""
+        return max(0, bisect_right(self._starts, time) - 1)
+
+    def following(self, phase: Phase) -> Phase:
+        """The phase after one of `phases`; the last one for itself."""
+        return self.phases[min(self.phases.index(phase) + 1, len(self.phases) - 1)]
+
+    def delayed(self, phase: Phase, by: float, wait: float | None = None) -> WalkSchedule:
+        """A phase that ends later, or sooner, and all after it with it.
+
+        Args:
+            phase: One of `phases`.
+            by: How much later in s; negative: sooner.
+            wait: Time in s at its end for which the foot of a single support has to be down; as before where None.
+
+        Returns:
+            The schedule.
+        """
+        i = self.phases.index(phase)
+        longer = replace(phase, end=phase.end + by, wait=phase.wait if wait is None else wait)
+        if longer.end <= longer.start:
+            raise InputError(f"a phase of {phase.end - phase.start:g} s cannot end {-by:g} s sooner")
+        later = [replace(p, start=p.start + by, end=p.end + by) for p in self.phases[i + 1 :]]
+        return replace(self, phases=(*self.phases[:i], longer, *later))
+
+    def followed_by(self, step: int, sides: Sequence[Side], time: float) -> WalkSchedule:
+        """Other steps after one, or none: then the walk ends with it.
+
+        A double support that has begun keeps its length; one that ended the walk is shortened or, once it has begun,
+        gives the weight time to come back; a robot that stands shifts its weight first, as at the beginning of a walk.
+
+        Args:
+            step: Index of the last step that stays; -1 where none does.
+            sides: The foot of each step after it.
+            time: Now in s.
+
+        Returns:
+            The schedule.
+        """
+        i = next(j for j, p in enumerate(self.phases) if p.step == step + 1 and p.swing is None)
+        phase, timing, first = self.phases[i], self.timing, step + 1
+        if not sides:
+            start = phase.start if phase.kind == PhaseKind.DOUBLE_SUPPORT else math.inf
+            if first == self.steps:
+                return self
+            if first == 0:  # nothing was walked yet: the robot goes on standing
+                return replace(self, phases=(Phase(PhaseKind.STANDING, 0, self.phases[0].start, math.inf),))
+            return replace(self, phases=(*self.phases[:i], *_ending(first, start, timing)))
+        if phase.kind == PhaseKind.STANDING:
+            start = max(time, phase.start if math.isinf(phase.end) else phase.end)
+            walk = _walked(sides, first, start, timing, timing.start)
+            return replace(self, phases=(*self.phases[:i], replace(phase, end=start), *walk))
+        length = phase.end - phase.start
+        if first == self.steps:  # it ended the walk
+            begun = time - phase.start
+            length = timing.double_support if begun <= 0.0 else max(timing.double_support, begun + timing.start)
+        return replace(self, phases=(*self.phases[:i], *_walked(sides, first, phase.start, timing, length)))
+
+    def since(self, time: float) -> WalkSchedule:
+        """The same without the phases that ended before a time in s."""
+        return replace(self, phases=self.phases[self.index(time) :])
+
+
+def _walked(sides: Sequence[Side], step: int, time: float, timing: Timing, first: float) -> list[Phase]:
+    """Phases of some steps, from the double support before them on, and of the standing after them."""
+    phases = []
+    for k, side in enumerate(sides, step):
+        length = first if k == step else timing.double_support
+        phases.append(Phase(PhaseKind.DOUBLE_SUPPORT, k, time, time + length))
+        time += length
+        phases.append(Phase(PhaseKind.SINGLE_SUPPORT, k, time, time + timing.single_support, side))
+        time += timing.single_support
+    return phases + _ending(step + len(sides), time, timing)
+
+
+def _ending(steps: int, time: float, timing: Timing) -> list[Phase]:
+    """The last phases of a walk of some steps: the weight comes back between the feet, and the robot stands."""
+    phases = []
+    if steps:
+        phases.append(Phase(PhaseKind.DOUBLE_SUPPORT, steps, time, time + timing.end))
+        time += timing.end
+    phases.append(Phase(PhaseKind.STANDING, steps, time, math.inf))
+    return phases
