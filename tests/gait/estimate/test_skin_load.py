@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from gait.skin_load import SkinLoad, at_its_limit
-from plantar.force import center_of_pressure
-from plantar.layout import SoleLayout
-from plantar.percept import Percept
-from plantar.reading import Reading
-from plantar.tiling import hex_layout
+from gait.estimate.skin_load import SkinLoad, at_its_limit
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.tiling import hex_layout
+from plantar.percepts.percept import Percept
+from plantar.sensing.force import center_of_pressure
+from plantar.sensing.reading import Reading
 
 NOISE = 1.4715
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.lip import GRAVITY
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.wrench import Wrench
 
 __all__ = ["AnkleSensor", "SoleWrench"]
 
@@ -34,8 +35,8 @@ class SoleWrench:
     @property
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Centre of pressure (2,) in the sole frame in m (T 4.5-4.6), or None without load."""
-        _, _, fz, tx, ty, _ = self.wrench_in_sole.tolist()
-        return np.array([-ty / fz, tx / fz]) if fz > 0.0 else None
+        point = Wrench.of(self.wrench_in_sole).center_of_pressure
+        return None if point is None else np.array(point)
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from gait.estimator import FloatingBaseEstimator, Posture, heading, rotation_from_vector
+from gait.estimate.estimator import FloatingBaseEstimator, Posture
 from plantar import Percept, Reading, SoleLayout, hex_layout
-from plantar.layout import Side
+from plantar.layouts.layout import Side
 
 PERIOD, OMEGA = 0.005, 3.5
 SOLE = hex_layout([[-0.1, -0.06], [0.12, -0.06], [0.12, 0.06], [-0.1, 0.06]])
@@ -136,13 +136,3 @@ def test_an_airborne_robot_keeps_finite_answers() -> None:
     assert state.zmp is None
     assert np.isfinite(state.com).all()
     assert np.isfinite(state.com_velocity).all()
-
-
-@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-7, 1e-3, 1.0, 3.1])
-def test_rotation_from_vector_is_the_exponential(size: float) -> None:
-    vector = size * np.array([0.6, -0.64, 0.48])
-    assert np.allclose(rotation_from_vector(vector), Rotation.from_rotvec(vector).as_matrix(), atol=1e-14)
-
-
-def test_heading_of_a_yaw() -> None:
-    assert heading(np.asarray(Rotation.from_euler("z", 2.5).as_matrix())) == pytest.approx(2.5)

@@ -11,10 +11,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.ankle_sensor import SoleWrench
-from plantar.clipping import unclipped_mean
-from plantar.layout import SoleLayout
-from plantar.reading import Reading
+from gait.estimate.ankle_sensor import SoleWrench
+from plantar.layouts.layout import SoleLayout
+from plantar.sensing.clipping import unclipped_mean
+from plantar.sensing.reading import Reading
 
 __all__ = ["SkinLoad", "at_its_limit"]
 

@@ -21,23 +21,22 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.lip import GRAVITY
-from plantar.force import zmp_of_feet
-from plantar.layout import Side
+from plantar.layouts.layout import Side
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector
+from plantar.mechanics.zmp import zmp_of_feet
+from plantar.settings.schema import Settings, number
 
 __all__ = [
-    "BaseState",
     "EstimatorGains",
     "FloatingBaseEstimator",
     "LegKinematics",
     "Posture",
     "SoleLoad",
-    "heading",
-    "rotation_from_vector",
 ]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
-_THREE_HALVES = 1.5 * np.eye(3)
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class Posture:
 
 
 class SoleLoad(Protocol):
-    """What a sole carries, by its taxels (`plantar.percept.Percept`) or its ankle (`gait.ankle_sensor.SoleWrench`)."""
+    """What a sole carries, by its taxels (`plantar.Percept`) or its ankle (`SoleWrench`)."""
 
     @property
     def vertical_force(self) -> float:
@@ -83,7 +82,7 @@ class LegKinematics(Protocol):
 
 
 @dataclass(frozen=True)
-class EstimatorGains:
+class EstimatorGains(Settings):
     """Gains of the estimator.
 
     Attributes:
@@ -96,60 +95,12 @@ class EstimatorGains:
             taxels add up to. Feet weigh in with what they carry beyond it.
     """
 
-    gravity: float = 0.2
-    averaging: float = 0.5
-    yaw: float = 2.0
-    observer: float = 20.0
-    tare: float = 0.05
-    minimum_load: float = 70.0
-
-
-@dataclass(frozen=True)
-class BaseState:
-    """Estimated state, world frame.
-
-    Attributes:
-        rotation_base_to_world: Rotation (3, 3).
-        position_base: Base position (3,) in m.
-        com: CoM (3,) in m.
-        com_velocity: CoM velocity (3,) in m/s.
-        zmp: Composite ZMP (2,) in m of what the soles carry, or None without load.
-        loads: Vertical force on each foot in N, less its tare.
-        positions_sole: Sole frame origin (3,) of each foot in m.
-        rotations_sole: Rotation (3, 3) from each sole frame to the world frame.
-    """
-
-    rotation_base_to_world: NDArray[np.float64]
-    position_base: NDArray[np.float64]
-    com: NDArray[np.float64]
-    com_velocity: NDArray[np.float64]
-    zmp: NDArray[np.float64] | None
-    loads: Mapping[Side, float]
-    positions_sole: Mapping[Side, NDArray[np.float64]]
-    rotations_sole: Mapping[Side, NDArray[np.float64]]
-
-
-def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation (3, 3) of a rotation vector (3,) in rad (Rodrigues)."""
-    x, y, z = vector.tolist()
-    angle = math.sqrt(x * x + y * y + z * z)
-    if angle < 1e-6:
-        s, c = 1.0, 0.5
-    else:
-        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
-    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
-    x, y, z = s * x, s * y, s * z
-    return np.array([[1.0 - yy - zz, xy - z, xz + y], [xy + z, 1.0 - xx - zz, yz - x], [xz - y, yz + x, 1.0 - xx - yy]])
-
-
-def _orthonormal(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """First-order re-orthonormalisation, enough for a rotation that is updated at every tick."""
-    return np.asarray(rotation.dot(_THREE_HALVES - 0.5 * rotation.T.dot(rotation)))
-
-
-def heading(rotation: NDArray[np.float64]) -> float:
-    """Yaw in rad of a rotation (3, 3) to the world."""
-    return math.atan2(rotation[1, 0], rotation[0, 0])
+    gravity: float = number(0.2, "1/s", 0, 50)
+    averaging: float = number(0.5, "s", 0.01, 10)
+    yaw: float = number(2.0, "1/s", 0, 50)
+    observer: float = number(20.0, "rad/s", 0.1, 100)
+    tare: float = number(0.05, "s", 0.005, 10)
+    minimum_load: float = number(70.0, "N", 0, 10000)
 
 
 @dataclass
@@ -207,7 +158,7 @@ class FloatingBaseEstimator:
         if airborne is not None:
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
-        loads = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in _SIDES}
+        loads: dict[str, float] = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in _SIDES}
         cops = {s: soles[s].position_cop_in_sole for s in _SIDES}
         if self._rotation is None or self._last is None:
             self._start(posture, accelerometer)
@@ -217,10 +168,14 @@ class FloatingBaseEstimator:
         rotation = self._rotation
         assert rotation is not None
         self._last, self._last_rotation = posture, rotation
-        positions = {s: self._position + rotation.dot(posture.positions[s]) for s in _SIDES}
-        rotations = {s: rotation.dot(posture.rotations[s]) for s in _SIDES}
+        positions: dict[str, NDArray[np.float64]] = {
+            s: self._position + rotation.dot(posture.positions[s]) for s in _SIDES
+        }
+        rotations: dict[str, NDArray[np.float64]] = {s: rotation.dot(posture.rotations[s]) for s in _SIDES}
         points: list[NDArray[np.float64] | None] = []
         for s in _SIDES:
+            positions[s] = self._position + rotation.dot(posture.positions[s])
+            rotations[s] = rotation.dot(posture.rotations[s])
             cop = cops[s]
             points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
         zmp = zmp_of_feet(points, [loads[s] for s in _SIDES])
@@ -246,8 +201,7 @@ class FloatingBaseEstimator:
             sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
             sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
         )
-        c, s = math.cos(turn), math.sin(turn)
-        self._rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]) @ level
+        self._rotation = level_rotation(turn) @ level
         self._position = np.mean(
             [np.array(self.feet[s][:3]) - self._rotation @ posture.positions[s] for s in _SIDES], axis=0
         )
@@ -260,7 +214,7 @@ class FloatingBaseEstimator:
         posture: Posture,
         gyro: NDArray[np.float64],
         accelerometer: NDArray[np.float64],
-        loads: Mapping[Side, float],
+        loads: Mapping[str, float],
         planned_acceleration: NDArray[np.float64] | None,
     ) -> None:
         assert self._rotation is not None
@@ -295,12 +249,12 @@ class FloatingBaseEstimator:
             total += weight
         if total > 0.0:
             rate += (self.gains.yaw * error / total) * rotation[2]
-        self._rotation = _orthonormal(rotation.dot(rotation_from_vector(rate * self.period)))
+        self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
 
     def _move(
         self,
         posture: Posture,
-        loads: Mapping[Side, float],
+        loads: Mapping[str, float],
         cops: Mapping[Side, NDArray[np.float64] | None],
     ) -> None:
         assert self._rotation is not None

@@ -1,0 +1,1 @@
+"""How the body is: floating base, loads, and the frame that joints are solved in."""
