@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gait.compliance_gains import ComplianceGains
-from gait.ground_map import GroundMap, GroundView
+from gait.contact.ground_map import GroundMap, GroundView
+from gait.feet.compliance_gains import ComplianceGains
 from plantar import Percept, Reading, hex_layout
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])

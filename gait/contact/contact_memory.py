@@ -15,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import SoleLayout
-from plantar.polygon import convex_hull, signed_margin
-from plantar.reading import Reading
+from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.layouts.layout import SoleLayout
+from plantar.sensing.reading import Reading
 
 __all__ = ["ContactMemory"]
 

@@ -15,12 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains
 from plantar.kernels.highest_ground import highest_plane
-from plantar.layout import SoleLayout
-from plantar.percept import Percept
-from plantar.percept_virtual import PROXIMITY_GAIN
-from plantar.virtual_wrench import virtual_ground_reaction_wrench
+from plantar.layouts.layout import SoleLayout
+from plantar.percepts.percept import Percept
+from plantar.percepts.percept_virtual import PROXIMITY_GAIN
+from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 
 __all__ = ["GroundMap", "GroundView"]
 

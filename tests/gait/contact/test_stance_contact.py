@@ -3,12 +3,12 @@ import math
 import numpy as np
 import pytest
 
-from gait.stance_contact import ContactSettings, StanceContact
+from gait.contact.stance_contact import ContactSettings, StanceContact
 from plantar import hex_layout
 from plantar.errors import InputError
-from plantar.partial_contact import PartialContact
-from plantar.polygon import area
-from plantar.reading import Reading
+from plantar.geometry.polygon import area
+from plantar.sensing.partial_contact import PartialContact
+from plantar.sensing.reading import Reading
 
 SOLE = hex_layout([[-0.125, -0.075], [0.125, -0.075], [0.125, 0.075], [-0.125, 0.075]], clip=False)
 FIT = PartialContact(SOLE)

@@ -10,23 +10,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.gains import Gains
-from plantar.layout import SoleLayout
-from plantar.partial_contact import PartialContact
-from plantar.polygon import area, centroid, signed_margin
-from plantar.proximity import cells_polygon
-from plantar.reading import Reading
+from plantar.geometry.polygon import area, centroid, signed_margin
+from plantar.layouts.layout import SoleLayout
+from plantar.sensing.partial_contact import PartialContact
+from plantar.sensing.proximity import cells_polygon
+from plantar.sensing.reading import Reading
+from plantar.settings.schema import Settings, number, switch, whole
 
 __all__ = ["ContactSettings", "StanceContact"]
 
 
 @dataclass(frozen=True)
-class ContactSettings(Gains):
+class ContactSettings(Settings):
     """How a foothold is found from the taxels.
 
     Attributes:
@@ -58,35 +57,32 @@ class ContactSettings(Gains):
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
-    CALLED: ClassVar[str] = "contact setting"
-    BELOW: ClassVar[float] = 1e6
-
-    minimum_load: float = 90.0
-    settle_readings: int = 3
-    taxel_noise: float = 1.5
-    smoothing: float = 0.3
-    forgetting: float = 0.92
-    least_expected: float = 5.0
-    least_share: float = 0.3
-    step_down: float = 0.012
-    deep: float = 0.05
-    sight: float = 0.3
-    least_seen: int = 4
-    least_margin: float = 0.03
-    least_wrong: float = 0.1
-    least_force: float = 3.5
-    model_error: float = 0.1
-    full_ratio: float = 0.93
-    subcell: bool = True
-    fit_every: int = 8
-    standing_load: float = 450.0
-    least_move: float = 0.004
-    foresee_readings: int = 6
-    foresee_reach: float = 0.015
-    foresee_least: float = 0.07
-    largest_shift: float = 0.02
-    watch: float = 0.15
-    replan_pause: float = 0.06
+    minimum_load: float = number(90.0, "N", 0, 10000)
+    settle_readings: int = whole(3, "readings", 1, 1000)
+    taxel_noise: float = number(1.5, "N", 0, 1000)
+    smoothing: float = number(0.3, "1", 0.001, 1)
+    forgetting: float = number(0.92, "1", 0, 1)
+    least_expected: float = number(5.0, "N", 0, 10000)
+    least_share: float = number(0.3, "1", 0, 1)
+    step_down: float = number(0.012, "m", 0.001, 0.1)
+    deep: float = number(0.05, "m", 0.002, 0.5)
+    sight: float = number(0.3, "1", 0.001, 1)
+    least_seen: int = whole(4, "taxels", 1, 10000)
+    least_margin: float = number(0.03, "m", 0, 0.2)
+    least_wrong: float = number(0.1, "1", 0, 1)
+    least_force: float = number(3.5, "N", 0, 10000)
+    model_error: float = number(0.1, "1", 0, 1)
+    full_ratio: float = number(0.93, "1", 0.1, 1)
+    subcell: bool = switch(True)
+    fit_every: int = whole(8, "readings", 1, 1000)
+    standing_load: float = number(450.0, "N", 0, 100000)
+    least_move: float = number(0.004, "m", 0, 0.1)
+    foresee_readings: int = whole(6, "readings", 1, 1000)
+    foresee_reach: float = number(0.015, "m", 0, 0.2)
+    foresee_least: float = number(0.07, "s", 0, 1)
+    largest_shift: float = number(0.02, "m", 0, 0.2)
+    watch: float = number(0.15, "s", 0, 5)
+    replan_pause: float = number(0.06, "s", 0, 5)
 
 
 class StanceContact:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact_memory import ContactMemory
-from gait.estimator import rotation_from_vector
-from plantar.layout import SoleLayout
-from plantar.polygon import area
-from plantar.reading import Reading
-from plantar.tiling import hex_layout
+from gait.contact.contact_memory import ContactMemory
+from plantar.geometry.polygon import area
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.tiling import hex_layout
+from plantar.mechanics.rotation import rotation_from_vector
+from plantar.sensing.reading import Reading
 
 BUMPS = ((-0.07, 0.04), (0.08, 0.05), (0.02, -0.06))
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.support_strip import SupportStrip
+from gait.contact.support_strip import SupportStrip
 
 FORWARD = np.array([0.0, 1.0])
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import Side
+from plantar.layouts.layout import Side
 
 __all__ = ["SupportStrip"]
 

@@ -1,0 +1,258 @@
+"""What both feet stand on, and what a foot that comes down will stand on: found by their soles (T 4.4.2-4.4.3).
+
+This is perception: what is to be done about a foothold that is not what was planned is for `gait.propose` to say.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.contact.stance_contact import ContactSettings, StanceContact
+from gait.plan.feet_view import FeetView
+from gait.plan.phases import Phase, PhaseKind
+from plantar.geometry.polygon import centroid, inner_offset
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.rotation import level_rotation
+from plantar.percepts.percept import Percept
+from plantar.percepts.support import feet_support_polygon, polygon_in_world
+from plantar.sides import SIDES, Side
+
+__all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
+
+
+def middle_of_sole(layout: SoleLayout) -> NDArray[np.float64]:
+    """Centroid (2,) of a sole's outline in the sole frame in m: where the VRP lies over a whole foothold."""
+    middle = centroid(layout.outline)
+    assert middle is not None  # a layout's outline has an area
+    return middle
+
+
+@dataclass(frozen=True)
+class FootholdFound:
+    """What a foot was found to stand on.
+
+    Attributes:
+        step: The step that put it down.
+        side: Which foot.
+        polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
+        area_ratio: Its share of the sole's cells.
+        vrp: VRP (2,) over it in the world in m.
+        whole: Whether it carries the whole sole.
+        as_planned: Whether it carries the whole sole, and nothing else was found before.
+    """
+
+    step: int
+    side: Side
+    polygon: NDArray[np.float64]
+    area_ratio: float
+    vrp: NDArray[np.float64]
+    whole: bool = False
+    as_planned: bool = False
+
+
+@dataclass(frozen=True)
+class FootholdSeen:
+    """What a foot that comes down was seen to stand on soon, where that is not the whole sole.
+
+    Attributes:
+        step: The step that puts it down.
+        side: Which foot.
+        vrp: VRP (2,) over it in the world in m.
+    """
+
+    step: int
+    side: Side
+    vrp: NDArray[np.float64]
+
+
+@dataclass
+class _Foot:
+    """One foot of the walk: its taxels' view, the middle (2,) of its foothold in the sole, the foothold (k, 2) in the
+    world where it is known, and the step that put it down."""
+
+    contact: StanceContact
+    center: NDArray[np.float64]
+    support: NDArray[np.float64] | None = None
+    step: int | None = None
+
+
+class FootContacts:
+    """Contacts of both feet.
+
+    Args:
+        settings: How a foothold is found from the taxels.
+        layouts: Sole layout of each side.
+    """
+
+    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout]) -> None:
+        self._settings = settings
+        self._middle = {side: middle_of_sole(layouts[side]) for side in SIDES}
+        self._outline = {side: layouts[side].outline for side in SIDES}
+        self._feet = {side: _Foot(StanceContact(layouts[side], settings), self._middle[side]) for side in SIDES}
+        self._foreseen = -1
+        self._region_of: list[object] = []
+        self._region = np.empty((0, 2))
+
+    def center(self, side: Side) -> NDArray[np.float64]:
+        """Middle (2,) of a foot's foothold in its sole frame in m; of the sole while the foothold is not known."""
+        return self._feet[side].center
+
+    def polygon(self, side: Side) -> NDArray[np.float64]:
+        """Foothold (k, 2) of a foot in its sole frame in m; the sole's outline while it is not known."""
+        foot = self._feet[side]
+        return self._outline[side] if foot.support is None else foot.contact.polygon_in_sole
+
+    def lift_off(self, side: Side, step: int) -> None:
+        """A swing begins: what its foot stood on no longer counts, where it will stand is not known.
+
+        Args:
+            side: Which foot.
+            step: The step that it takes.
+        """
+        foot = self._feet[side]
+        foot.contact.lift()
+        foot.support = None
+        foot.center = self._middle[side]
+        foot.step = step
+
+    def bear_inside(self, side: Side, distance: float) -> None:
+        """Let a foot that has just landed carry nearer to the robot's middle.
+
+        Args:
+            side: Which foot.
+            distance: How far along the sole's y axis in m.
+        """
+        self._feet[side].center = self._middle[side] + np.array([0.0, distance])
+
+    def coming_to_carry(self, phase: Phase, time: float, feet: FeetView) -> list[Side]:
+        """Feet that take the weight over, or have landed and wait for it. (Later a foot's load wanders, and the ground
+        under it stays.)
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+
+        Returns:
+            Their sides, left first.
+        """
+        early = phase.kind == PhaseKind.SINGLE_SUPPORT and time < phase.start + self._settings.watch
+        sides: list[Side] = []
+        for side in SIDES:
+            step = self._feet[side].step
+            taking_over = step == phase.step - 1 and (phase.kind == PhaseKind.DOUBLE_SUPPORT or early)
+            if step is not None and (taking_over or (phase.swing == side and feet.landed)):
+                sides.append(side)
+        return sides
+
+    def see(
+        self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
+    ) -> FootholdSeen | None:
+        """What the swing foot will stand on, from what its taxels see; told once for each step.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+            state: Estimated state.
+            soles: What each sole sees.
+
+        Returns:
+            The foothold, where it is seen now and not whole.
+        """
+        side = phase.swing
+        if side is None or feet.landed:
+            return None
+        contact, rules = self._feet[side].contact, self._settings
+        contact.see(soles[side].reading)
+        if self._foreseen == phase.step or math.hypot(*feet.ahead.tolist()) > rules.foresee_reach:
+            return None
+        if phase.end - time < rules.foresee_least:
+            return None
+        turn = state.rotations_sole[side][:2, :2]
+        center = contact.foresee(turn.T @ feet.ahead)
+        if center is None:
+            return None
+        self._foreseen = phase.step
+        return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
+
+    def find(
+        self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
+    ) -> tuple[FootholdFound, ...]:
+        """What the feet that come to carry stand on; told when it is found, and when it becomes another.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            feet: Where the feet are.
+            state: Estimated state.
+            soles: What each sole feels.
+
+        Returns:
+            The footholds.
+        """
+        found = []
+        for side in self.coming_to_carry(phase, time, feet):
+            if self._feet[side].contact.update(soles[side].reading, state.loads[side]):
+                found.append(self._taken(side, state))
+        return tuple(found)
+
+    def _taken(self, side: Side, state: BaseState) -> FootholdFound:
+        """Take over what a landed foot stands on."""
+        foot, contact = self._feet[side], self._feet[side].contact
+        assert foot.step is not None
+        known = foot.support is not None
+        position, rotation = state.positions_sole[side], state.rotations_sole[side]
+        polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
+        point = (position + rotation[:, :2] @ contact.center_in_sole)[:2]
+        as_planned = contact.whole and not known
+        if not as_planned:
+            foot.support = polygon
+            foot.center = contact.center_in_sole
+        return FootholdFound(foot.step, side, polygon, contact.area_ratio, point, contact.whole, as_planned)
+
+    def zmp_region(
+        self, phase: Phase, feet: FeetView, frame_offset: NDArray[np.float64], margin: float
+    ) -> NDArray[np.float64]:
+        """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards.
+
+        A foot whose support is not known counts with its whole sole at its commanded place. The region is made anew
+        only when a foot comes, goes or moves, or another support is found.
+
+        Args:
+            phase: Phase of the walk.
+            feet: Where the feet are commanded.
+            frame_offset: Offset (3,) of the commanded feet's frame in the world in m.
+            margin: Distance in m that the desired ZMP keeps from the edge.
+
+        Returns:
+            Convex polygon (k, 2) in the world in m, counter-clockwise.
+        """
+        standing = [s for s in SIDES if feet.landed or phase.swing != s]
+        places: list[object] = []
+        for side in standing:
+            position, yaw = feet.footholds[side]
+            support = self._feet[side].support
+            places.append((side, float(position[0]), float(position[1]), yaw) if support is None else id(support))
+        if places != self._region_of:
+            parts = []
+            for side in standing:
+                support = self._feet[side].support
+                if support is None:
+                    position, yaw = feet.footholds[side]
+                    support = polygon_in_world(
+                        self._outline[side],
+                        level_rotation(yaw),
+                        np.array([position[0], position[1], 0.0]) + frame_offset,
+                    )
+                parts.append(support)
+            self._region = inner_offset(feet_support_polygon(parts), margin)
+            self._region.flags.writeable = False
+            self._region_of = places
+        return self._region
