@@ -1,35 +1,41 @@
-"""Share a net contact wrench between the feet: the quadratic program of Caron et al. 2019, T 4.4.4.
+"""Share a net wrench between any number of contacts: the quadratic program of Caron et al. 2019, T 4.4.4.
 
-Unknown is the wrench w_i of each foot in its own contact frame. With J_i w_i that wrench about the middle of the feet
-in the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
+Unknown is the wrench w_i of each contact in its own frame. With J_i w_i that wrench about the middle of the contacts in
+the world frame and e = sum J_i w_i - w_d the error of the net wrench, it minimises
 
-    net |e|^2 + ankle sum |m_i|^2 + pressure ((1 - r) fz_1 - r fz_2)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
+    net |e|^2 + ankle sum |m_i|^2 + pressure sum_(i<j) (s_j fz_i - s_i fz_j)^2 + friction sum (fx_i^2 + fy_i^2 + tz_i^2)
 
-with m_i the moment (x, y) about the point of foot i at which it likes its centre of pressure, r the share of the first
-foot, forces in body weights and moments in body weights times 0.1 m. Each w_i stays in its wrench cone and its normal
-force at or above a minimum; one foot alone has no moment or ratio to choose. Cones live in the contact frames, so
-where the robot stands and heads only turns and shifts the costs: results 10 m away are the same.
+with m_i the moment (x, y) about the point of contact i at which it likes its centre of pressure, s_i its wanted share
+of the normal force, forces in body weights and moments in body weights times 0.1 m. By Lagrange's identity the sum over
+pairs is |s|^2 |fz|^2 - (s . fz)^2: it is 0 where the normal forces stand in the wanted proportion, whatever their sum;
+of two feet it is the ((1 - r) fz_1 - r fz_2)^2 of Caron et al. Each w_i stays in its wrench cone, its normal force at
+or above a minimum; one contact alone has no moment or share to choose. Cones live in the contact frames, so where the
+robot stands and heads only turns and shifts the costs: results 10 m away are the same.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
+from itertools import combinations
+from typing import Any
 
 import daqp
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.wrench_cone import FootContact, Rectangle, cone_rows
 from plantar.errors import InputError
+from plantar.mechanics.contact import Contact, Contacts
+from plantar.mechanics.wrench_cone import Rectangle, cone_rows
+from plantar.mechanics.zmp import zmp_of_wrench
 
 __all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
 
 _LENGTH = 0.1  # m: unit of moments over forces inside the program
 _SCALE = np.array([1.0, 1.0, 1.0, _LENGTH, _LENGTH, _LENGTH])
-_ROWS = 17  # of one foot: 16 facets of the cone and the least normal force
+_ROWS = 17  # of one contact: 16 facets of the cone and the least normal force
 _RIDGE = 1e-8  # on wrenches while the violations alone are minimised
 _TRACKED = 0.005  # of the body weight (or times 0.1 m): a net wrench nearer than this is tracked
 
@@ -38,13 +44,14 @@ class DistributionState(StrEnum):
     """How a distribution ended."""
 
     TRACKED = "tracked"
-    """The feet give the wanted net wrench."""
+    """The contacts give the wanted net wrench."""
     SATURATED = "saturated"
     """No wrenches inside the cones give it; the share comes nearest."""
     INFEASIBLE = "infeasible"
     """The constraints contradict each other; the share violates them least."""
     INVALID = "invalid"
-    """The request holds a number that is not finite; the share is the body's weight in the middle of the contacts."""
+    """The request holds a number that is not finite, or no share above 0; the contacts take the body's weight where
+    they prefer it."""
     AIRBORNE = "airborne"
     """No contact, no wrench."""
 
@@ -56,7 +63,7 @@ class DistributionWeights:
     Attributes:
         net: Of the error of the net wrench.
         ankle: Of the moments about the preferred centres of pressure (foot compliance).
-        pressure: Of the deviation from the wanted ratio of the normal forces.
+        pressure: Of the deviation from the wanted proportion of the normal forces.
         friction: Of tangential forces and yaw moments; makes the share unique.
     """
 
@@ -74,24 +81,24 @@ class DistributionWeights:
 
 @dataclass(frozen=True)
 class WrenchShare:
-    """What each foot shall take.
+    """What each contact shall take.
 
     Attributes:
         state: How the distribution ended.
-        wrenches: Wrench (k, 6) of each foot in its contact frame about that frame's origin, by the world on the robot.
+        wrenches: Wrench (6,) of each contact by its name, in its frame about that frame's origin, by the world on the
+            robot.
         error: Their sum minus the wanted net wrench (6,) in the world frame, about the middle of the contacts.
         violation: By how much the worst constraint is violated in N; 0 unless infeasible.
     """
 
     state: DistributionState
-    wrenches: NDArray[np.float64]
+    wrenches: Mapping[str, NDArray[np.float64]]
     error: NDArray[np.float64]
     violation: float
 
-    def center_of_pressure(self, foot: int) -> NDArray[np.float64] | None:
-        """Centre of pressure (2,) of one foot in its contact frame in m; None without load (below 1 mN)."""
-        _, _, fz, tx, ty, _ = self.wrenches[foot].tolist()
-        return np.array([-ty / fz, tx / fz]) if fz > 1e-3 else None
+    def center_of_pressure(self, name: str) -> NDArray[np.float64] | None:
+        """Centre of pressure (2,) of one contact in its frame in m; None without load (below 1 mN)."""
+        return zmp_of_wrench(self.wrenches[name], 1e-3)
 
 
 @dataclass(frozen=True)
@@ -114,22 +121,25 @@ class Program:
 
 
 class _Workspace:
-    """Arrays and solver for one number of feet; filled in place, and only where something has changed."""
+    """Arrays and solver for one number of contacts; filled in place, and only where something has changed."""
 
-    def __init__(self, feet: int, weights: DistributionWeights) -> None:
-        n = 6 * feet
+    def __init__(self, count: int, weights: DistributionWeights) -> None:
+        n = 6 * count
+        self.unit = np.empty(n)
         self.jacobian = np.zeros((6, n))
-        # What does not depend on poses and ratio.
-        self.own = np.diag(np.tile([1.0, 1.0, 0.0, 0.0, 0.0, 1.0], feet)) * weights.friction
-        self.fixed = np.zeros((n, n))  # what does not depend on the ratio
+        # What does not depend on poses and shares.
+        self.own = np.diag(np.tile([1.0, 1.0, 0.0, 0.0, 0.0, 1.0], count)) * weights.friction
+        self.fixed = np.zeros((n, n))  # what does not depend on the shares
         self.hessian = np.eye(n)
+        self.cells: Any = self.hessian.data  # single cells, three times as fast as through the array
+        self.pairs = list(combinations(range(count), 2))
         self.gradient = np.zeros(n)
-        self.constraints = np.zeros((_ROWS * feet, n))
-        self.upper = np.zeros(_ROWS * feet)
-        self.lower = np.full(_ROWS * feet, -1e30)
+        self.constraints = np.zeros((_ROWS * count, n))
+        self.upper = np.zeros(_ROWS * count)
+        self.lower = np.full(_ROWS * count, -1e30)
         self.middle = (0.0, 0.0, 0.0)
-        self.contacts: list[FootContact | None] = [None] * feet
-        self.ratio = math.nan
+        self.contacts: list[Contact | None] = [None] * count
+        self.shares: tuple[float, ...] = ()
         self.solver: daqp.Model | None = None
 
     def forget(self) -> None:
@@ -138,22 +148,23 @@ class _Workspace:
 
 
 class WrenchDistribution:
-    """Distributes net wrenches over one or two feet. One instance a controller: it keeps what does not change.
+    """Distributes net wrenches over contacts. One instance a controller: it keeps what does not change.
 
     Args:
         weight: Weight of the robot in N; the unit of forces inside the program.
         weights: Weights of the cost.
-        minimum_force: Least normal force in N of each foot that is given as a contact.
+        minimum_force: Least normal force in N of each contact.
 
     Raises:
         InputError: If the weight is not above 0, or the minimum force below 0.
 
     Example:
         >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
-        >>> feet = [FootContact(np.array([0.0, y, 0.0]), flat, sole) for y in (0.1, -0.1)]
+        >>> places = {"left": [0.0, 0.1, 0.0], "right": [0.0, -0.1, 0.0]}
+        >>> feet = {name: Contact(np.array(place), flat, sole) for name, place in places.items()}
         >>> share = WrenchDistribution(600.0).solve(feet, [0.0, 0.0, 600.0, 20.0, 0.0, 0.0], [0.0, 0.0, 0.0])
-        >>> share.state.value, [round(float(f)) for f in share.wrenches[:, 2]]
-        ('tracked', [400, 200])
+        >>> share.state.value, {name: round(float(wrench[2])) for name, wrench in share.wrenches.items()}
+        ('tracked', {'left': 400, 'right': 200})
     """
 
     def __init__(self, weight: float, weights: DistributionWeights | None = None, minimum_force: float = 15.0) -> None:
@@ -165,34 +176,36 @@ class WrenchDistribution:
         self.weights = weights or DistributionWeights()
         self.minimum_force = minimum_force
         self._unit = weight * _SCALE
-        self._units = {k: np.tile(self._unit, k) for k in (1, 2)}
-        self._workspaces = {k: _Workspace(k, self.weights) for k in (1, 2)}
+        self._workspaces: dict[int, _Workspace] = {}
 
     def solve(
         self,
-        contacts: Sequence[FootContact],
+        contacts: Contacts,
         wrench: NDArray[np.float64] | Sequence[float],
         point: NDArray[np.float64] | Sequence[float],
-        ratio: float = 0.5,
+        shares: Mapping[str, float] | None = None,
     ) -> WrenchShare:
         """Share a net wrench. A request that cannot be met is no error: see `DistributionState`.
 
         Args:
-            contacts: At most two contacts.
+            contacts: The contacts by name, in order; none, one or several.
             wrench: Wanted net wrench (6,) in the world frame about `point`, by the world on the robot.
             point: Point (3,) of the world frame in m.
-            ratio: Share of the normal force that the first of two feet shall carry, 0 to 1.
+            shares: Share of the normal force that each contact shall carry, 0 to 1; equal shares where None.
 
         Returns:
             The share.
+
+        Raises:
+            InputError: If the shares are not those of the contacts.
         """
-        feet = len(contacts)
-        if feet == 0:
-            return WrenchShare(DistributionState.AIRBORNE, np.empty((0, 6)), -np.asarray(wrench, dtype=float), 0.0)
-        work = self._workspaces[feet]
-        wanted = self._prepare(work, contacts, wrench, point, ratio)
+        if not contacts:
+            return WrenchShare(DistributionState.AIRBORNE, {}, -np.asarray(wrench, dtype=float), 0.0)
+        work = self._workspace(len(contacts))
+        wished = _in_order(contacts, shares)
+        wanted = self._prepare(work, contacts, wrench, point, wished)
         if wanted is None:
-            return self._rest(contacts, ratio)
+            return self._rest(contacts, wished)
         solver = work.solver
         assert solver is not None
         scaled, _, flag, _ = solver.solve()
@@ -202,61 +215,75 @@ class WrenchDistribution:
         largest = max(map(abs, error.tolist()))
         if not math.isfinite(largest):
             work.forget()
-            return self._rest(contacts, ratio)
+            return self._rest(contacts, wished)
         violation = 0.0
         state = DistributionState.TRACKED if largest <= _TRACKED else DistributionState.SATURATED
         if flag < 1:
             state = DistributionState.INFEASIBLE
             violation = self.weight * float((work.constraints @ scaled - work.upper).max())
-        return WrenchShare(state, (scaled * self._units[feet]).reshape(feet, 6), error * self._unit, violation)
+        parts = (scaled * work.unit).reshape(-1, 6)
+        # By index: an array's iterator takes three times as long.
+        wrenches = {name: parts[i] for i, name in enumerate(contacts)}
+        return WrenchShare(state, wrenches, error * self._unit, violation)
+
+    def _workspace(self, count: int) -> _Workspace:
+        """The workspace for a number of contacts, made at its first use."""
+        work = self._workspaces.get(count)
+        if work is None:
+            work = self._workspaces[count] = _Workspace(count, self.weights)
+            work.unit[:] = np.tile(self._unit, count)
+        return work
 
     def program(
         self,
-        contacts: Sequence[FootContact],
+        contacts: Contacts,
         wrench: NDArray[np.float64] | Sequence[float],
         point: NDArray[np.float64] | Sequence[float],
-        ratio: float = 0.5,
+        shares: Mapping[str, float] | None = None,
     ) -> Program:
         """The program that `solve` solves, for checks against other solvers.
 
         Args:
-            contacts: One or two contacts.
+            contacts: One or more contacts.
             wrench: Wanted net wrench (6,), as in `solve`.
             point: Its point (3,).
-            ratio: Share of the first foot.
+            shares: Their shares, as in `solve`.
 
         Returns:
             A copy of its matrices.
 
         Raises:
-            InputError: If a number is not finite.
+            InputError: If there is no contact, the shares are not theirs, or the request is invalid.
         """
-        work = self._workspaces[len(contacts)]
-        if self._prepare(work, contacts, wrench, point, ratio) is None:
-            raise InputError("the request of a wrench distribution holds a number that is not finite")
+        if not contacts:
+            raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")
+        work = self._workspace(len(contacts))
+        if self._prepare(work, contacts, wrench, point, _in_order(contacts, shares)) is None:
+            raise InputError("the request of a wrench distribution needs finite numbers, and shares above 0")
         return Program(
             work.hessian.copy(),
             work.gradient.copy(),
             work.constraints.copy(),
             work.upper.copy(),
-            self._units[len(contacts)].copy(),
+            work.unit.copy(),
         )
 
     def _prepare(
         self,
         work: _Workspace,
-        contacts: Sequence[FootContact],
+        contacts: Contacts,
         wrench: NDArray[np.float64] | Sequence[float],
         point: NDArray[np.float64] | Sequence[float],
-        ratio: float,
+        shares: tuple[float, ...],
     ) -> NDArray[np.float64] | None:
-        """Fill the workspace; returns the wanted wrench (6,) in the program's units, None for numbers not finite."""
+        """Fill the workspace; returns the wanted wrench (6,) in the program's units, None if invalid."""
         fx, fy, fz, tx, ty, tz = np.asarray(wrench, dtype=float).tolist()
         px, py, pz = np.asarray(point, dtype=float).tolist()
-        if not math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + ratio):
+        total = sum(shares)
+        if not (math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + total) and total > 0.0):
             return None
         moved = limited = False
-        for i, contact in enumerate(contacts):
+        for i, contact in enumerate(contacts.values()):
             last = work.contacts[i]
             if contact is last:
                 continue
@@ -273,16 +300,16 @@ class WrenchDistribution:
                 or contact.rotation.tolist() != last.rotation.tolist()
             )
             work.contacts[i] = contact
-        if moved and not _turn(work, contacts):
+        if moved and not _turn(work, contacts.values()):
             work.forget()
             return None
-        changed = moved or limited or ratio != work.ratio
+        changed = moved or limited or shares != work.shares
         if changed:
             if moved or limited:
                 work.jacobian.T.dot(self.weights.net * work.jacobian, out=work.fixed)
                 work.fixed += work.own
-            work.ratio = ratio
-            self._weigh(work, ratio)
+            work.shares = shares
+            self._weigh(work, shares)
         mx, my, mz = work.middle
         dx, dy, dz = px - mx, py - my, pz - mz
         w, m = self.weight, self.weight * _LENGTH
@@ -302,15 +329,15 @@ class WrenchDistribution:
             work.solver.update(f=work.gradient)
         return wanted
 
-    def _constrain(self, work: _Workspace, i: int, contact: FootContact) -> None:
-        """Cone, least force and own costs of one foot, in the program's units."""
+    def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:
+        """Cone, least force and own costs of one contact, in the program's units."""
         k, row = 6 * i, _ROWS * i
         x0, x1, y0, y1 = contact.rectangle
         inner = Rectangle(x0 / _LENGTH, x1 / _LENGTH, y0 / _LENGTH, y1 / _LENGTH)
         work.constraints[row : row + 16, k : k + 6] = cone_rows(inner, contact.friction)
         work.constraints[row + 16, k + 2] = -1.0
         work.upper[row + 16] = -self.minimum_force / self.weight
-        if len(work.contacts) == 2:
+        if len(work.contacts) > 1:
             # Moments about the preferred point: tx - y fz and ty + x fz.
             x, y = contact.preferred or contact.rectangle.center
             x, y, ankle, own = x / _LENGTH, y / _LENGTH, self.weights.ankle, work.own
@@ -319,16 +346,16 @@ class WrenchDistribution:
             own[k + 2, k + 4] = own[k + 4, k + 2] = ankle * x
             own[k + 3, k + 3] = own[k + 4, k + 4] = ankle
 
-    def _weigh(self, work: _Workspace, ratio: float) -> None:
+    def _weigh(self, work: _Workspace, shares: tuple[float, ...]) -> None:
         """Hessian of the cost, in the program's units."""
-        hessian = work.hessian
-        np.copyto(hessian, work.fixed)
-        if len(work.contacts) == 2:
-            pressure, rest = self.weights.pressure, 1.0 - ratio
-            hessian[2, 2] += pressure * rest * rest
-            hessian[8, 8] += pressure * ratio * ratio
-            hessian[2, 8] -= pressure * ratio * rest
-            hessian[8, 2] -= pressure * ratio * rest
+        np.copyto(work.hessian, work.fixed)
+        cells, pressure = work.cells, self.weights.pressure
+        for i, j in work.pairs:
+            one, other, a, b = shares[i], shares[j], 6 * i + 2, 6 * j + 2
+            cells[a, a] += pressure * other * other
+            cells[b, b] += pressure * one * one
+            cells[a, b] -= pressure * one * other
+            cells[b, a] -= pressure * one * other
 
     def _least_violating(self, work: _Workspace) -> NDArray[np.float64]:
         """Solution (n,) with the least sum of squared violations, and the least cost among those."""
@@ -339,21 +366,31 @@ class WrenchDistribution:
         relaxed = work.upper + np.maximum(violations, 0.0) + 1e-7
         return np.asarray(daqp.solve(work.hessian, work.gradient, work.constraints, relaxed, work.lower)[0])
 
-    def _rest(self, contacts: Sequence[FootContact], ratio: float) -> WrenchShare:
-        """The body's weight, by the ratio where it is one, at the preferred points."""
-        first = min(1.0, max(0.0, ratio)) if math.isfinite(ratio) else 0.5
-        shares = (1.0,) if len(contacts) == 1 else (first, 1.0 - first)
-        wrenches = np.zeros((len(contacts), 6))
-        for row, share, contact in zip(wrenches, shares, contacts, strict=True):
+    def _rest(self, contacts: Contacts, shares: tuple[float, ...]) -> WrenchShare:
+        """The body's weight, by the shares where they are some, at the preferred points."""
+        parts = [max(0.0, share) for share in shares]
+        total = sum(parts)
+        if not (math.isfinite(sum(shares)) and total > 0.0):
+            parts, total = [1.0] * len(shares), float(len(shares))
+        wrenches = {}
+        for (name, contact), part in zip(contacts.items(), parts, strict=True):
             x, y = contact.preferred or contact.rectangle.center
-            if math.isfinite(x + y):
-                row[2:5] = share * self.weight * np.array([1.0, y, -x])
-            else:
-                row[2] = share * self.weight
+            x, y = (x, y) if math.isfinite(x + y) else (0.0, 0.0)
+            wrenches[name] = part / total * self.weight * np.array([0.0, 0.0, 1.0, y, -x, 0.0])
         return WrenchShare(DistributionState.INVALID, wrenches, np.full(6, np.nan), 0.0)
 
 
-def _turn(work: _Workspace, contacts: Sequence[FootContact]) -> bool:
+def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[float, ...]:
+    """The shares in the order of the contacts; equal ones where none are given."""
+    if shares is None:
+        return (1.0 / len(contacts),) * len(contacts)
+    found = [shares[name] for name in contacts if name in shares]
+    if len(found) != len(contacts) or len(found) != len(shares):
+        raise InputError(f"shares are given for {', '.join(shares) or 'nothing'}; allowed: for {', '.join(contacts)}")
+    return tuple(found)
+
+
+def _turn(work: _Workspace, contacts: Collection[Contact]) -> bool:
     """Jacobian of the net wrench about the middle of the contacts, in the program's units; False if not finite."""
     places = [c.position.tolist() for c in contacts]
     mx, my, mz = work.middle = tuple(sum(v) / len(places) for v in zip(*places, strict=True))

@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from gait.balance import BalanceGains, DcmBalance
-from gait.vrp_plan import VrpPlan
+from gait.balance.dcm_balance import BalanceGains, DcmBalance
+from gait.plan.vrp_plan import VrpPlan
 from plantar.errors import InputError
 
 OMEGA, PERIOD = 3.5, 0.005
@@ -47,8 +47,10 @@ def test_no_zmp_is_no_error() -> None:
     assert np.array_equal(state.com, STILL.com)
 
 
-def test_gains_are_checked_and_foreign_keys_left_alone() -> None:
-    assert BalanceGains.from_table({"dcm_gain": 2.0, "law": "com_admittance"}).dcm_gain == 2.0
+def test_gains_are_checked() -> None:
+    assert BalanceGains.from_table({"dcm_gain": 2.0}, "[balance]").dcm_gain == 2.0
     for value in (-1.0, math.nan, "3"):
-        with pytest.raises(InputError, match="dcm_gain"):
-            BalanceGains.from_table({"dcm_gain": value})
+        with pytest.raises(InputError, match=r"\[balance\] 'dcm_gain' is"):
+            BalanceGains.from_table({"dcm_gain": value}, "[balance]")
+    with pytest.raises(InputError, match="nearest: dcm_gain"):
+        BalanceGains.from_table({"dcm_gian": 2.0}, "[balance]")

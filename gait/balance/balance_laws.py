@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from gait.balance import BalanceGains, BalanceLaw, DcmBalance
+from gait.balance.dcm_balance import BalanceGains, BalanceLaw, DcmBalance
 from plantar.errors import InputError
-from plantar.unknown_keys import refuse_unknown_keys
 
 if TYPE_CHECKING:
-    from gait.wrench_balance import WrenchBalanceGains
+    from gait.balance.wrench_balance import WrenchBalanceGains
 
     LawGains: TypeAlias = BalanceGains | WrenchBalanceGains
 
@@ -41,11 +40,11 @@ def balance_gains(table: Mapping[str, Any]) -> LawGains:
         raise InputError(f"[balance] law is {law!r}; allowed: {', '.join(LAWS)}")
     kind: type[BalanceGains] | type[WrenchBalanceGains] = BalanceGains
     if law == "wrench_distribution":
-        from gait.wrench_balance import WrenchBalanceGains
+        from gait.balance.wrench_balance import WrenchBalanceGains
 
         kind = WrenchBalanceGains
-    refuse_unknown_keys(table, ("law", *kind.names()), "[balance]", note=f" with law '{law}'")
-    return kind.from_table(table)
+    gains = {k: v for k, v in table.items() if k != "law"}
+    return kind.from_table(gains, "[balance]", note=f" with law '{law}'")
 
 
 def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> BalanceLaw:
@@ -62,6 +61,6 @@ def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> Ba
     """
     if isinstance(gains, BalanceGains):
         return DcmBalance(gains, omega, period)
-    from gait.wrench_balance import WrenchBalance
+    from gait.balance.wrench_balance import WrenchBalance
 
     return WrenchBalance(gains, omega, mass, period)

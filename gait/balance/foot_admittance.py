@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.gains import Gains
-from plantar.layout import Side
+from plantar.layouts.layout import Side
+from plantar.settings.schema import Settings, number
 
 __all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
 
@@ -22,7 +22,7 @@ _SIDES: tuple[Side, Side] = ("left", "right")
 
 
 @dataclass(frozen=True)
-class AdmittanceGains(Gains):
+class AdmittanceGains(Settings):
     """Gains of the feet's admittance.
 
     Attributes:
@@ -35,13 +35,13 @@ class AdmittanceGains(Gains):
         largest_lift: Largest shift of a sole in m.
     """
 
-    foot_turn_gain: float = 1e-3
-    foot_lift_gain: float = 2e-5
-    foot_return: float = 1.0
-    foot_release: float = 8.0
-    foot_filter: float = 0.02
-    largest_turn: float = 0.08
-    largest_lift: float = 0.02
+    foot_turn_gain: float = number(1e-3, "rad/s/N/m", 0, 1)
+    foot_lift_gain: float = number(2e-5, "m/s/N", 0, 0.1)
+    foot_return: float = number(1.0, "1/s", 0, 100)
+    foot_release: float = number(8.0, "1/s", 0, 200)
+    foot_filter: float = number(0.02, "s", 0, 1)
+    largest_turn: float = number(0.08, "rad", 0, 0.5)
+    largest_lift: float = number(0.02, "m", 0, 0.2)
 
 
 @dataclass

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.foot_admittance import AdmittanceGains, FootAdmittance
+from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from plantar.errors import InputError
 
 PERIOD = 0.005
@@ -61,6 +61,6 @@ def test_corrections_are_limited() -> None:
 
 
 def test_gains_come_from_a_table_and_are_checked() -> None:
-    assert AdmittanceGains.from_table({"foot_return": 2.0, "law": "x"}).foot_return == 2.0
+    assert AdmittanceGains.from_table({"foot_return": 2.0}, "[balance]").foot_return == 2.0
     with pytest.raises(InputError, match="foot_filter"):
         AdmittanceGains(foot_filter=-1.0)

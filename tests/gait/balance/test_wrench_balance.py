@@ -3,14 +3,15 @@ import math
 import numpy as np
 import pytest
 
-from gait.balance import BalanceGains, DcmBalance, FootState
-from gait.balance_laws import balance_gains, balance_law
-from gait.vrp_plan import LipReference
-from gait.wrench_balance import WrenchBalance, WrenchBalanceGains
-from gait.wrench_cone import FootContact, Rectangle, wrench_cone
-from gait.wrench_distribution import DistributionState
+from gait.balance.balance_laws import balance_gains, balance_law
+from gait.balance.dcm_balance import BalanceGains, DcmBalance, FootState
+from gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
+from gait.balance.wrench_distribution import DistributionState
+from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError
-from plantar.layout import Side
+from plantar.layouts.layout import Side
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 
 PERIOD, OMEGA, MASS = 0.005, 3.36, 65.0
 SOLE = Rectangle(-0.1, 0.13, -0.07, 0.07)
@@ -24,7 +25,7 @@ def standing(*sides: Side, fz: float = 300.0) -> dict[Side, FootState]:
     for side in sides:
         place = np.array([0.0, 0.105 if side == "left" else -0.105, 0.0])
         measured = np.array([0.0, 0.0, fz, 0.0, -0.015 * fz, 0.0])
-        feet[side] = FootState(FootContact(place, np.eye(3), SOLE), measured)
+        feet[side] = FootState(Contact(place, np.eye(3), SOLE), measured)
     return feet
 
 

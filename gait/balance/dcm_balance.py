@@ -10,18 +10,18 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.com_admittance import ComAdmittance
-from gait.gains import Gains
-from gait.vrp_plan import LipReference
-from gait.wrench_cone import FootContact
-from plantar.layout import Side
-from plantar.polygon import closest_point
+from gait.balance.com_admittance import ComAdmittance
+from gait.plan.vrp_plan import LipReference
+from plantar.geometry.polygon import closest_point
+from plantar.layouts.layout import Side
+from plantar.mechanics.contact import Contact
+from plantar.settings.schema import Settings, number
 
 __all__ = ["BalanceGains", "BalanceLaw", "BalanceState", "DcmBalance", "FootAction", "FootState"]
 
 
 @dataclass(frozen=True)
-class BalanceGains(Gains):
+class BalanceGains(Settings):
     """Gains of the DCM feedback with CoM admittance.
 
     Attributes:
@@ -32,11 +32,11 @@ class BalanceGains(Gains):
         zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
     """
 
-    dcm_gain: float = 1.5
-    zmp_gain: float = 0.5
-    com_gain: float = 1.0
-    zmp_filter: float = 0.02
-    zmp_offset: float = 0.015
+    dcm_gain: float = number(1.5, "1/s", 0, 50)
+    zmp_gain: float = number(0.5, "1/s", 0, 50)
+    com_gain: float = number(1.0, "1/s", 0, 50)
+    zmp_filter: float = number(0.02, "s", 0, 1)
+    zmp_offset: float = number(0.015, "m", 0, 0.1)
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class FootState:
         wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot.
     """
 
-    contact: FootContact
+    contact: Contact
     wrench: NDArray[np.float64]
 
 

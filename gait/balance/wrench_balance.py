@@ -16,15 +16,18 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance import BalanceState, FootAction, FootState
-from gait.com_admittance import ComAdmittance
-from gait.foot_admittance import AdmittanceGains, FootAdmittance
-from gait.gains import Gains
-from gait.lip import GRAVITY
-from gait.vrp_plan import LipReference
-from gait.wrench_distribution import DistributionWeights, WrenchDistribution
-from plantar.layout import Side
-from plantar.polygon import closest_point
+from gait.balance.com_admittance import ComAdmittance
+from gait.balance.dcm_balance import BalanceState, FootAction, FootState
+from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
+from gait.balance.wrench_distribution import DistributionWeights, WrenchDistribution
+from gait.plan.vrp_plan import LipReference
+from plantar.errors import InputError, PlantarError
+from plantar.geometry.polygon import closest_point
+from plantar.layouts.layout import Side
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.lip import GRAVITY
+from plantar.settings.schema import Setting, Settings, number
+from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["WrenchBalance", "WrenchBalanceGains"]
 
@@ -32,7 +35,7 @@ _NO_WRENCH = np.zeros(6)
 
 
 @dataclass(frozen=True)
-class WrenchBalanceGains(Gains):
+class WrenchBalanceGains(Settings):
     """Gains of the law.
 
     Attributes:
@@ -48,26 +51,44 @@ class WrenchBalanceGains(Gains):
         feet: Gains of the feet's admittance.
     """
 
-    dcm_gain: float = 3.0
-    dcm_integral: float = 0.0
-    dcm_forgetting: float = 0.1
-    largest_integral: float = 0.03
-    zmp_gain: float = 0.0
-    com_gain: float = 1.0
-    zmp_filter: float = 0.02
-    zmp_offset: float = 0.015
-    minimum_force: float = 15.0
+    dcm_gain: float = number(3.0, "1/s", 0, 50)
+    dcm_integral: float = number(0.0, "1/s", 0, 50)
+    dcm_forgetting: float = number(0.1, "1/s", 0, 50)
+    largest_integral: float = number(0.03, "m", 0, 0.2)
+    zmp_gain: float = number(0.0, "1/s", 0, 50)
+    com_gain: float = number(1.0, "1/s", 0, 50)
+    zmp_filter: float = number(0.02, "s", 0, 1)
+    zmp_offset: float = number(0.015, "m", 0, 0.1)
+    minimum_force: float = number(15.0, "N", 0, 10000)
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 
     @classmethod
-    def from_table(cls, table: Mapping[str, Any]) -> Self:
-        """Gains of the law and of the feet's admittance from the keys that name one; other keys are left alone."""
-        return replace(super().from_table(table), feet=AdmittanceGains.from_table(table))
+    def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
+        """Make the gains of the law and of the feet's admittance from one table.
+
+        Args:
+            table: Values by name, of either class.
+            where: Name of the table, for messages.
+            error: What is raised.
+            note: On what it depends which keys are allowed, for messages.
+
+        Returns:
+            The gains.
+        """
+        refuse_unknown_keys(table, cls.names(), where, error, note)
+        feet = {k: v for k, v in table.items() if k in AdmittanceGains.names()}
+        own = {k: v for k, v in table.items() if k not in feet}
+        return replace(super().from_table(own, where, error), feet=AdmittanceGains.from_table(feet, where, error))
 
     @classmethod
-    def names(cls) -> list[str]:
-        """Names of the numbers of the law, and of those of the feet's admittance, that a table may give."""
-        return [*super().names(), *AdmittanceGains.names()]
+    def names(cls) -> tuple[str, ...]:
+        """Names of the settings of the law, and of those of the feet's admittance, that a table may give."""
+        return (*super().names(), *AdmittanceGains.names())
+
+    @classmethod
+    def described(cls) -> tuple[Setting, ...]:
+        """What there is to say of each setting of the law and of the feet's admittance."""
+        return (*super().described(), *AdmittanceGains.described())
 
 
 class WrenchBalance:
@@ -112,7 +133,7 @@ class WrenchBalance:
         region: NDArray[np.float64],
         feet: Mapping[Side, FootState],
     ) -> BalanceState:
-        """One control tick (see `gait.balance.BalanceLaw`).
+        """One control tick (see `gait.balance.dcm_balance.BalanceLaw`).
 
         Args:
             reference: The plan now.
@@ -156,20 +177,22 @@ class WrenchBalance:
         self, desired: NDArray[np.float64], acceleration: NDArray[np.float64], feet: Mapping[Side, FootState]
     ) -> dict[Side, FootAction]:
         """Share the pendulum's wrench between the feet, and let them give way."""
-        contacts = [f.contact for f in feet.values()]
+        contacts: dict[str, Contact] = {side: foot.contact for side, foot in feet.items()}
         ax, ay = acceleration.tolist()
         x, y = desired.tolist()
-        ratio, ground = 0.5, 0.0
+        shares: dict[str, float] | None = None
+        ground = 0.0
         if contacts:
-            places = [c.center_in_world for c in contacts]
+            places = [c.center_in_world for c in contacts.values()]
             ground = sum(p[2] for p in places) / len(places)
             if len(places) == 2:
-                ratio = _share(x, y, *places)
+                first = _share(x, y, *places)
+                shares = dict(zip(contacts, (first, 1.0 - first), strict=True))
         # Along the line from the ZMP to the CoM: no moment about the ZMP.
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
-        share = self.distribution.solve(contacts, wrench, (x, y, ground), ratio)
+        share = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
         self.states[share.state.value] += 1
-        wanted = dict(zip(feet, share.wrenches, strict=True))
+        wanted = {side: share.wrenches[side] for side in feet}
         corrections = self.feet.update(wanted, {side: foot.wrench for side, foot in feet.items()})
         return {
             side: FootAction(wanted.get(side, _NO_WRENCH), c.roll, c.pitch, c.shift) for side, c in corrections.items()
