@@ -18,6 +18,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mechanics.rotation import sine_vector
+
 __all__ = ["PostureCompensation"]
 
 
@@ -74,7 +76,7 @@ class PostureCompensation:
         self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
         lean = rotation_command.dot(rotation_estimated.T)
         shift = com_command + lean.dot(position_in_world - com_estimated) - position
-        turn = 0.5 * np.array([lean[2, 1] - lean[1, 2], lean[0, 2] - lean[2, 0], lean[1, 0] - lean[0, 1]])
+        turn = sine_vector(lean)
         share = min(1.0, self.period / self.time_constant)
         self.shift = self.shift + share * (self._weight * _limited(shift, self.largest_shift) - self.shift)
         self.turn = self.turn + share * (self._weight * _limited(turn, self.largest_turn) - self.turn)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from plantar.settings.schema import Settings, choice, number, whole
+
 __all__ = ["ComplianceGains"]
 
 
 @dataclass(frozen=True)
-class ComplianceGains:
+class ComplianceGains(Settings):
     """Settings of preemptive foot compliance.
 
     Attributes:
@@ -47,33 +49,33 @@ class ComplianceGains:
         jump_of_all: The same for the mean of all taxels, which is less noisy.
     """
 
-    orientation: str = "plane"
-    sensing_range: float = 0.05
-    damping: float = 0.04
-    touch_speed: float = 0.002
-    margin: float = 0.0002
-    top_speed: float = 0.3
-    acceleration: float = 4.0
-    clearance: float = 0.012
-    clearance_slope: float = 0.2
-    correction: float = 0.03
-    steepness: float = 3.0
-    crawl_time: float = 0.3
-    reserve: float = 0.08
-    haste: float = 2.5
-    turning: float = 0.04
-    turn_rate: float = 1.5
-    largest_slope: float = 0.25
-    follow_taxels: int = 10
-    ankle_reach: float = 0.095
-    contact_force: float = 18.0
-    touch_force: float = 20.0
-    hold_force: float = 30.0
-    firming: float = 0.15
-    pliancy: float = 1e-4
-    settling: float = 0.1
-    readings: int = 60
-    readings_moving: int = 5
-    still: float = 0.0001
-    jump: float = 6.0
-    jump_of_all: float = 1.5
+    orientation: str = choice("plane", "moment")
+    sensing_range: float = number(0.05, "m", 0.005, 0.5)
+    damping: float = number(0.04, "s", 0.001, 1)
+    touch_speed: float = number(0.002, "m/s", 0.0001, 0.1)
+    margin: float = number(0.0002, "m", 0, 0.01)
+    top_speed: float = number(0.3, "m/s", 0.01, 2)
+    acceleration: float = number(4.0, "m/s^2", 0.1, 100)
+    clearance: float = number(0.012, "m", 0, 0.1)
+    clearance_slope: float = number(0.2, "1", 0, 2)
+    correction: float = number(0.03, "s", 0.005, 1)
+    steepness: float = number(3.0, "1", 1, 10)
+    crawl_time: float = number(0.3, "s", 0, 2)
+    reserve: float = number(0.08, "s", 0, 1)
+    haste: float = number(2.5, "1", 1, 20)
+    turning: float = number(0.04, "s", 0.005, 1)
+    turn_rate: float = number(1.5, "rad/s", 0.01, 20)
+    largest_slope: float = number(0.25, "rad", 0, 0.7)
+    follow_taxels: int = whole(10, "taxels", 3, 10000)
+    ankle_reach: float = number(0.095, "rad", 0, 0.7)
+    contact_force: float = number(18.0, "N", 0, 10000)
+    touch_force: float = number(20.0, "N", 0, 10000)
+    hold_force: float = number(30.0, "N", 0.1, 10000)
+    firming: float = number(0.15, "s", 0.001, 5)
+    pliancy: float = number(1e-4, "m/s/N", 0, 0.1)
+    settling: float = number(0.1, "s", 0.005, 10)
+    readings: int = whole(60, "readings", 1, 10000)
+    readings_moving: int = whole(5, "readings", 1, 10000)
+    still: float = number(0.0001, "m", 1e-06, 0.01)
+    jump: float = number(6.0, "1", 0.1, 100)
+    jump_of_all: float = number(1.5, "1", 0.1, 100)

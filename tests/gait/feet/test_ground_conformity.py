@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.compliance_gains import ComplianceGains
-from gait.foot_motion import FootMotion, Landing
-from gait.footsteps import straight_plan
-from gait.ground_conformity import ConformityGains, FootTurn
-from gait.phases import Timing, WalkSchedule
-from gait.swing_compliance import SwingCompliance
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import FootMotion, Landing
+from gait.feet.ground_conformity import ConformityGains, FootTurn
+from gait.feet.swing_compliance import SwingCompliance
+from gait.plan.footsteps import straight_plan
 from plantar.errors import InputError
-from plantar.tiling import hex_layout
+from plantar.layouts.tiling import hex_layout
 
 PERIOD = 0.005
 GAINS = ConformityGains()
@@ -55,10 +54,10 @@ def test_a_foot_that_rolls_over_an_edge_turns_faster() -> None:
 
 
 def test_a_standing_sole_turns_about_what_carries_it() -> None:
-    feet, steps = straight_plan(2)
+    feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
     compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
-    motion = FootMotion(feet, WalkSchedule(steps, Timing()), PERIOD, 0.05, Landing(), compliance)
+    motion = FootMotion(feet, PERIOD, 0.05, Landing(), compliance)
     pivot, before = np.array([0.1, -0.04]), motion.footholds["left"][0].copy()
     motion.turn_standing("left", np.array([0.02, -0.03]), pivot)
     height = motion.footholds["left"][0][2] + float(motion.rotation("left")[2, :2] @ pivot)
@@ -68,5 +67,5 @@ def test_a_standing_sole_turns_about_what_carries_it() -> None:
 
 
 def test_a_gain_below_zero_is_refused() -> None:
-    with pytest.raises(InputError, match="conformity gain 'firm'"):
+    with pytest.raises(InputError, match="setting 'firm'"):
         ConformityGains(firm=-1.0)

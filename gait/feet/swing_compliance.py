@@ -14,13 +14,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.compliance_gains import ComplianceGains
-from gait.estimator import rotation_from_vector
-from gait.ground_map import GroundMap, GroundView
-from plantar.layout import SoleLayout
-from plantar.virtual_wrench import SoleWrenchSwitch
+from gait.contact.ground_map import GroundMap, GroundView
+from gait.feet.compliance_gains import ComplianceGains
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.rotation import rotation_from_vector
+from plantar.sensing.virtual_wrench import SoleWrenchSwitch
 
-__all__ = ["SwingCompliance", "turned_to_ground", "vector_from_rotation"]
+__all__ = ["SwingCompliance", "turned_to_ground"]
 
 
 _DOUBT = 0.001  # m past the ground that it sees at which a sole that has not touched goes down twice as fast
@@ -170,21 +170,3 @@ def turned_to_ground(
     if size > largest:
         turn *= largest / size
     return np.asarray(rotation.dot(rotation_from_vector(turn)))
-
-
-def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation vector of a rotation by less than half a turn.
-
-    Args:
-        rotation: Rotation (3, 3).
-
-    Returns:
-        Its axis times its angle (3,) in rad.
-    """
-    axis = 0.5 * np.array(
-        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
-    )
-    sine = math.sqrt(float(axis.dot(axis)))
-    if sine < 1e-9:
-        return axis
-    return np.asarray(axis * (math.atan2(sine, 0.5 * (float(np.trace(rotation)) - 1.0)) / sine))

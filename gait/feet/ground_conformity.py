@@ -19,27 +19,26 @@ import math
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.contact_memory import ContactMemory
-from gait.estimator import BaseState
-from gait.foot_motion import FootMotion
-from gait.gains import Gains
-from gait.phases import Phase, WalkSchedule
-from plantar.layout import Side, SoleLayout
-from plantar.percept import Percept
+from gait.contact.contact_memory import ContactMemory
+from gait.plan.phases import Phase
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.percepts.percept import Percept
+from plantar.settings.schema import Settings, number, whole
+from plantar.sides import SIDES, Side
 
-__all__ = ["ConformityGains", "FootTurn", "GroundConformity"]
+__all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _ORIGIN = np.zeros(2)
 
 
 @dataclass(frozen=True)
-class ConformityGains(Gains):
+class ConformityGains(Settings):
     """Gains of feet that take the ground's shape.
 
     Attributes:
@@ -54,17 +53,22 @@ class ConformityGains(Gains):
         least_turn: Turn in rad from which it is.
     """
 
-    CALLED: ClassVar[str] = "conformity gain"
+    firm: float = number(0.006, "rad/s/m/N", 0, 1)
+    rolling: float = number(5.0, "rad/s/m", 0, 100)
+    nearly: float = number(0.01, "m", 0, 0.1)
+    largest_rate: float = number(0.6, "rad/s", 0, 10)
+    least_load: float = number(15.0, "N", 0, 10000)
+    press: float = number(80.0, "N", 0, 10000)
+    follows: float = number(1.0, "m/rad", 0, 100)
+    watch: int = whole(10, "ticks", 1, 1000)
+    least_turn: float = number(0.002, "rad", 0, 0.5)
 
-    firm: float = 0.006
-    rolling: float = 5.0
-    nearly: float = 0.01
-    largest_rate: float = 0.6
-    least_load: float = 15.0
-    press: float = 80.0
-    follows: float = 1.0
-    watch: int = 10
-    least_turn: float = 0.002
+
+class SoleTurn(NamedTuple):
+    """A turn of a standing sole: (2,) about its x and y axes in rad, and the point (2,) in m that keeps its height."""
+
+    turn: NDArray[np.float64]
+    pivot: NDArray[np.float64]
 
 
 class FootTurn:
@@ -162,8 +166,6 @@ class GroundConformity:
     Args:
         gains: The gains.
         layouts: Sole layout of each side.
-        schedule: The walk's phases.
-        motion: Motion of the feet, whose standing soles it turns.
         middles: Where each whole sole would best be loaded (2,) in its frame in m.
         period: Control period in s.
         turns_stance: Whether it turns the foot that carries the body, too; not where the balance law does.
@@ -173,35 +175,42 @@ class GroundConformity:
         self,
         gains: ConformityGains,
         layouts: Mapping[Side, SoleLayout],
-        schedule: WalkSchedule,
-        motion: FootMotion,
         middles: Mapping[Side, NDArray[np.float64]],
         period: float,
         turns_stance: bool = True,
     ) -> None:
         self.gains = gains
         self.turns_stance = turns_stance
-        self._schedule = schedule
-        self._motion = motion
         self._middles = middles
-        self._turns = {side: FootTurn(gains, period) for side in _SIDES}
-        self._contacts = {side: ContactMemory(layouts[side]) for side in _SIDES}
+        self._turns = {side: FootTurn(gains, period) for side in SIDES}
+        self._contacts = {side: ContactMemory(layouts[side]) for side in SIDES}
 
     def update(
-        self, phase: Phase, zmp_desired: NDArray[np.float64], state: BaseState, percepts: Mapping[Side, Percept]
-    ) -> None:
-        """One control tick: turn the soles that stand.
+        self,
+        phase: Phase,
+        incoming: Side | None,
+        zmp_desired: NDArray[np.float64],
+        state: BaseState,
+        percepts: Mapping[Side, Percept],
+        landed: bool,
+    ) -> dict[Side, SoleTurn]:
+        """One control tick: how the soles that stand turn.
 
         Args:
             phase: Phase of the walk.
+            incoming: The standing foot that takes the weight over now; None at the two ends of the walk.
             zmp_desired: Desired ZMP (2,) in the world in m.
             state: Estimated state.
             percepts: What each sole feels.
+            landed: Whether the swing foot has touched the ground.
+
+        Returns:
+            The turns of the soles that do.
         """
-        self._motion.press = self.gains.press
-        for side in _SIDES:
+        turned: dict[Side, SoleTurn] = {}
+        for side in SIDES:
             turns, contacts = self._turns[side], self._contacts[side]
-            if phase.swing == side and not self._motion.landed:
+            if phase.swing == side and not landed:
                 turns.lift()
                 contacts.lift()
                 continue
@@ -211,17 +220,12 @@ class GroundConformity:
             position, rotation = state.positions_sole[side], state.rotations_sole[side]
             contacts.update(percepts[side].reading, rotation, cop)
             if phase.stance == side:
-                if self.turns_stance:
-                    target = rotation[:2, :2].T @ (zmp_desired - position[:2])
-                    if not contacts.encloses(target):
-                        self._motion.turn_standing(side, turns.stance(load, cop, target), _ORIGIN)
-                        continue
-            elif self._comes_in(side, phase) and not contacts.encloses(self._middles[side]):
-                self._motion.turn_standing(side, turns.incoming(load, cop, self._middles[side]), cop)
+                target = rotation[:2, :2].T @ (zmp_desired - position[:2])
+                if self.turns_stance and not contacts.encloses(target):
+                    turned[side] = SoleTurn(turns.stance(load, cop, target), _ORIGIN)
+                    continue
+            elif side == incoming and not contacts.encloses(self._middles[side]):
+                turned[side] = SoleTurn(turns.incoming(load, cop, self._middles[side]), cop)
                 continue
             turns.hold(cop)
-
-    def _comes_in(self, side: Side, phase: Phase) -> bool:
-        """Whether a standing foot takes the weight over now: not at the two ends of the walk."""
-        steps = self._schedule.steps
-        return 0 < phase.step < len(steps) and (phase.swing == side or steps[phase.step].side != side)
+        return turned

@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gait.swing import SwingTrajectory, minimum_jerk
+from gait.feet.swing import SwingTrajectory, minimum_jerk
 
 SWING = SwingTrajectory(
     start=np.array([0.0, 0.1, 0.0]),

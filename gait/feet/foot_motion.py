@@ -10,20 +10,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.command_frame import CommandFrame
-from gait.estimator import rotation_from_vector
-from gait.footsteps import Footstep, level_rotation, other_side
-from gait.ground_map import GroundView
-from gait.phases import Phase, PhaseKind, WalkSchedule
-from gait.swing import SwingTrajectory, minimum_jerk
-from gait.swing_compliance import SwingCompliance, turned_to_ground, vector_from_rotation
-from plantar.layout import Side
-from plantar.percept import Percept
+from gait.contact.ground_map import GroundView
+from gait.estimate.command_frame import CommandFrame
+from gait.feet.swing import SwingTrajectory, minimum_jerk
+from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
+from gait.feet.swing_flight import SwingFlight
+from gait.plan.feet_view import FeetView
+from gait.plan.footsteps import Footstep
+from gait.plan.phases import Phase
+from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
+from plantar.percepts.percept import Percept
+from plantar.settings.schema import Settings, number
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["FootMotion", "Landing", "SoleSense"]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
-
 
 _RETAKE_HEIGHT = 0.04  # m above what the foot met that a step taken once more rises at most
 _CLOSE_BY = 0.06  # m before its place from which a swing turns its sole to the ground
@@ -43,7 +43,7 @@ class SoleSense(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Landing:
+class Landing(Settings):
     """How a foot lands.
 
     Attributes:
@@ -59,14 +59,14 @@ class Landing:
         approach_speed: Speed of that in m/s.
     """
 
-    contact_force: float = 70.0
-    press_force: float = 200.0
-    depth: float = 0.0004
-    speed: float = 0.03
-    acceleration: float = 1.0
-    reach: float = 0.03
-    approach_height: float = 0.0
-    approach_speed: float = 0.06
+    contact_force: float = number(70.0, "N", 0, 10000)
+    press_force: float = number(200.0, "N", 0.1, 100000)
+    depth: float = number(0.0004, "m", 0, 0.05)
+    speed: float = number(0.03, "m/s", 0.0001, 1)
+    acceleration: float = number(1.0, "m/s^2", 0.01, 100)
+    reach: float = number(0.03, "m", 0, 0.2)
+    approach_height: float = number(0.0, "m", 0, 0.2)
+    approach_speed: float = number(0.06, "m/s", 0.001, 1)
 
 
 class FootMotion:
@@ -75,12 +75,11 @@ class FootMotion:
     Attributes:
         footholds: Position (3,) in m and heading in rad of each sole in the command frame.
         landed: Whether the foot that swung last has touched the ground.
-        press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
+        comes_down: Whether the foot that swung last is in the second half of its swing, or past it.
         surprise: How much higher in m than expected the ground is that a swing sees where it will land, or has met.
 
     Args:
         feet: Where the feet stand at the start.
-        schedule: The footsteps with their phases.
         period: Control period in s.
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
@@ -90,15 +89,13 @@ class FootMotion:
     def __init__(
         self,
         feet: Mapping[Side, Footstep],
-        schedule: WalkSchedule,
         period: float,
         swing_height: float,
         landing: Landing,
         compliance: Mapping[Side, SwingCompliance] | None = None,
     ) -> None:
-        self.schedule = schedule
         self.footholds: dict[Side, tuple[NDArray[np.float64], float]] = {
-            s: (feet[s].position.copy(), feet[s].yaw) for s in _SIDES
+            s: (feet[s].position.copy(), feet[s].yaw) for s in SIDES
         }
         self.landed = True
         self.comes_down = False
@@ -106,15 +103,18 @@ class FootMotion:
         self._height = swing_height
         self._landing = landing
         self._compliance = compliance
-        self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in _SIDES}
+        self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
-        self._expected = float(np.mean([feet[s].z for s in _SIDES]))
-        self._swing: SwingTrajectory | None = None
+        self._expected = float(np.mean([feet[s].z for s in SIDES]))
+        self._swing: SwingFlight | None = None
+        self._side: Side = "left"
+        self._target: Footstep | None = None
         self._start = 0.0
         self._step = -1
-        self.press: float | None = None
         self.surprise = 0.0
+        self._lift_off = self._touchdown = False
+        self._distance: NDArray[np.float64] | None = None
         self._lowered = self._lowering = 0.0
         self._touch = (0.0, 0.0)
         self._rises_first: set[Side] = set()
@@ -122,7 +122,7 @@ class FootMotion:
     @property
     def last_side(self) -> Side | None:
         """The foot that swings or swung last; None before the first step."""
-        return None if self._swing is None else self.schedule.steps[self._step].side
+        return None if self._swing is None else self._side
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -135,8 +135,23 @@ class FootMotion:
         """How far (2,) in m the swing foot still has to go horizontally, command frame; zero before the first step."""
         if self._swing is None:
             return np.zeros(2)
-        position = self.footholds[self.schedule.steps[self._step].side][0]
-        return np.asarray(self._swing.end[:2] - position[:2])
+        return np.asarray(self._swing.end[:2] - self.footholds[self._side][0][:2])
+
+    @property
+    def view(self) -> FeetView:
+        """The feet at this tick, as a value."""
+        for position, _ in self.footholds.values():
+            position.flags.writeable = False
+        return FeetView(
+            dict(self.footholds),
+            self.last_side,
+            self.landed,
+            self._lift_off,
+            self._touchdown,
+            self.ahead,
+            self.surprise,
+            self._distance,
+        )
 
     def rotation(self, side: Side) -> NDArray[np.float64]:
         """Rotation (3, 3) from a sole at its foothold to the command frame: its heading, and the ground's slope."""
@@ -171,89 +186,115 @@ class FootMotion:
         self,
         phase: Phase,
         time: float,
-        loads: Mapping[Side, float],
+        target: Footstep | None,
+        loads: Mapping[str, float],
         frame: CommandFrame,
         senses: Mapping[Side, SoleSense] | None = None,
-    ) -> bool:
+        press: float | None = None,
+    ) -> None:
         """Advance the swing foot; stop it at touchdown, lower it further while it has met no ground or bounced off.
 
         Args:
             phase: Phase of the walk.
             time: Time in s.
+            target: The footstep that is being taken, in single support.
             loads: Vertical force on each foot in N.
             frame: Frame that the footholds are commanded in.
             senses: What the soles sense, for preemptive compliance.
-
-        Returns:
-            Whether a new swing began.
+            press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
         """
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
                 if loads[side] > compliance.gains.touch_force:
                     compliance.ground.stand(senses[side].position, senses[side].rotation)
-        began = phase.swing is not None and self._step != phase.step
-        if phase.swing is not None and began:
-            self._begin(phase, phase.swing, frame)
+        self._lift_off = phase.swing is not None and self._step != phase.step
+        if self._lift_off and target is not None:
+            self._begin(phase.step, (phase.start, phase.touchdown), target, frame)
         if self._swing is None:
-            return began
-        self.comes_down = time - self._start > 0.5 * self._swing.duration
-        side = self.schedule.steps[self._step].side
+            return
+        before = self.landed
+        self.comes_down = self._swing.comes_down(time - self._start)
         if self._compliance is not None and senses is not None:
-            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame)
-            return began
+            side = self._side
+            self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame, press)
+        else:
+            self._advance(phase, time, loads[self._side])
+        self._touchdown = self.landed and not before
+
+    def _advance(self, phase: Phase, time: float, load: float) -> None:
+        """Advance a foot that does not see the ground."""
+        assert self._swing is not None
         if phase.swing is not None:
-            elapsed = time - self._start
-            if elapsed > 0.5 * self._swing.duration and loads[side] > self._landing.contact_force:
+            if self.comes_down and load > self._landing.contact_force:
                 self.landed = True
             if not self.landed:
-                self.footholds[side] = self._swing.at(elapsed)
-                return began
+                self.footholds[self._side] = self._swing.at(time - self._start)
+                return
         self.landed = True  # it touched, or the plan puts weight on it now
-        self._press(side, loads[side])
-        return began
+        self._press(self._side, load)
 
-    def _begin(self, phase: Phase, side: Side, frame: CommandFrame) -> None:
+    def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
+        """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
+
+        A foot in the air is aimed anew; one that has landed already lifts again and takes its step once more.
+
+        Args:
+            phase: Phase of the walk.
+            time: Time in s.
+            target: The footstep that is being taken.
+            frame: Frame that the footholds are commanded in.
+        """
+        if self._swing is None or phase.swing is None or phase.step != self._step:
+            return
+        moves = target != self._target
+        if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < 1e-9):
+            return
+        if self.landed:
+            self._retake(time, phase.touchdown, target, frame)
+            return
+        self._target = target
+        place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
+        yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
+        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
+
+    def _begin(self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame) -> None:
+        """Begin the swing of a step, from and until some times in s."""
+        side = target.side
         if self._swing is not None:
             landed = float(self.footholds[other_side(side)][0][2])
             self._expected += _GROUND_SHARE * (landed - self._expected)
-        step = self.schedule.steps[phase.step]
         position, yaw = self.footholds[side]
-        target = np.array([*frame.to_command(step.position[:2]), self._expected - self._landing.depth])
-        self._swing = SwingTrajectory(
+        place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
+        path = SwingTrajectory(
             position.copy(),
-            target,
+            place,
             yaw,
-            step.yaw - frame.turn,
+            target.yaw - frame.turn,
             self._height,
-            phase.end - phase.start,
+            times[1] - times[0],
             approach_height=self._landing.approach_height,
             approach_speed=self._landing.approach_speed,
             rises_first=side in self._rises_first,
         )
+        self._swing = SwingFlight.on(path)
         self._rises_first.discard(side)
-        self._step = phase.step
-        self._start = phase.start
+        self._step, self._side, self._target = index, side, target
+        self._start = times[0]
         self.surprise = 0.0
         self.landed = False
+        self._distance = None
         self._lowered = self._lowering = 0.0
         if self._compliance is not None:
             self._compliance[side].begin()
             self._lifted_tilt = vector_from_rotation(self._tilts[side])
 
-    def retake(self, time: float, duration: float, frame: CommandFrame) -> None:
-        """Lift the foot that has landed again and take its step once more, to where the schedule has it now.
-
-        Args:
-            time: Time in s.
-            duration: Duration of the swing in s.
-            frame: Frame that the footholds are commanded in.
-        """
-        step = self.schedule.steps[self._step]
+    def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
+        """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
         self._height = min(height, _RETAKE_HEIGHT)
-        self._begin(Phase(PhaseKind.SINGLE_SUPPORT, self._step, time, time + duration, step.side), step.side, frame)
+        self._begin(self._step, (time, touchdown), target, frame)
         self._expected, self._height = expected, height
-        self._rises_first.add(step.side)  # what it has met stands beside it then
+        self._rises_first.add(self._side)  # what it has met stands beside it then
 
     def _comply(
         self,
@@ -264,6 +305,7 @@ class FootMotion:
         load: float,
         sense: SoleSense,
         frame: CommandFrame,
+        press: float | None,
     ) -> None:
         """Advance a foot that sees the ground: soften its swing, turn it to the slope, hand over to the real load."""
         assert self._swing is not None
@@ -272,15 +314,18 @@ class FootMotion:
         elapsed = time - self._start
         if not self.landed:
             view = compliance.ground.look(*sense, time)
-            if elapsed > 0.5 * swing.duration and compliance.feel(load) and self._may_touch(compliance, view, load):
+            if self.comes_down and compliance.feel(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
                 self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)
                 compliance.ground.touched()
+                self._distance = compliance.ground.distance
+                self._distance.flags.writeable = False
         if not self.landed:
-            if elapsed < swing.lifted:
+            progress, lifted = swing.progress(elapsed), swing.path.lifted
+            if progress < lifted:
                 self.footholds[side] = swing.at(elapsed)
-                share = 1.0 - minimum_jerk(elapsed / swing.lifted)[0]
+                share = 1.0 - minimum_jerk(progress / lifted)[0]
                 self._tilts[side] = rotation_from_vector(share * self._lifted_tilt)
                 return
             planned, heading = swing.at(elapsed)
@@ -297,7 +342,7 @@ class FootMotion:
             self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
             return
         touched_at, height = self._touch
-        hold = compliance.holding(time - touched_at) if self.press is None else self.press
+        hold = compliance.holding(time - touched_at) if press is None else press
         above = max(0.0, float(sense.position[2]) - height)
         if phase.swing is not None:
             drop = compliance.yielding(load, hold, above, period)

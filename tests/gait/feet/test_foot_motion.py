@@ -1,0 +1,199 @@
+"""Footholds, swing and landing against made-up loads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gait.estimate.command_frame import CommandFrame
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import FootMotion, Landing, SoleSense
+from gait.feet.swing_compliance import SwingCompliance
+from gait.plan.footsteps import Footstep, straight_plan
+from gait.plan.phases import Phase, Timing, WalkSchedule
+from plantar import Percept, Reading, hex_layout
+from plantar.layouts.layout import Side
+
+PERIOD = 0.005
+LANDING = Landing()
+
+
+def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
+    return steps[phase.step] if phase.swing is not None else None
+
+
+def walked(ground: float, until: float) -> tuple[FootMotion, list[tuple[float, float]]]:
+    """The first step over ground at a height; the foot feels a stiff spring. Times and commanded sole heights."""
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    track = []
+    for k in range(round(until / PERIOD)):
+        time = k * PERIOD
+        depth = ground - motion.footholds["left"][0][2]
+        loads: dict[Side, float] = {"left": max(0.0, 2e5 * depth), "right": 800.0}
+        motion.update(schedule.at(time), time, taken(steps, schedule.at(time)), loads, frame)
+        track.append((time, float(motion.footholds["left"][0][2])))
+    return motion, track
+
+
+def test_on_the_expected_ground_the_foot_lands_where_and_when_it_is_planned() -> None:
+    motion, track = walked(0.0, 2.3)
+    assert motion.footholds["left"][0][:2] == pytest.approx([0.2, 0.085])
+    assert max(z for _, z in track) == pytest.approx(0.05, abs=1e-3)
+    assert motion.landed
+
+
+def test_an_early_contact_stops_the_swing() -> None:
+    motion, track = walked(0.02, 2.1)
+    landed = [(t, z) for t, z in track if t > 1.2 + 0.6]
+    assert motion.landed
+    assert min(z for _, z in landed) > 0.02 - 0.002  # not pushed into the obstacle
+
+
+def test_a_late_contact_is_reached_slowly() -> None:
+    _, track = walked(-0.008, 2.395)
+    heights = np.array([z for t, z in track if t >= 2.1])
+    assert heights[-1] < -0.006
+    assert np.diff(heights).min() >= -LANDING.speed * PERIOD - 1e-12
+
+
+def test_no_ground_is_not_followed_for_ever() -> None:
+    _, track = walked(-1.0, 3.2)
+    assert min(z for _, z in track) > -LANDING.reach - 2e-3
+
+
+def test_a_standing_foot_stays_where_it_is() -> None:
+    motion, _ = walked(0.0, 2.3)
+    position, yaw = motion.footholds["right"]
+    assert position.tolist() == [0.0, -0.085, 0.0]
+    assert yaw == 0.0
+
+
+@pytest.mark.parametrize(
+    ("height", "spike", "landed"),
+    [(0.004, 35.0, False), (0.004, 90.0, True), (0.001, 35.0, True), (0.02, 60.0, False)],
+    ids=["noise above the ground", "met something", "a touch", "noise high up"],
+)
+def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, spike: float, landed: bool) -> None:
+    """The taxels of a sole that comes down add up to a few newtons of noise, and now and then to a touch's load."""
+    layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    force = np.zeros(len(layout))
+    spikes = 0
+    for k in range(round(2.2 / PERIOD)):
+        time = k * PERIOD
+        senses = {}
+        for side in feet:
+            position, _ = motion.footholds[side]
+            seen = np.full(len(layout), max(0.0, float(position[2])))
+            percept = Percept(layout, Reading(time=time, force=force, proximity=seen))
+            senses[side] = SoleSense(percept, position, np.eye(3))
+        down = motion.comes_down and motion.footholds["left"][0][2] < height
+        spikes += down
+        load = spike if down and spikes <= 2 else 0.0
+        phase = schedule.at(time)
+        motion.update(phase, time, taken(steps, phase), {"left": load, "right": 800.0}, frame, senses)
+        if spikes == 3:
+            break
+    assert spikes == 3
+    assert motion.landed == landed
+
+
+def test_a_foot_that_met_something_rises_first_in_its_next_step() -> None:
+    """What a foot refused stands beside it when it goes on; a swing that moved at once would hit it."""
+    feet, steps = straight_plan(3)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    motion = FootMotion(feet, PERIOD, 0.05, Landing(approach_height=0.015))
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    ahead: dict[int, list[float]] = {0: [], 1: [], 2: []}
+    for k in range(round(schedule.end / PERIOD)):
+        time = k * PERIOD
+        phase = schedule.at(time)
+        motion.update(phase, time, taken(steps, phase), {"left": 400.0, "right": 400.0}, frame)
+        if motion.view.touchdown and steps[0].x != 0.1:
+            steps = (replace(steps[0], x=0.1), *steps[1:])
+            schedule = schedule.delayed(phase, 1.0)
+            motion.aim(schedule.at(time), time, steps[0], frame)
+            assert not motion.landed
+        if phase.swing is not None and time - phase.start < 0.13 * (phase.end - phase.start):
+            ahead[phase.step].append(float(motion.ahead[0]))
+    assert np.ptp(ahead[2]) == 0.0
+    assert np.ptp(ahead[1]) > 0.005
+
+
+@pytest.mark.parametrize(("place", "later"), [((0.3, 0.12), 0.0), ((0.1, 0.05), -0.2), ((0.2, 0.085), 0.5)])
+def test_a_swing_is_aimed_anew_in_flight_without_a_jump(place: tuple[float, float], later: float) -> None:
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    target, aimed, track = steps[0], False, []
+    while not (track and schedule.at(len(track) * PERIOD).step == 1):
+        time = len(track) * PERIOD
+        phase = schedule.at(time)
+        if not aimed and time > 1.2 + 0.4:
+            aimed = True
+            target = replace(target, x=place[0], y=place[1], yaw=0.2)
+            schedule = schedule.delayed(phase, later)
+            motion.aim(schedule.at(time), time, target, frame)
+        motion.update(schedule.at(time), time, target, {"left": 0.0, "right": 800.0}, frame)
+        position, yaw = motion.footholds["left"]
+        track.append([*position, yaw])
+    way = np.array(track)
+    assert way[-1, :2] == pytest.approx(place, abs=1e-6)
+    assert way[-1, 3] == pytest.approx(0.2, abs=1e-6)
+    assert len(track) * PERIOD == pytest.approx(1.2 + 0.9 + later, abs=2 * PERIOD)
+    assert np.abs(np.diff(way, axis=0)).max() < 2.0 * PERIOD  # m/s
+    lifted = way[round(1.25 / PERIOD) :]
+    assert np.abs(np.diff(lifted, 2, axis=0))[:, [0, 1, 3]].max() < 40.0 * PERIOD**2  # m/s^2
+
+
+def test_a_foot_that_has_landed_waits_where_it_is_when_its_phase_is_made_longer() -> None:
+    motion, _ = walked(0.0, 2.05)
+    feet, steps = straight_plan(2)
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    motion.landed, before = True, motion.footholds["left"][0].copy()
+    longer = schedule.delayed(schedule.at(2.05), 0.5)
+    motion.aim(longer.at(2.05), 2.05, steps[0], frame)
+    assert motion.landed
+    assert motion.footholds["left"][0].tolist() == before.tolist()
+
+
+def test_a_foot_that_sees_the_ground_presses_as_it_is_told() -> None:
+    """The force is an argument of each tick: nobody can leave one behind for another to meet."""
+    layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    held = {}
+    for press in (None, 80.0, 130.0):
+        compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+        motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
+        carried = []
+        longer = schedule.delayed(schedule.phases[2], 6.0, wait=6.0)
+        for k in range(round(8.0 / PERIOD)):
+            time = k * PERIOD
+            phase = longer.at(time)
+            load = max(0.0, -2e4 * float(motion.footholds["left"][0][2]))
+            senses = {}
+            for side in feet:
+                seen = np.full(len(layout), max(0.0, float(motion.footholds[side][0][2])))
+                percept = Percept(layout, Reading(time=time, force=np.zeros(len(layout)), proximity=seen))
+                senses[side] = SoleSense(percept, motion.footholds[side][0], np.eye(3))
+            carried.append(load)
+            loads = {"left": load, "right": 800.0}
+            motion.update(phase, time, taken(steps, phase), loads, frame, senses, press)
+        held[press] = float(np.mean(carried[-200:]))
+    assert held[None] == pytest.approx(ComplianceGains().hold_force, rel=0.1)
+    assert held[80.0] == pytest.approx(80.0, rel=0.1)
+    assert held[130.0] == pytest.approx(130.0, rel=0.1)
