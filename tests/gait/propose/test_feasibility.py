@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
+from gait.propose.feasibility import FeasibilityRules, FootholdProbe, room_ahead, way_around
 from plantar import InputError, hex_layout
-from plantar.polygon import area
+from plantar.geometry.polygon import area
 
 OUTLINE = np.array([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 LAYOUT = hex_layout(OUTLINE)

@@ -18,21 +18,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import InputError
-from plantar.layout import Side, SoleLayout
-from plantar.polygon import area
-from plantar.proximity import cells_polygon
+from plantar.geometry.polygon import area
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.sensing.proximity import cells_polygon
+from plantar.settings.schema import Settings, choice, number, whole
 
 __all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
 
 @dataclass(frozen=True)
-class FeasibilityRules:
+class FeasibilityRules(Settings):
     """Rules of step feasibility.
 
     Attributes:
         rule: "skin" or "force_torque".
-        area_ratio: epsilon_A: a foothold that supports no more than this share of the sole is refused.
+        area_ratio: epsilon_A: a foothold that supports no more than this share of the sole is refused; above 1 none is
+            accepted.
         ankle_moment: epsilon_t in N m: a foothold that makes this moment at the ankle is refused.
         surprise: How much higher than expected in m ground has to be to be checked.
         hold: By how much the single support is made longer for that, in s.
@@ -53,30 +54,26 @@ class FeasibilityRules:
         attempts: How often one step is planned anew; then the robot stops.
     """
 
-    rule: str = "skin"
-    area_ratio: float = 0.8
-    ankle_moment: float = 8.0
-    surprise: float = 0.010
-    hold: float = 0.7
-    probe_force: float = 130.0
-    probe_time: float = 0.12
-    probe_limit: float = 0.25
-    reserve: float = 0.5
-    active_force: float = 1.3
-    near: float = 0.003
-    clearance: float = 0.025
-    swing_time: float = 1.4
-    return_time: float = 2.2
-    outward: float = 0.20
-    inward: float = 0.015
-    forward: float = 0.08
-    sideways_cost: float = 2.0
-    backward: float = 0.24
-    attempts: int = 2
-
-    def __post_init__(self) -> None:
-        if self.rule not in ("skin", "force_torque"):
-            raise InputError(f"feasibility rule is '{self.rule}'; allowed: skin, force_torque")
+    rule: str = choice("skin", "force_torque")
+    area_ratio: float = number(0.8, "1", 0, 2)
+    ankle_moment: float = number(8.0, "N m", 0, 1000)
+    surprise: float = number(0.010, "m", 0.001, 0.1)
+    hold: float = number(0.7, "s", 0.01, 10)
+    probe_force: float = number(130.0, "N", 1, 10000)
+    probe_time: float = number(0.12, "s", 0.01, 5)
+    probe_limit: float = number(0.25, "s", 0.01, 5)
+    reserve: float = number(0.5, "s", 0, 5)
+    active_force: float = number(1.3, "N", 0, 10000)
+    near: float = number(0.003, "m", 0, 0.05)
+    clearance: float = number(0.025, "m", 0, 0.2)
+    swing_time: float = number(1.4, "s", 0.2, 10)
+    return_time: float = number(2.2, "s", 0.2, 10)
+    outward: float = number(0.20, "m", 0, 1)
+    inward: float = number(0.015, "m", 0, 1)
+    forward: float = number(0.08, "m", 0, 1)
+    sideways_cost: float = number(2.0, "1", 0.01, 100)
+    backward: float = number(0.24, "m", 0, 1)
+    attempts: int = whole(2, "attempts", 0, 100)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""What wants to change the plan: footholds found, footholds refused, the shape of the ground."""

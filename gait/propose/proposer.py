@@ -1,0 +1,103 @@
+"""Who proposes changes of the plan: what they get, what they return, and whose change comes first.
+
+A proposer is a small object in a file of its own. At each tick it gets a frozen `Tick` and returns a `PlanChange` or
+nothing; it never touches the plan. The change of one proposer is applied in a tick (see `gait.propose.decide`); a
+proposer whose change was not chosen sees that in `Tick.plan.last` and proposes again while it still wants it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.contact.foot_contacts import FootholdFound, FootholdSeen
+from gait.plan.feet_view import FeetView
+from gait.plan.footsteps import Footstep
+from gait.plan.phases import Phase
+from gait.plan.plan_change import PlanChange
+from gait.plan.walk_plan import PlanView
+from plantar.sensing.reading import Reading
+from plantar.sides import Side
+
+__all__ = ["Priority", "Proposer", "Tick", "was_applied"]
+
+
+class Priority(IntEnum):
+    """Whose change is applied where several propose one, the first one first."""
+
+    SAFETY = 0
+    """A foothold that is not trusted: nothing may put weight on it."""
+    FOOTHOLD = 1
+    """What a foot stands on, or will: the VRP has to lie over it."""
+    COMMAND = 2
+    """What a user wants: it can wait for a tick."""
+
+
+@dataclass(frozen=True)
+class Tick:
+    """All that a proposer gets to know at one tick.
+
+    Attributes:
+        time: Time in s.
+        phase: Phase of the walk.
+        plan: The plan as it stands.
+        feet: Where the feet are commanded.
+        places: The same as level places in the world, without their heights.
+        readings: Reading of each sole.
+        loads: Vertical force on each foot in N.
+        moments: Moment (2,) at each ankle in N m, where there are force-torque sensors.
+        found: What feet have been found to stand on at this tick.
+        seen: What the swing foot has been seen to stand on soon.
+        inward: By how much in m, along its y axis, a foot that touches down now shall carry further inside.
+    """
+
+    time: float
+    phase: Phase
+    plan: PlanView
+    feet: FeetView
+    places: Mapping[Side, Footstep]
+    readings: Mapping[Side, Reading] = field(default_factory=dict)
+    loads: Mapping[str, float] = field(default_factory=dict)
+    moments: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    found: tuple[FootholdFound, ...] = ()
+    seen: FootholdSeen | None = None
+    inward: float = 0.0
+
+
+class Proposer(Protocol):
+    """Somebody who may want the plan to change.
+
+    Attributes:
+        priority: Where its change stands among those of others.
+    """
+
+    priority: Priority
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """What it wants to change now.
+
+        Args:
+            tick: What there is to know.
+
+        Returns:
+            The change, or None.
+        """
+        ...
+
+
+def was_applied(change: PlanChange, tick: Tick) -> bool:
+    """Whether a change that was proposed at the tick before was the one that was applied.
+
+    Args:
+        change: The change.
+        tick: The tick now.
+
+    Returns:
+        True if the plan's last change is this one.
+    """
+    return tick.plan.last is not None and tick.plan.last.change is change

@@ -1,0 +1,48 @@
+"""Ticks to propose at, without a walk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gait.plan.feet_view import FeetView
+from gait.plan.footsteps import straight_plan
+from gait.plan.phases import Timing
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.proposer import Tick
+from plantar.sides import SIDES
+
+OMEGA = 3.5
+MIDDLES = {side: np.array([0.02, 0.0]) for side in SIDES}
+
+
+def _plan_of(count: int = 6, **walk: float) -> WalkPlan:
+    """The plan of a straight walk."""
+    feet, steps = straight_plan(count, **walk)  # type: ignore[arg-type]
+    return WalkPlan(feet, steps, Timing(), MIDDLES, OMEGA, 1.0)
+
+
+def _tick_at(plan: WalkPlan, time: float, **known: object) -> Tick:
+    """The tick at a time in s, with the feet where the plan has them."""
+    phase, view = plan.schedule.at(time), plan.view
+    feet = straight_plan(0)[0]
+    for k in range(view.first, phase.step):
+        feet[view.foothold(k).side] = view.foothold(k)
+    commanded = {side: (feet[side].position, feet[side].yaw) for side in SIDES}
+    tick = Tick(time, phase, view, FeetView(commanded, phase.swing, landed=phase.swing is None), feet)
+    return replace(tick, **known)  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def plan_of() -> Callable[..., WalkPlan]:
+    """Makes the plan of a straight walk of some steps."""
+    return _plan_of
+
+
+@pytest.fixture
+def tick_at() -> Callable[..., Tick]:
+    """Makes the tick at a time of a plan, with what else is known."""
+    return _tick_at

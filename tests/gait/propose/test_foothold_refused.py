@@ -1,0 +1,131 @@
+"""Doubt, probe, step on or walk around, stop: from ticks alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from gait.plan.feet_view import FeetView
+from gait.plan.plan_change import PlanChange
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.feasibility import FeasibilityRules
+from gait.propose.foothold_refused import StepGuard
+from gait.propose.proposer import Tick
+from plantar import Reading, hex_layout
+from plantar.sides import SIDES
+
+PERIOD = 0.005
+LAYOUT = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
+RULES = FeasibilityRules()
+FRONT = LAYOUT.positions[:, 0] > 0.07
+
+
+def ticks(
+    plan: WalkPlan, step: int, touch: float, carries: np.ndarray, guard: StepGuard, tick_at: Callable[..., Tick]
+) -> Iterator[Tick]:
+    """The ticks of a step that meets something high at a time in s after lift-off, which carries on some taxels."""
+    side = plan.view.foothold(step).side
+    start = next(p.start for p in plan.schedule.phases if p.step == step and p.swing is not None)
+    force = np.where(carries, 130.0 / carries.sum(), 0.0)
+    for k in range(1000):
+        time = start + k * PERIOD
+        landed = k * PERIOD >= touch
+        surprise = 0.03 if k * PERIOD > touch - 0.05 else 0.0
+        tick = tick_at(plan, time)
+        if tick.phase.step != step or tick.phase.swing is None:
+            return
+        readings = {s: Reading(time=time, force=force if landed and s == side else 0.0 * force) for s in SIDES}
+        pressed = guard.press or 0.0
+        feet = FeetView(tick.feet.footholds, side, landed, surprise=surprise, distance=np.where(carries, 0.0, 0.03))
+        yield replace(
+            tick, feet=feet, readings=readings, loads={side: pressed, **{s: 800.0 for s in SIDES if s != side}}
+        )
+
+
+def walked(guard: StepGuard, plan: WalkPlan, carries: np.ndarray, tick_at: Callable[..., Tick]) -> list[PlanChange]:
+    """What it proposes in a step, each change applied."""
+    changes = []
+    for tick in ticks(plan, 2, 0.8, carries, guard, tick_at):
+        change = guard.propose(tick)
+        if change is not None:
+            plan.apply(change, tick.time, np.empty((0, 2)))
+            changes.append(change)
+            if change.foothold is not None:
+                break
+    return changes
+
+
+def guarding(rules: FeasibilityRules = RULES) -> StepGuard:
+    return StepGuard(rules, dict.fromkeys(SIDES, LAYOUT))
+
+
+def test_expected_ground_is_stepped_on_without_a_word(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    guard, plan = guarding(), plan_of()
+    for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at):
+        level = replace(tick, feet=replace(tick.feet, surprise=0.002))
+        assert guard.propose(level) is None
+    assert guard.press is None
+    assert guard.checked == []
+
+
+def test_a_high_foothold_that_carries_the_sole_is_probed_and_trusted(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    guard, plan = guarding(), plan_of()
+    swing = next(p for p in plan.schedule.phases if p.step == 2 and p.swing is not None)
+    changes = walked(guard, plan, np.ones(len(LAYOUT), dtype=bool), tick_at)
+    assert {c.reason for c in changes} == {"ground higher than expected"}
+    held = plan.schedule.at(swing.start)
+    assert held.end > swing.end + RULES.hold
+    assert held.touchdown == pytest.approx(swing.touchdown)  # the foot comes down when it was going to
+    assert [c.foothold.feasible for c in guard.checked] == [True]
+    assert not guard.stopped
+
+
+def test_a_foothold_under_the_toes_alone_is_walked_around(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    guard, plan = guarding(), plan_of()
+    planned = plan.view
+    changes = walked(guard, plan, FRONT, tick_at)
+    assert changes[-1].reason == "foothold refused"
+    assert guard.press is None
+    assert [c.foothold.feasible for c in guard.checked] == [False]
+    toes = plan.view.foothold(2).x + LAYOUT.outline[:, 0].max()
+    edge = planned.foothold(2).x + LAYOUT.positions[FRONT, 0].min()
+    assert toes < edge
+    assert {m.reason for m in plan.record[-1].moved} == {"foothold refused", "foothold before it refused"}
+    swing = plan.schedule.at(plan.record[-1].time)
+    assert swing.touchdown == pytest.approx(plan.record[-1].time + RULES.swing_time)
+
+
+def test_without_a_way_around_the_foot_goes_back_and_the_walk_ends(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    guard, plan = guarding(replace(RULES, attempts=0)), plan_of()
+    changes = walked(guard, plan, FRONT, tick_at)
+    assert guard.stopped
+    assert changes[-1].following == ()
+    assert plan.view.count == 3
+    back, stance = plan.view.foothold(2), plan.view.foothold(1)
+    assert back.x == pytest.approx(stance.x)
+    assert guard.propose(tick_at(plan, plan.schedule.end)) is None
+
+
+def test_a_probe_presses_as_the_rule_says_from_touchdown_to_verdict(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    guard, plan = guarding(), plan_of()
+    pressed = []
+    for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at):
+        change = guard.propose(tick)
+        if change is not None:
+            plan.apply(change, tick.time, np.empty((0, 2)))
+        pressed.append(guard.press)
+    assert set(pressed) == {None, RULES.probe_force}
+    assert pressed[-1] is None
