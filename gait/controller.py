@@ -1,60 +1,73 @@
-"""Walking controller: the one file that wires plan, estimator, swing and balance into a control tick."""
+"""Walking controller: the one file that wires the rooms into a control tick.
+
+    sense -> estimate -> swing -> propose -> decide -> apply -> balance -> feet
+
+The swing foot is advanced before anybody proposes, since most of what is proposed follows from its touchdown.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.ankle_sensor import AnkleSensor, SoleWrench
-from gait.balance import BalanceGains, FootAction, FootState
-from gait.balance_laws import balance_law
-from gait.com_height import CoMHeight
-from gait.command_frame import CommandFrame
-from gait.compliance_gains import ComplianceGains
-from gait.estimator import (
-    BaseState,
+from gait.balance.balance_laws import balance_law
+from gait.balance.dcm_balance import BalanceGains, BalanceState, FootAction, FootState
+from gait.command import Command, FootTarget, Sensors
+from gait.contact.foot_contacts import FootContacts, middle_of_sole
+from gait.contact.stance_contact import ContactSettings
+from gait.contact.support_strip import SupportStrip
+from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
+from gait.estimate.com_height import CoMHeight
+from gait.estimate.command_frame import CommandFrame
+from gait.estimate.estimator import (
     EstimatorGains,
     FloatingBaseEstimator,
     LegKinematics,
     SoleLoad,
-    heading,
-    rotation_from_vector,
 )
-from gait.feasibility import FeasibilityRules
-from gait.foot_motion import FootMotion, Landing, SoleSense
-from gait.footholds import FootholdFelt, Footholds, middle_of_sole
-from gait.footsteps import Footstep, level_rotation, other_side
-from gait.ground_conformity import ConformityGains, GroundConformity
-from gait.lip import pendulum_frequency
-from gait.phases import Phase, Timing, WalkSchedule
-from gait.posture_compensation import PostureCompensation
-from gait.skin_load import at_its_limit
-from gait.stance_contact import ContactSettings
-from gait.step_guard import StepGuard
-from gait.support_strip import SupportStrip
-from gait.swing_compliance import SwingCompliance
-from gait.vrp_plan import LipReference
-from gait.walk_plan import WalkPlan
-from gait.wrench_cone import FootContact, Rectangle
-from plantar.contact_rectangle import safe_rectangle
+from gait.estimate.skin_load import at_its_limit
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import FootMotion, Landing, SoleSense
+from gait.feet.ground_conformity import ConformityGains, GroundConformity
+from gait.feet.landing_compliance import LandingCompliance
+from gait.feet.posture_compensation import PostureCompensation
+from gait.feet.swing_compliance import SwingCompliance
+from gait.plan.feet_view import FeetView
+from gait.plan.footsteps import Footstep
+from gait.plan.phases import Phase, Timing, WalkSchedule
+from gait.plan.plan_change import AppliedChange
+from gait.plan.vrp_plan import LipReference
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.decide import decide
+from gait.propose.feasibility import FeasibilityRules
+from gait.propose.foothold_found import FootholdCarries
+from gait.propose.foothold_refused import StepGuard
+from gait.propose.foothold_seen import FootholdSeenAhead
+from gait.propose.proposer import Proposer, Tick
+from gait.propose.slope_inside import SlopeInside, inward_distance
 from plantar.errors import InputError
-from plantar.layout import Side, SoleLayout
-from plantar.percept import Percept
-from plantar.reading import Reading
-from plantar.zmp import divergent_component
+from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.base_state import BaseState
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
+from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.percepts.percept import Percept
+from plantar.sides import SIDES, Side, other_side
 
 if TYPE_CHECKING:
-    from gait.wrench_balance import WrenchBalanceGains
+    from gait.balance.wrench_balance import WrenchBalanceGains
 
-__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "WalkingController"]
+__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "Start", "WalkingController"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
+_PROBING = 20.0  # N on a foot that probes the ground from which its centre of pressure turns it
 
 
 @dataclass(frozen=True)
@@ -106,73 +119,38 @@ class ControllerSettings:
 
 
 @dataclass(frozen=True)
-class Sensors:
-    """All that a controller gets to see.
+class Start:
+    """How a walk begins.
 
     Attributes:
-        time: Time in s.
-        joint_positions: Encoder readings (k,) in rad.
-        gyro: Angular velocity (3,) of the base in its own frame in rad/s.
-        accelerometer: Specific force (3,) of the base in its own frame in m/s^2.
-        readings: Latest reading of each sole.
-        ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
-            empty for a robot that has none.
+        feet: Where the feet stand.
+        steps: The footsteps that are known, in order; others may come later.
+        time: Time in s at which it begins.
+        commands: Who else may change the plan while it is walked, such as a user's velocity command.
     """
+
+    feet: Mapping[Side, Footstep]
+    steps: tuple[Footstep, ...] = ()
+    time: float = 1.0
+    commands: tuple[Proposer, ...] = ()
+
+
+class _Sensed(NamedTuple):
+    """One reading, which all parts of a tick share."""
 
     time: float
-    joint_positions: NDArray[np.float64]
-    gyro: NDArray[np.float64]
-    accelerometer: NDArray[np.float64]
-    readings: Mapping[Side, Reading]
-    ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    percepts: Mapping[Side, Percept]
+    ankles: Mapping[Side, SoleWrench]
+    soles: Mapping[Side, SoleLoad]
 
 
-@dataclass(frozen=True)
-class FootTarget:
-    """Where a sole shall be, and what it shall carry.
-
-    Attributes:
-        position: Sole frame origin (3,) in the world frame in m.
-        rotation: Rotation (3, 3) from the sole to the world frame.
-        force: Force (3,) in N that the ground shall exert on it.
-        center_of_pressure: Point (2,) in the world frame in m at which it acts.
-    """
-
-    position: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    force: NDArray[np.float64]
-    center_of_pressure: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Command:
-    """What the controller asks of the body, for inverse kinematics and servos.
-
-    Attributes:
-        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in.
-        rotation_torso: Rotation (3, 3) from the torso to the same frame.
-        feet: Target of each sole, same frame.
-        phase: Phase of the walk.
-        reference: The plan now.
-        zmp_desired: Desired ZMP (2,) in m.
-        state: Estimated state.
-        dcm: Estimated DCM (2,) in m.
-        percepts: What each sole felt.
-        ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
-        footholds: What feet have been found to stand on at this tick.
-    """
+class _Balanced(NamedTuple):
+    """What shall be done for balance, world frame."""
 
     com: NDArray[np.float64]
-    rotation_torso: NDArray[np.float64]
-    feet: Mapping[Side, FootTarget]
-    phase: Phase
-    reference: LipReference
-    zmp_desired: NDArray[np.float64]
-    state: BaseState
-    dcm: NDArray[np.float64]
-    percepts: Mapping[Side, Percept]
-    ankle_loads: Mapping[Side, SoleWrench] = field(default_factory=dict)
-    footholds: tuple[FootholdFelt, ...] = ()
+    zmp: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+    feet: Mapping[Side, FootAction]
 
 
 class WalkingController:
@@ -180,85 +158,83 @@ class WalkingController:
 
     Args:
         settings: Settings.
-        feet: Where the feet stand at the start.
-        steps: The footsteps in order.
+        start: How the walk begins.
         layouts: Sole layout of each side.
         kinematics: Forward kinematics of the robot.
-        begin: Time in s at which the walk begins.
     """
 
     def __init__(
         self,
         settings: ControllerSettings,
-        feet: Mapping[Side, Footstep],
-        steps: tuple[Footstep, ...],
+        start: Start,
         layouts: Mapping[Side, SoleLayout],
         kinematics: LegKinematics,
-        begin: float = 1.0,
     ) -> None:
         self.settings = settings
         self.layouts = layouts
         self.omega = pendulum_frequency(settings.com_height)
-        self.schedule = WalkSchedule(steps, settings.timing, begin)
-        vrp_in_sole = {side: middle_of_sole(layouts[side]) for side in _SIDES}
-        self.plan = WalkPlan(feet, self.schedule, vrp_in_sole, self.omega)
-        self.balance = balance_law(settings.gains, self.omega, settings.mass, settings.period)
+        self.replans = 0
+        feet, period = start.feet, settings.period
+        middles = {side: middle_of_sole(layouts[side]) for side in SIDES}
+        self.plan = WalkPlan(feet, start.steps, settings.timing, middles, self.omega, start.time)
+        self.balance = balance_law(settings.gains, self.omega, settings.mass, period)
         self._rectangle_of: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
-        self._contact_of: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], FootContact]] = {}
+        self._contact_of: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
         self.estimator = FloatingBaseEstimator(
             kinematics,
             self.omega,
-            settings.period,
-            {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in _SIDES},
+            period,
+            {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES},
             settings.estimator,
         )
         gains = settings.compliance
-        compliance = None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in _SIDES}
-        self.motion = FootMotion(
-            feet, self.schedule, settings.period, settings.swing_height, settings.landing, compliance
-        )
-        self.guard: StepGuard | None = None
-        if settings.feasibility is not None:
-            if compliance is None:
-                raise InputError("step feasibility needs preemptive foot compliance; give its gains too")
-            self.guard = StepGuard(settings.feasibility, self.motion, self.plan, compliance, vrp_in_sole)
-        self._frame = CommandFrame(feet["left"].position, settings.period, settings.alignment_time)
+        compliance = None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in SIDES}
+        self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
+        self.contacts = FootContacts(settings.contact, layouts)
+        self._damping = {side: LandingCompliance(period) for side in SIDES}
+        self._frame = CommandFrame(feet["left"].position, period, settings.alignment_time)
         self._ticks = 0
-        self._rotations_sole: Mapping[Side, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in _SIDES}
-        self._detours = 0
-        self._compensation = PostureCompensation(settings.period, fade=0.7 * settings.timing.double_support)
-        way = self.plan.end - self.plan.at(begin - 1.0).com
+        self._rotations_sole: Mapping[str, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in SIDES}
+        self._compensation = PostureCompensation(period, fade=0.7 * settings.timing.double_support)
+        self._ground = CoMHeight(float(np.mean([feet[s].z for s in SIDES])), period)
+        self.guard, self.conformity = self._for_unknown_ground(middles)
+        self._proposers = self._asked(start, middles)
+
+    def _for_unknown_ground(
+        self, middles: Mapping[Side, NDArray[np.float64]]
+    ) -> tuple[StepGuard | None, GroundConformity | None]:
+        """Who checks footholds, and who turns soles to the ground's shape, where the settings want them."""
+        s = self.settings
+        if s.feasibility is not None and s.compliance is None:
+            raise InputError("step feasibility needs preemptive foot compliance; give its gains too")
+        if s.conformity is not None and s.compliance is None:
+            raise InputError("feet that take the ground's shape need preemptive foot compliance; give its gains too")
+        guard = None if s.feasibility is None else StepGuard(s.feasibility, self.layouts)
+        conformity = None
+        if s.conformity is not None:
+            turns_stance = not self.balance.wants_feet
+            conformity = GroundConformity(s.conformity, self.layouts, middles, s.period, turns_stance)
+        return guard, conformity
+
+    def _asked(self, start: Start, middles: Mapping[Side, NDArray[np.float64]]) -> Sequence[Proposer]:
+        """Who may propose changes of the plan, in the order in which they are asked."""
+        begin = self.plan.at(start.time - 1.0).com
+        way = self.plan.end - begin
         length = float(np.hypot(*way))
-        forward = np.array([math.cos(feet["left"].yaw), math.sin(feet["left"].yaw)])
-        strip = SupportStrip(self.plan.at(begin - 1.0).com, way / length if length > 0.05 else forward)
-        self.footholds = Footholds(
-            settings.contact,
-            layouts,
-            vrp_in_sole,
-            self.plan,
-            self.motion,
-            self._frame,
-            strip,
-            period=settings.period,
-            minimum_load=settings.estimator.minimum_load,
-            zmp_offset=settings.gains.zmp_offset,
-        )
-        self.conformity: GroundConformity | None = None
-        if settings.conformity is not None:
-            if compliance is None:
-                raise InputError(
-                    "feet that take the ground's shape need preemptive foot compliance; give its gains too"
-                )
-            self.conformity = GroundConformity(
-                settings.conformity,
-                layouts,
-                self.schedule,
-                self.motion,
-                vrp_in_sole,
-                settings.period,
-                turns_stance=not self.balance.wants_feet,
-            )
-        self._ground = CoMHeight(float(np.mean([feet[s].z for s in _SIDES])), settings.period)
+        forward = np.array([math.cos(start.feet["left"].yaw), math.sin(start.feet["left"].yaw)])
+        strip = SupportStrip(begin, way / length if length > 0.05 else forward)
+        contact = self.settings.contact
+        on_ground: list[Proposer] = [
+            SlopeInside(),
+            FootholdSeenAhead(contact),
+            FootholdCarries(contact, middles, strip),
+        ]
+        return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
+
+    @property
+    def schedule(self) -> WalkSchedule:
+        """The phases of the walk as planned now."""
+        return self.plan.schedule
 
     @property
     def end(self) -> float:
@@ -266,9 +242,9 @@ class WalkingController:
         return self.schedule.end
 
     @property
-    def replans(self) -> int:
-        """How often the plan was changed: for a foothold that was found, or for one that was refused."""
-        return self.footholds.replans + self._detours
+    def stopped(self) -> bool:
+        """Whether it has stopped the walk for good, because there is no way on."""
+        return self.guard is not None and self.guard.stopped
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -280,10 +256,49 @@ class WalkingController:
 
     def step(self, sensors: Sensors) -> Command:
         """One control tick: sensors in, command out."""
+        time = sensors.time
+        sensed = self._sense(sensors)
+        state = self._estimate(sensors, sensed)
+        self._ticks += 1
+        feedback = self.settings.feedback and self._ticks * self.settings.period > self.settings.estimator.averaging
+        if feedback:
+            self._align(state)
+        feet, inward = self._swing(sensed, state)
+        tick = self._look(sensed, state, feet, inward, feedback)
+        change = decide(self._proposers, tick)
+        applied = None
+        if change is not None:
+            applied = self.plan.apply(change, time, self._zmp_region(tick.phase, feet))
+            feet = self._take_over(applied)
+        phase, reference = self.schedule.at(time), self.plan.at(time)
+        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
+        balanced = self._balance(phase, reference, xi, state, sensed.soles, feet) if feedback else _open_loop(reference)
+        if feedback:
+            self._conform(phase, balanced.zmp, state, sensed)
+        com, torso, posture = self._body(phase, balanced.com)
+        targets = self._targets(phase, balanced)
+        if feedback:
+            self._compensate(targets, phase, com, torso, posture, state)
+        return Command(
+            com=com,
+            rotation_torso=posture,
+            feet=targets,
+            phase=phase,
+            reference=reference,
+            zmp_desired=balanced.zmp,
+            state=state,
+            dcm=xi,
+            percepts=sensed.percepts,
+            ankle_loads=sensed.ankles,
+            footholds=tick.found,
+            moved_steps=() if applied is None else applied.moved,
+        )
+
+    def _sense(self, sensors: Sensors) -> _Sensed:
+        """What soles and ankles say, with each taxel's force clipped at its limit."""
         s = self.settings
-        layouts = self.layouts
         percepts = {
-            side: Percept(layouts[side], at_its_limit(sensors.readings[side], layouts[side])) for side in _SIDES
+            side: Percept(layout, at_its_limit(sensors.readings[side], layout)) for side, layout in self._soles()
         }
         ankles = {
             side: sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])
@@ -291,83 +306,149 @@ class WalkingController:
             if side in sensors.ankles
         }
         soles: Mapping[Side, SoleLoad] = ankles if s.zmp_source == "force_torque" else percepts
-        reference = self.plan.at(sensors.time)
-        phase = self.schedule.at(sensors.time)
+        return _Sensed(sensors.time, percepts, ankles, soles)
+
+    def _soles(self) -> list[tuple[Side, SoleLayout]]:
+        return [(side, self.layouts[side]) for side in SIDES]
+
+    def _estimate(self, sensors: Sensors, sensed: _Sensed) -> BaseState:
+        """The floating base; a foot that is high in the air by plan finds its zero."""
+        s, phase = self.settings, self.schedule.at(sensors.time)
         # Of its usual length: a single support that is made longer holds a foot that has landed.
         share = (sensors.time - phase.start) / s.timing.single_support if phase.swing is not None else 0.0
         state = self.estimator.update(
             sensors.joint_positions,
             sensors.gyro,
             sensors.accelerometer,
-            soles,
-            reference.com_acceleration,
+            sensed.soles,
+            self.plan.at(sensors.time).com_acceleration,
             phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,
         )
-        self._ticks += 1
         self._rotations_sole = state.rotations_sole
-        self.footholds.felt.clear()
-        feedback = s.feedback and self._ticks * s.period > s.estimator.averaging
-        if feedback:
-            self._align(state)
-        senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in _SIDES}
-        landed = self.motion.landed
-        if self.motion.update(phase, sensors.time, state.loads, self._frame, senses):
+        return state
+
+    def _swing(self, sensed: _Sensed, state: BaseState) -> tuple[FeetView, float]:
+        """Advance the swing foot; where the feet are then, and by how much in m one that has just landed shall carry
+        further inside."""
+        phase, percepts = self.schedule.at(sensed.time), sensed.percepts
+        senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
+        target = None if phase.swing is None else self.plan.view.foothold(phase.step)
+        self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press())
+        feet, gains = self.motion.view, self.settings.compliance
+        if feet.lift_off and feet.side is not None:
             self._compensation.start()
-            self.footholds.lift(phase)
-        if self.motion.landed and not landed and s.compliance is not None:
-            self._keep_inside(phase, sensors.time)
-        if self.guard is not None:
-            moments = {side: ankle.wrench_in_sole[3:5] for side, ankle in ankles.items()}
-            region = self.footholds.zmp_region(phase)
-            side = phase.swing
-            if self.guard.probing and side is not None:  # a sole on its edge makes a moment on the best of ground
-                cop = soles[side].position_cop_in_sole
-                if cop is not None and state.loads[side] > 20.0:
-                    self.footholds.let_turn(side, state.loads[side], cop)
-            if self.guard.update(phase, sensors.time, self._frame, sensors.readings, moments, state.loads, region):
-                self._detours += 1
-                phase, reference = self.schedule.at(sensors.time), self.plan.at(sensors.time)
-        if (
-            feedback
-            and s.footholds != "off"
-            and self.footholds.update(phase, sensors.time, sensors.readings, state, percepts)
-        ):
-            reference = self.plan.at(sensors.time)
-        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
-        if feedback:
-            standing = self._foot_states(phase, soles) if self.balance.wants_feet else {}
-            balance = self.balance.update(reference, xi, state.zmp, self.footholds.zmp_region(phase), standing)
-            com, zmp, acceleration = balance.com, balance.zmp_desired, balance.com_acceleration
-            actions = balance.feet
-        else:
-            actions = {}
-            com, zmp, acceleration = reference.com, reference.vrp, reference.com_acceleration
-        if feedback and self.conformity is not None:
-            self.conformity.update(phase, zmp, state, percepts)
+            self.contacts.lift_off(feet.side, phase.step)
+            self._damping[feet.side].reset()
+        inward = 0.0
+        if feet.touchdown and feet.side is not None and gains is not None:
+            rise = self.motion.outward_rise(feet.side)
+            inward = inward_distance(feet.side, rise, gains.ankle_reach, self.settings.com_height)
+            if inward:
+                self.contacts.bear_inside(feet.side, inward)
+        return feet, inward
+
+    def _press(self) -> float | None:
+        """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains. A foot that
+        probes presses as the probe wants it, whatever the ground's shape."""
+        if self.guard is not None and self.guard.press is not None:
+            return self.guard.press
+        return None if self.conformity is None or not self.settings.feedback else self.conformity.gains.press
+
+    def _look(self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, feedback: bool) -> Tick:
+        """What the feet stand on, and all else that who proposes gets to know."""
+        time, percepts, phase = sensed.time, sensed.percepts, self.schedule.at(sensed.time)
+        looks = feedback and self.settings.footholds != "off"
+        self._damp(phase, sensed, state, feet, looks)
+        return Tick(
+            time=time,
+            phase=phase,
+            plan=self.plan.view,
+            feet=feet,
+            places={side: self._place(side) for side in SIDES},
+            readings={side: percept.reading for side, percept in percepts.items()},
+            loads=state.loads,
+            moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
+            found=self.contacts.find(phase, time, feet, state, percepts) if looks else (),
+            seen=self.contacts.see(phase, time, feet, state, percepts) if looks else None,
+            inward=inward,
+        )
+
+    def _damp(self, phase: Phase, sensed: _Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
+        """Foot damping of feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment
+        on the best of ground."""
+        feel: dict[Side, tuple[SoleLoad, float]] = {}
+        if looks:
+            coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
+            feel = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
+        if self.guard is not None and self.guard.probing and phase.swing is not None:
+            feel[phase.swing] = (sensed.soles[phase.swing], _PROBING)
+        for side, (sole, least) in feel.items():
+            cop = sole.position_cop_in_sole
+            if cop is not None and state.loads[side] > least:
+                self._damping[side].update(state.loads[side], cop, self.contacts.center(side))
+
+    def _place(self, side: Side) -> Footstep:
+        """Where a foot is commanded, as a level place in the world."""
+        position, yaw = self.motion.footholds[side]
+        x, y, _ = self._frame.to_world(position).tolist()
+        return Footstep(side, x, y, yaw + self._frame.turn)
+
+    def _zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
+        """Where the desired ZMP may lie: convex polygon (k, 2) in the world in m."""
+        return self.contacts.zmp_region(phase, feet, self._frame.offset, self.settings.gains.zmp_offset)
+
+    def _take_over(self, applied: AppliedChange) -> FeetView:
+        """Let the feet follow a plan that has changed."""
+        if not applied.change.following:  # steps that come one by one are no other plan
+            self.replans += 1
+        phase = self.schedule.at(applied.time)
+        if phase.swing is not None:
+            self.motion.aim(phase, applied.time, self.plan.view.foothold(phase.step), self._frame)
+        return self.motion.view
+
+    def _balance(
+        self,
+        phase: Phase,
+        reference: LipReference,
+        dcm: NDArray[np.float64],
+        state: BaseState,
+        soles: Mapping[Side, SoleLoad],
+        feet: FeetView,
+    ) -> _Balanced:
+        """What the balance law wants."""
+        standing = self._foot_states(phase, soles) if self.balance.wants_feet else {}
+        wanted: BalanceState = self.balance.update(reference, dcm, state.zmp, self._zmp_region(phase, feet), standing)
+        return _Balanced(wanted.com, wanted.zmp_desired, wanted.com_acceleration, wanted.feet)
+
+    def _conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: _Sensed) -> None:
+        """Turn the soles that stand to the ground's shape."""
+        if self.conformity is None:
+            return
+        incoming = self._incoming(phase)
+        turned = self.conformity.update(phase, incoming, zmp, state, sensed.percepts, self.motion.landed)
+        for side, turn in turned.items():
+            self.motion.turn_standing(side, *turn)
+
+    def _incoming(self, phase: Phase) -> Side | None:
+        """The standing foot that takes the weight over: not at the two ends of the walk."""
+        plan = self.plan.view
+        if not 0 < phase.step < plan.count:
+            return None
+        return phase.swing or other_side(plan.foothold(phase.step).side)
+
+    def _body(self, phase: Phase, com: NDArray[np.float64]) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
+        """CoM (3,) in m, heading in rad and rotation (3, 3) of the torso in the command frame."""
+        yaws = [self.motion.footholds[side][1] for side in SIDES]
         height = self._com_height(phase)
-        yaws = [self.motion.footholds[side][1] for side in _SIDES]
         target = np.array([*self._frame.to_command(com).tolist(), height])
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
-        posture = self._posture(target, torso)
-        if actions:
-            feet = self._shared_targets(actions)
-        else:
-            feet = self._foot_targets(phase, self._frame.to_command(zmp), acceleration)
-        if feedback:
-            self._compensate(feet, phase, target, torso, posture, state)
-        return Command(
-            com=target,
-            rotation_torso=posture,
-            feet=feet,
-            phase=phase,
-            reference=reference,
-            zmp_desired=zmp,
-            state=state,
-            dcm=xi,
-            percepts=percepts,
-            ankle_loads=ankles,
-            footholds=tuple(self.footholds.felt),
-        )
+        return target, torso, self._posture(target, torso)
+
+    def _targets(self, phase: Phase, balanced: _Balanced) -> dict[Side, FootTarget]:
+        """Pose and load of each sole."""
+        if balanced.feet:
+            return self._shared_targets(balanced.feet)
+        return self._foot_targets(phase, self._frame.to_command(balanced.zmp), balanced.acceleration)
 
     def _compensate(
         self,
@@ -423,29 +504,18 @@ class WalkingController:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._frame.follow(position, state.positions_sole[side], turn)
 
-    def _keep_inside(self, phase: Phase, time: float) -> None:
-        """On a slope that rises outwards more than the ankle can follow, stand further inside."""
-        side, gains = self.motion.last_side, self.settings.compliance
-        if side is None or gains is None:
-            return
-        excess = self.motion.outward_rise(side) - gains.ankle_reach
-        if excess > 0.0:
-            step = phase.step if phase.swing is not None else phase.step - 1
-            inward = self.settings.com_height * excess * (-1.0 if side == "left" else 1.0)
-            self.footholds.move_inward(side, step, inward, phase, time)
-
     def _foot_states(self, phase: Phase, soles: Mapping[Side, SoleLoad]) -> dict[Side, FootState]:
         """The feet that stand, for a balance law that shares the ground's wrench between them."""
         states: dict[Side, FootState] = {}
-        for side in _SIDES:
+        for side in SIDES:
             if phase.swing == side and not self.motion.landed:
                 continue
             states[side] = FootState(self._contact(side), soles[side].wrench_in_sole)
         return states
 
-    def _contact(self, side: Side) -> FootContact:
+    def _contact(self, side: Side) -> Contact:
         """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
-        polygon = self.footholds.polygon(side)
+        polygon = self.contacts.polygon(side)
         rectangle = self._rectangle_of.get(side)
         if rectangle is None or rectangle[0] is not polygon:
             (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET).tolist()
@@ -455,8 +525,8 @@ class WalkingController:
         place = (rectangle[1], yaw, round(x, 4), round(y, 4), round(z, 4), round(self._frame.turn, 4))
         known = self._contact_of.get(side)
         if known is None or known[0] is not position or known[1] != place:
-            center = self.footholds.center(side)
-            contact = FootContact(
+            center = self.contacts.center(side)
+            contact = Contact(
                 self._frame.to_world(position),
                 level_rotation(yaw + self._frame.turn),
                 rectangle[1],
@@ -471,7 +541,7 @@ class WalkingController:
         for side, action in actions.items():
             position = self.motion.footholds[side][0]
             level = rotation = self.motion.rotation(side)
-            center, (x, y) = self.footholds.center(side), self.footholds.turn(side).tolist()
+            center, (x, y) = self.contacts.center(side), self._damping[side].turn.tolist()
             if action.roll or action.pitch or action.shift or x or y:
                 rotation = level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
                 # About the centre: it stays at its height, to first order.
@@ -485,7 +555,7 @@ class WalkingController:
 
     def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
-        heights = {side: float(self.motion.footholds[side][0][2]) for side in _SIDES}
+        heights = {side: float(self.motion.footholds[side][0][2]) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
         return self._ground.follow(target) + self.settings.com_height
 
@@ -494,17 +564,17 @@ class WalkingController:
     ) -> dict[Side, FootTarget]:
         """Pose of each sole, and the share of the pendulum's force that it shall carry at which point."""
         s = self.settings
-        force = s.mass * np.array([acceleration[0], acceleration[1], 9.81])
+        force = s.mass * np.array([acceleration[0], acceleration[1], GRAVITY])
         centers: dict[Side, NDArray[np.float64]] = {}
         rotations: dict[Side, NDArray[np.float64]] = {}
-        for side in _SIDES:
+        for side in SIDES:
             position = self.motion.footholds[side][0]
-            x, y = self.footholds.turn(side).tolist()
+            x, y = self._damping[side].turn.tolist()
             rotation = self.motion.rotation(side)
             if x or y:
                 rotation = rotation.dot(rotation_from_vector(np.array([x, y, 0.0])))
             rotations[side] = rotation
-            centers[side] = position[:2] + rotations[side][:2, :2].dot(self.footholds.center(side))
+            centers[side] = position[:2] + rotations[side][:2, :2].dot(self.contacts.center(side))
         if phase.stance is not None:
             share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
         else:
@@ -516,5 +586,10 @@ class WalkingController:
         rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
         return {
             side: FootTarget(self.motion.footholds[side][0], rotations[side], share[side] * force, centers[side] + rest)
-            for side in _SIDES
+            for side in SIDES
         }
+
+
+def _open_loop(reference: LipReference) -> _Balanced:
+    """The plan as it is, without feedback."""
+    return _Balanced(reference.com, reference.vrp, reference.com_acceleration, {})

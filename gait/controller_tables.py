@@ -1,0 +1,91 @@
+"""The controller's settings by their dotted names, such as `estimator.gravity`: tables of a robot file or a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gait.balance.dcm_balance import BalanceGains
+from gait.balance.wrench_balance import WrenchBalanceGains
+from gait.contact.stance_contact import ContactSettings
+from gait.estimate.estimator import EstimatorGains
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import Landing
+from gait.feet.ground_conformity import ConformityGains
+from gait.propose.feasibility import FeasibilityRules
+from plantar.errors import InputError, PlantarError
+from plantar.settings.schema import Setting, Settings
+from plantar.settings.unknown_keys import refuse_unknown_keys
+
+__all__ = ["CONTROLLER_TABLES", "check_controller_table", "controller_keys", "controller_settings_described"]
+
+CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
+    "balance": (BalanceGains, WrenchBalanceGains),
+    "estimator": (EstimatorGains,),
+    "landing": (Landing,),
+    "contact": (ContactSettings,),
+    "compliance": (ComplianceGains,),
+    "feasibility": (FeasibilityRules,),
+    "conformity": (ConformityGains,),
+}
+"""Settings classes of each table; `balance` has one for each balance law, of which a robot has one."""
+
+_ELSEWHERE = {
+    "landing.approach_height": "walk.approach_height",
+    "landing.approach_speed": "walk.approach_speed",
+    "compliance.sensing_range": "sensing.proximity_range",
+    "feasibility.rule": "control.feasibility",
+}
+"""Settings that a scene gives by another name."""
+
+
+def controller_keys(table: str) -> tuple[str, ...]:
+    """Names of the settings that a table may hold.
+
+    Args:
+        table: A name of `CONTROLLER_TABLES`.
+
+    Returns:
+        The names in order, without those that a scene gives elsewhere.
+
+    Example:
+        >>> controller_keys("landing")
+        ('contact_force', 'press_force', 'depth', 'speed', 'acceleration', 'reach')
+    """
+    names = dict.fromkeys(name for kind in CONTROLLER_TABLES[table] for name in kind.names())
+    return tuple(name for name in names if f"{table}.{name}" not in _ELSEWHERE)
+
+
+def controller_settings_described(table: str) -> tuple[Setting, ...]:
+    """What there is to say of the settings of a table; of two classes that have one name, the first says it."""
+    found: dict[str, Setting] = {}
+    for kind in CONTROLLER_TABLES[table]:
+        for told in kind.described():
+            found.setdefault(told.name, told)
+    return tuple(found[name] for name in controller_keys(table))
+
+
+def check_controller_table(name: str, table: Any, where: str, error: type[PlantarError] = InputError) -> dict[str, Any]:
+    """Check a table of settings before it is known what is run with it.
+
+    Args:
+        name: A name of `CONTROLLER_TABLES`.
+        table: Values by name.
+        where: Name of the table, for messages.
+        error: What is raised.
+
+    Returns:
+        A copy of the table.
+
+    Raises:
+        PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
+    """
+    if not isinstance(table, Mapping):
+        raise error(f"{where} is not a table")
+    for key in table:
+        if f"{name}.{key}" in _ELSEWHERE:
+            raise error(f"{where} '{key}' is given by '{_ELSEWHERE[f'{name}.{key}']}'; leave it out here")
+    refuse_unknown_keys(table, controller_keys(name), where, error)
+    for kind in CONTROLLER_TABLES[name]:
+        kind.from_table({k: v for k, v in table.items() if k in kind.names()}, where, error)
+    return dict(table)

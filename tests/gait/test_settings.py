@@ -1,0 +1,50 @@
+"""Every settings class of the controller says all that there is to say of each of its settings."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from gait.balance.dcm_balance import BalanceGains
+from gait.balance.foot_admittance import AdmittanceGains
+from gait.balance.wrench_balance import WrenchBalanceGains
+from gait.contact.stance_contact import ContactSettings
+from gait.estimate.estimator import EstimatorGains
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import Landing
+from gait.feet.ground_conformity import ConformityGains
+from gait.plan.phases import Timing
+from gait.propose.feasibility import FeasibilityRules
+from plantar.errors import InputError
+from plantar.settings.schema import Settings
+
+CLASSES = (
+    AdmittanceGains,
+    BalanceGains,
+    ComplianceGains,
+    ConformityGains,
+    ContactSettings,
+    EstimatorGains,
+    FeasibilityRules,
+    Landing,
+    Timing,
+    WrenchBalanceGains,
+)
+
+
+@pytest.mark.parametrize("kind", CLASSES)
+def test_each_setting_has_a_meaning_a_unit_and_a_range(kind: type[Settings]) -> None:
+    for told in kind.described():
+        assert told.meaning, f"{kind.__name__}.{told.name} has no meaning in the docstring"
+        assert told.allowed
+        assert told.unit or told.allowed == "true, false" or "," in told.allowed
+
+
+@pytest.mark.parametrize("kind", CLASSES)
+def test_no_setting_takes_what_is_not_allowed(kind: type[Settings]) -> None:
+    for name in kind.names():
+        owner = kind if name in kind.__dataclass_fields__ else AdmittanceGains
+        for value in (math.nan, math.inf, -math.inf, None, "none of these", [1.0]):
+            with pytest.raises(InputError, match=f"'{name}' is "):
+                owner(**{name: value})
