@@ -3,38 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.batch import support_polygons
-from plantar.layout import SoleLayout
-from plantar.polygon import signed_margin
+from gait.analysis.steps.step_load import StepLoad
+from plantar.geometry.polygon import signed_margin
+from plantar.layouts.layout import SoleLayout
+from plantar.percepts.batch import support_polygons
 
-__all__ = ["StepLoad", "pressure_measures", "region_measures", "robot_measures"]
+__all__ = ["pressure_measures", "region_measures", "robot_measures"]
 
 _MOST_FRAMES = 200
 """Frames of a contact in which support polygons are looked at; of more, every n-th."""
-
-
-@dataclass(frozen=True, eq=False)
-class StepLoad:
-    """What the cells carried in one contact.
-
-    Attributes:
-        time: Times (m,) in s.
-        force: Force (m, k) of each cell in N.
-        pressure: Pressure (m, k) in Pa, counts of a raw recording; None where no areas are known.
-        loaded: Which cells (m, k) count as loaded.
-        areas: Area (k,) of each cell in m^2; None without geometry.
-    """
-
-    time: NDArray[np.float64]
-    force: NDArray[np.float64]
-    pressure: NDArray[np.float64] | None
-    loaded: NDArray[np.bool_]
-    areas: NDArray[np.float64] | None
 
 
 def _integral(values: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gait.analysis.events import find_contacts, force_levels
+from gait.analysis.steps.events import find_contacts, force_levels
 
 
 def steps(rate: float = 100.0, n: int = 5, peak: float = 700.0, rest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

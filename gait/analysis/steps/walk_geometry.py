@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import Side
+from plantar.sides import Side, other_side
 
 __all__ = ["Place", "step_geometry"]
 
@@ -60,30 +60,32 @@ def step_geometry(places: Mapping[Side, Sequence[Place]]) -> dict[Side, list[dic
     """
     out: dict[Side, list[dict[str, float]]] = {}
     for side, own in places.items():
-        others = places.get("right" if side == "left" else "left", ())
+        others = places.get(other_side(side), ())
         out[side] = [_step(side, place, own[i - 1] if i else None, others) for i, place in enumerate(own)]
     return out
 
 
 def _step(side: Side, place: Place, before: Place | None, others: Sequence[Place]) -> dict[str, float]:
-    out: dict[str, float] = {}
-    forward = place.forward
-    if before is not None and place.time - before.time <= _LONGEST_STRIDE:
-        stride = place.heel - before.heel
-        length = float(np.hypot(*stride))
-        out["stride_length_m"] = length
-        out["stride_velocity_m_s"] = length / (place.time - before.time)
-        if length >= _LEAST_STRIDE:
-            forward = stride / length
+    """Measures of one step from the one of the same foot before it, and the other foot's."""
+    out, forward = _stride(place, before)
     if forward is None:
         return out
     left = np.array([-forward[1], forward[0]])
     outward = 1.0 if side == "left" else -1.0
     out["foot_progression_deg"] = outward * float(np.degrees(np.arctan2(place.axis @ left, place.axis @ forward)))
     earlier = [o for o in others if o.time < place.time and place.time - o.time <= _LONGEST_STRIDE]
-    between = before is None or not earlier or earlier[-1].time > before.time
-    if earlier and between:
+    if earlier and (before is None or earlier[-1].time > before.time):
         step = place.heel - earlier[-1].heel
         out["step_length_m"] = float(step @ forward)
         out["step_width_m"] = abs(float(step @ left))
     return out
+
+
+def _stride(place: Place, before: Place | None) -> tuple[dict[str, float], NDArray[np.float64] | None]:
+    """Measures of the stride that ends at a place, and the direction (2,) of walking there."""
+    if before is None or place.time - before.time > _LONGEST_STRIDE:
+        return {}, place.forward
+    stride = place.heel - before.heel
+    length = float(np.hypot(*stride))
+    out = {"stride_length_m": length, "stride_velocity_m_s": length / (place.time - before.time)}
+    return out, stride / length if length >= _LEAST_STRIDE else place.forward

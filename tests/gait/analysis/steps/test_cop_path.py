@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.analysis.cop_path import averaged_path, margin_to_outline
+from gait.analysis.steps.cop_path import averaged_path, margin_to_outline
 from plantar import hex_layout
-from plantar.polygon import signed_margin
+from plantar.geometry.polygon import signed_margin
 
 
 def test_an_even_motion_is_kept_to_its_ends() -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.footprint import Footprint
-from plantar.layout import SoleLayout
-from plantar.polygon import convex_hull
+from gait.analysis.prints.footprint import Footprint
+from plantar.geometry.polygon import convex_hull
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["averaged_path", "cop_measures", "excursion_index", "margin_to_outline"]
 

@@ -14,11 +14,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.pressure_recording import Kind
+from plantar.recordings.pressure_recording import Kind
 
 __all__ = [
     "EVENT_LEVELS",
@@ -65,6 +66,13 @@ LONGEST_BRIDGE = 0.1
 """Longest gap in s of frames that were not measured over which the force is interpolated."""
 
 _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
+"""Standard deviations of the noise that a foot's release, and its contact, lie above the level at rest."""
+
+_MEDIAN_OF_NORMAL = 0.6745
+"""Median of the magnitude of a normal variable, in standard deviations."""
+
+_FEWEST_STEPS = 20
+"""Steps between swing samples from which their noise is judged."""
 
 
 @dataclass(frozen=True)
@@ -125,24 +133,11 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
         return None
     # The middle one of five frames: a single damaged frame is not a peak.
     smooth = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(measured, 2, mode="edge"), 5), axis=1)
-    top = float(smooth.max())
-    if not top > 0.0:
+    peak = _peak_above_noise(measured, smooth)
+    if peak is None:
         return None
-    peak = float(np.percentile(smooth[smooth >= 0.2 * top], 90.0))
-    # Second differences see the noise and not the slopes.
-    bend = np.abs(np.diff(measured, 2))
-    if peak <= _NOISE_CONTACT * float(np.median(bend)) / (0.6745 * np.sqrt(6.0)):
-        return None
-    rest = float(np.percentile(smooth, 5.0))
-    if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
-        rest = 0.0
-    rest = max(rest, 0.0)
     share = EVENT_LEVELS[kind]
-    quiet = force < rest + share.contact * (peak - rest)
-    steps = np.diff(force)[quiet[:-1] & quiet[1:]]
-    noise = float(np.median(np.abs(steps))) / (0.6745 * np.sqrt(2.0)) if len(steps) >= 20 else 0.0
-    if len(steps) >= 20 and kind != "platform":  # the middle of the swing samples is the better zero
-        rest = max(0.0, min(float(np.median(force[quiet])), rest + 2.0 * noise + 0.02 * peak))
+    rest, noise = _rest_and_noise(force, smooth, peak, share.contact, kind)
     span = peak - rest
     if span <= 2.0 * _NOISE_CONTACT * noise or span <= 0.0:
         return None
@@ -154,6 +149,35 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
         noise=noise,
         lift=rest + max(share.lift * span, _NOISE_RELEASE * noise),
     )
+
+
+def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]) -> float | None:
+    """Robust peak in N of a force and its smoothed course; None where it is no more than noise."""
+    top = float(smooth.max())
+    if not top > 0.0:
+        return None
+    peak = float(np.percentile(smooth[smooth >= 0.2 * top], 90.0))
+    # Second differences see the noise and not the slopes; that of white noise is sqrt(1 + 4 + 1) times as large.
+    bend = np.abs(np.diff(measured, 2))
+    return peak if peak > _NOISE_CONTACT * float(np.median(bend)) / (_MEDIAN_OF_NORMAL * np.sqrt(6.0)) else None
+
+
+def _rest_and_noise(
+    force: NDArray[np.float64], smooth: NDArray[np.float64], peak: float, contact: float, kind: Kind
+) -> tuple[float, float]:
+    """What a foot carries in swing, and the standard deviation of that, in N."""
+    rest = float(np.percentile(smooth, 5.0))
+    if rest > 0.3 * peak or kind == "platform":  # never off the ground, or nothing rests on it when it is
+        rest = 0.0
+    rest = max(rest, 0.0)
+    quiet = force < rest + contact * (peak - rest)
+    steps = np.diff(force)[quiet[:-1] & quiet[1:]]
+    if len(steps) < _FEWEST_STEPS:
+        return rest, 0.0
+    noise = float(np.median(np.abs(steps))) / (_MEDIAN_OF_NORMAL * np.sqrt(2.0))
+    if kind != "platform":  # the middle of the swing samples is the better zero
+        rest = max(0.0, min(float(np.median(force[quiet])), rest + 2.0 * noise + 0.02 * peak))
+    return rest, noise
 
 
 def find_contacts(
@@ -214,13 +238,29 @@ def _contacts_of_span(
     minimum_stance: float,
     minimum_swing: float,
 ) -> list[Contact]:
-    above = force >= levels.release
-    edges = np.flatnonzero(np.diff(above.astype(np.int8)))
-    starts = [0] if above[0] else []
-    starts += [int(e) + 1 for e in edges if above[e + 1]]
-    stops = [int(e) + 1 for e in edges if above[e]]
-    stops += [len(force)] if above[-1] else []
-    spans = list(zip(starts, stops, strict=True))
+    """Contacts in frames without a long gap; `offset` is the number of the first one."""
+    found = [
+        _contact(time, force, levels, span, offset)
+        for span in _merged(time, force, levels, _spans_above(force, levels.release), minimum_swing)
+    ]
+    return [c for c in found if not c.complete or cast(float, c.toe_off) - cast(float, c.heel_strike) >= minimum_stance]
+
+
+def _spans_above(force: NDArray[np.float64], level: float) -> list[tuple[int, int]]:
+    """First frame of each span in which the force is not below a level, and the frame after its last one."""
+    above = np.concatenate([[False], force >= level, [False]])
+    edges = np.flatnonzero(above[1:] != above[:-1])
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def _merged(
+    time: NDArray[np.float64],
+    force: NDArray[np.float64],
+    levels: Levels,
+    spans: list[tuple[int, int]],
+    minimum_swing: float,
+) -> list[tuple[int, int]]:
+    """The spans that reach the contact level, as one where the foot is not off the ground between them."""
     reaching = [k for k, (a, b) in enumerate(spans) if force[a:b].max() >= levels.contact]
     merged: list[tuple[int, int]] = []
     for i, k in enumerate(reaching):
@@ -230,18 +270,22 @@ def _contacts_of_span(
             merged[-1] = (merged[-1][0], spans[k][1])
         else:
             merged.append(spans[k])
-    contacts: list[Contact] = []
-    for a, b in merged:
-        jump = 0.5 * (levels.peak - levels.rest)
-        strike = _crossing(time, force, a, levels.release, jump) if a > 0 else None
-        lift = None
-        if b < len(force):
-            b = a + int(np.flatnonzero(force[a:b] >= min(levels.lift, levels.contact))[-1]) + 1
-            lift = _crossing(time, force, b, min(levels.lift, levels.contact), jump)
-        if strike is not None and lift is not None and lift - strike < minimum_stance:
-            continue
-        contacts.append(Contact(strike, lift, a + offset, b + offset))
-    return contacts
+    return merged
+
+
+def _contact(
+    time: NDArray[np.float64], force: NDArray[np.float64], levels: Levels, span: tuple[int, int], offset: int
+) -> Contact:
+    """The contact of a span, with the times of its events where the recording does not cut them."""
+    begin, end = span
+    jump = 0.5 * (levels.peak - levels.rest)
+    strike = _crossing(time, force, begin, levels.release, jump) if begin > 0 else None
+    lift = None
+    if end < len(force):
+        level = min(levels.lift, levels.contact)
+        end = begin + int(np.flatnonzero(force[begin:end] >= level)[-1]) + 1
+        lift = _crossing(time, force, end, level, jump)
+    return Contact(strike, lift, begin + offset, end + offset)
 
 
 def _longest_gap(

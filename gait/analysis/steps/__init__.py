@@ -1,0 +1,1 @@
+"""One step: its events, and what it measures."""

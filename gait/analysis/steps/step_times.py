@@ -1,0 +1,124 @@
+"""When a foot's steps follow each other: strides, stance, swing, and the time on both feet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import zip_longest
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.analysis.steps.events import Contact
+from plantar.recordings.pressure_recording import PressureRecording
+
+__all__ = ["OtherFoot", "stride_times", "time_measures"]
+
+PAUSE = 1.75
+"""A stride longer than so many times the median of its foot holds a pause or a step that was not recorded."""
+
+
+def stride_times(contacts: Sequence[Contact]) -> list[float]:
+    """Stride time of each complete contact; NaN where the next heel strike is not the next step's.
+
+    Strides lead from one complete contact to another: a contact that the recording cuts may be standing. Where a foot
+    has no such stride, those to a cut contact are taken.
+
+    Args:
+        contacts: All contacts of the foot, in order.
+
+    Returns:
+        The time in s of each complete one's stride.
+    """
+    raw = _strides(contacts, whole=True)
+    if not np.isfinite(raw).any():
+        raw = _strides(contacts, whole=False)
+    known = [s for s in raw if np.isfinite(s)]
+    limit = PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
+    return [s if s <= limit else np.nan for s in raw]
+
+
+def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
+    """Time in s from the strike of each complete contact to the next contact's; NaN without, or where that is cut."""
+    out: list[float] = []
+    for contact, after in zip_longest(contacts, contacts[1:]):
+        if not contact.complete:
+            continue
+        if after is None or after.heel_strike is None or (whole and not after.complete):
+            out.append(np.nan)
+        else:
+            out.append(after.heel_strike - cast(float, contact.heel_strike))
+    return out
+
+
+def time_measures(
+    contact: Contact, previous: Contact | None, stride: float, others: OtherFoot | None
+) -> dict[str, float]:
+    """Measures of time of one complete contact.
+
+    Args:
+        contact: The contact.
+        previous: The contact of the same foot before it.
+        stride: Its stride time in s; NaN where it is not known.
+        others: The contacts of the other foot, None where it was not recorded.
+
+    Returns:
+        The measures by their key.
+    """
+    strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
+    duration = lift - strike
+    share = 100.0 * duration / stride
+    out = {
+        "contact_time_s": duration,
+        "stride_time_s": stride,
+        "swing_time_s": stride - duration,
+        "stance_percent": share,
+        "swing_percent": 100.0 - share,
+    }
+    if others is not None:
+        last = None if previous is None else previous.heel_strike
+        between = others.strikes_between(strike if last is None else last, strike)
+        if len(between) == 1:
+            out["step_time_s"] = strike - float(between[0])
+        both = 100.0 * others.overlap(strike, lift) / stride
+        out["double_support_percent"] = both
+        out["single_support_percent"] = share - both
+    return out
+
+
+class OtherFoot:
+    """The contacts of the other foot, as arrays that are searched quickly."""
+
+    def __init__(self, recording: PressureRecording, contacts: Sequence[Contact]) -> None:
+        time = recording.time
+        self.strikes = np.array([c.heel_strike for c in contacts if c.heel_strike is not None])
+        begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
+        end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
+        self._begin, self._end = np.array(begin), np.array(end)
+
+    def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
+        """Heel strikes after one time and before another.
+
+        Args:
+            begin: The one time in s.
+            end: The other one in s.
+
+        Returns:
+            Their times (k,) in s.
+        """
+        first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
+        return self.strikes[first:last]
+
+    def overlap(self, strike: float, lift: float) -> float:
+        """How long of a contact the other foot is on the ground too.
+
+        Args:
+            strike: Begin of the contact in s.
+            lift: Its end in s.
+
+        Returns:
+            The time in s.
+        """
+        first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")
+        begin, end = self._begin[first:last], self._end[first:last]
+        return float((np.minimum(end, lift) - np.maximum(begin, strike)).clip(0.0).sum())
