@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from gait.analysis.analyse import metrics_of
+from gait.analysis.pages.player import player_data
 from gait.analysis.parameters import analyse_feet
-from gait.analysis.platform import told_apart
-from gait.analysis.player import player_data
+from gait.analysis.prints.platform import told_apart
 from plantar.formats.grid_cells import grid_cells
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording
+from plantar.layouts.layout import Side
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 PITCH = 0.01
 STEP, WIDTH, TOE_OUT = 0.62, 0.12, 8.0

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.footprint import Footprint
+from gait.analysis.prints.footprint import Footprint
 
 __all__ = ["REGIONS", "regions_of", "with_toe_line"]
 
@@ -56,24 +56,28 @@ def with_toe_line(print_: Footprint) -> Footprint:
     Returns:
         The same with `toe_line`, None where no strip has a valley.
     """
-    v = print_.centres[:, 1]
-    low, high = float(v.min()), float(v.max())
     extent = np.ptp(print_.rings[:, :, 0], axis=1)
     pitch = float(np.median(extent)) if len(extent) else 0.0
-    if high - low < 2.0 * pitch or print_.length < 6.0 * pitch:
+    if np.ptp(print_.centres[:, 1]) < 2.0 * pitch or print_.length < 6.0 * pitch:
         return print_
-    found: list[tuple[float, float]] = []
-    edges = np.linspace(low - 1e-9, high + 1e-9, _STRIPS + 1)
-    for a, b in pairwise(edges):
-        strip = (v >= a - 0.25 * pitch) & (v <= b + 0.25 * pitch)
-        at = _valley(print_, strip, pitch)
-        if at is not None:
-            found.append((0.5 * float(a + b), at))
+    found = _valleys(print_, pitch)
     if len(found) < 2 and not (found and _whole_gap(print_, pitch)):
         return print_
     middle = float(np.median([at for _, at in found]))
     kept = [(place, at) for place, at in found if abs(at - middle) < 0.12 * print_.length]
     return replace(print_, toe_line=np.array(kept))
+
+
+def _valleys(print_: Footprint, pitch: float) -> list[tuple[float, float]]:
+    """v of the middle of each strip that has a valley, and u of that valley."""
+    v = print_.centres[:, 1]
+    found: list[tuple[float, float]] = []
+    for a, b in pairwise(np.linspace(float(v.min()) - 1e-9, float(v.max()) + 1e-9, _STRIPS + 1)):
+        strip = (v >= a - 0.25 * pitch) & (v <= b + 0.25 * pitch)
+        at = _valley(print_, strip, pitch) if strip.any() else None
+        if at is not None:
+            found.append((0.5 * float(a + b), at))
+    return found
 
 
 def _profile(
@@ -88,27 +92,28 @@ def _profile(
 
 
 def _valley(print_: Footprint, strip: NDArray[np.bool_], pitch: float) -> float | None:
-    """u of the valley between forefoot and toes in one strip."""
-    if not strip.any():
-        return None
+    """u of the valley between forefoot and toes in one strip; the middle of the first part of a wide one."""
     places, height = _profile(print_, strip, pitch)
     fore = (places >= 0.45 * print_.length) & (places <= 0.80 * print_.length)
     if not fore.any() or height[fore].max() <= 0.0:
         return None
     peak = int(np.flatnonzero(fore)[np.argmax(height[fore])])
-    best: tuple[float, float] | None = None
-    for i in range(peak + 1, len(places) - 1):
-        if not 0.62 * print_.length <= places[i] <= 0.92 * print_.length:
-            continue
-        beyond = float(height[i + 1 :].max())
-        if beyond < _TOE_PEAK * height[peak] or height[i] > _DEPTH * min(beyond, float(height[peak])):
-            continue
-        if best is None or height[i] < best[0]:
-            best = float(height[i]), float(places[i])
-    if best is None:
+    within = (places >= 0.62 * print_.length) & (places <= 0.92 * print_.length)
+    beyond = np.maximum.accumulate(height[::-1])[::-1]
+    inner = (i for i in range(peak + 1, len(places) - 1) if within[i])
+    candidates = [i for i in inner if _is_valley(height, i, peak, beyond[i + 1])]
+    if not candidates:
         return None
-    same = [p for p, h in zip(places, height, strict=True) if h <= best[0] + 1e-12 and abs(p - best[1]) < 0.1]
-    return float(np.mean([p for p in same if p >= best[1]][:8]))
+    lowest = min(candidates, key=lambda i: float(height[i]))
+    at, depth = float(places[lowest]), float(height[lowest])
+    same = places[(height <= depth + 1e-12) & (np.abs(places - at) < 0.1) & (places >= at)]
+    return float(np.mean(same[:8]))
+
+
+def _is_valley(height: NDArray[np.float64], at: int, peak: int, beyond: float) -> bool:
+    """Whether a place is low enough beside the forefoot's peak and what follows, which carries like toes."""
+    top = float(height[peak])
+    return bool(beyond >= _TOE_PEAK * top and height[at] <= _DEPTH * min(float(beyond), top))
 
 
 def _whole_gap(print_: Footprint, pitch: float) -> bool:

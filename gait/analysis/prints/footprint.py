@@ -13,13 +13,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import Side, SoleLayout
-from plantar.polygon import convex_hull
+from plantar.geometry.polygon import convex_hull
+from plantar.layouts.layout import Side, SoleLayout
 
 __all__ = ["Footprint", "footprint_of_cells", "footprint_of_pixels"]
 
 _HEEL, _FOREFOOT = (0.0, 0.25), (0.55, 0.80)
 """Shares of the length, toes included, in which the foot's axis halves the widths of heel and forefoot."""
+
+_ROUNDS = 4
+"""How often the axis is found anew, in bands that turn with it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,24 +178,29 @@ def _footprint(
     side: Side,
     forward: NDArray[np.float64] | None,
 ) -> Footprint:
-    axis = np.array([1.0, 0.0]) if forward is None else np.asarray(forward, dtype=float) / np.hypot(*forward)
-    middle = 0.5 * (rings.min(axis=1) + rings.max(axis=1))
-    through = np.average(middle, axis=0, weights=areas) if forward is not None else np.zeros(2)
-    for _ in range(4 if forward is not None else 0):
-        along = rings @ axis
-        low, high = float(along.min()), float(along.max())
-        ends = [
-            _middle_of_band(rings, axis, low + a * (high - low), low + b * (high - low)) for a, b in (_HEEL, _FOREFOOT)
-        ]
-        if ends[0] is None or ends[1] is None or np.hypot(*(ends[1] - ends[0])) < 0.2 * (high - low):
-            break
-        step = ends[1] - ends[0]
-        axis, through = step / np.hypot(*step), ends[0]
+    axis, through = (np.array([1.0, 0.0]), np.zeros(2)) if forward is None else _axis(rings, areas, forward)
     back = float((rings @ axis).min())
     origin = through + (back - float(through @ axis)) * axis
     print_ = Footprint(side, origin, axis, rings, areas, pressure)
     turned = print_.in_foot(rings.reshape(-1, 2)).reshape(rings.shape)
     return replace(print_, rings=turned)
+
+
+def _axis(
+    rings: NDArray[np.float64], areas: NDArray[np.float64], forward: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Direction (2,) of a print's own axis and a point (2,) on it: it halves the widths of heel and forefoot."""
+    axis = np.asarray(forward, dtype=float) / np.hypot(*forward)
+    through = np.average(0.5 * (rings.min(axis=1) + rings.max(axis=1)), axis=0, weights=areas)
+    for _ in range(_ROUNDS):  # the bands turn with the axis
+        along = rings @ axis
+        low, length = float(along.min()), float(along.max()) - float(along.min())
+        heel, fore = (_middle_of_band(rings, axis, low + a * length, low + b * length) for a, b in (_HEEL, _FOREFOOT))
+        if heel is None or fore is None or np.hypot(*(fore - heel)) < 0.2 * length:
+            break
+        step = fore - heel
+        axis, through = step / np.hypot(*step), heel
+    return axis, np.asarray(through)
 
 
 def _middle_of_band(
