@@ -13,30 +13,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gait.analysis.figures import (
-    figure_force,
-    figure_pressure,
-    figure_regions,
-    figure_steps,
-    figure_symmetry,
-    figure_wrench,
-)
-from gait.analysis.footprint_report import analyse_image
-from gait.analysis.force_curve import landing_impact
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
-from gait.analysis.parameters import FootGait, analyse_feet
-from gait.analysis.platform import told_apart
-from gait.analysis.player import player_data
-from gait.analysis.report import report_page
+from gait.analysis.pages.figure_files import write_figures
+from gait.analysis.pages.footprint_report import analyse_image
+from gait.analysis.pages.force_figures import figure_force, figure_steps, figure_symmetry, figure_wrench
+from gait.analysis.pages.player import player_data
+from gait.analysis.pages.report import report_page
+from gait.analysis.pages.sole_figures import figure_pressure, figure_regions
+from gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
+from gait.analysis.parameters import analyse_feet
+from gait.analysis.prints.platform import told_apart
 from gait.analysis.spread import Spread
-from gait.analysis.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
+from gait.analysis.steps.foot_gait import FootGait
+from gait.analysis.steps.force_curve import landing_impact
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format, read_recording
-from plantar.layout import Side
-from plantar.layout_file import read_layout
-from plantar.plotting import save_figure
-from plantar.pressure_recording import PressureRecording
+from plantar.layouts.layout import Side
+from plantar.layouts.layout_file import read_layout
+from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "with_layout", "write_analysis"]
 
@@ -89,7 +84,7 @@ def analyse_recording(
     tell(0.0, "reading")
     known = with_layout(options, layout)
     image = named_format(path, format).read is None
-    if image != (mm_per_pixel is not None) and mm_per_pixel is not None:
+    if mm_per_pixel is not None and not image:
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     with output_folder(out) as folder:
         if image:
@@ -158,29 +153,27 @@ def write_analysis(analysis: Analysis, folder: Path, progress: Callable[[float, 
     """
     tell = progress or (lambda fraction, text: None)
     recording, feet, metrics = analysis.recording, analysis.feet, analysis.metrics
-    captions = {
-        "pressure": (
+    figures = (
+        (
+            "pressure",
             figure_pressure(recording, feet),
             "Maximum pressure picture of each foot and CoP path of each step",
         ),
-        "regions": (figure_regions(recording, feet), "Regions of each foot, its axis, and the thirds of its print"),
-        "force": (figure_force(recording, feet), "Vertical force of each foot over time with its events"),
-        "steps": (
+        ("regions", figure_regions(recording, feet), "Regions of each foot, its axis, and the thirds of its print"),
+        ("force", figure_force(recording, feet), "Vertical force of each foot over time with its events"),
+        (
+            "steps",
             figure_steps(recording, feet),
             "Vertical force over the stance of all complete steps, mean and ± 1 SD",
         ),
-        "symmetry": (
+        (
+            "symmetry",
             figure_symmetry(symmetry(feet)),
             "Symmetry index of the main measures: the bars point to the foot whose value is larger",
         ),
-        "wrench": (figure_wrench(recording, feet), "Wrench of the ground on each sole over time"),
-    }
-    embedded: list[tuple[Path, str]] = []
-    for i, (name, (figure, caption)) in enumerate(captions.items()):
-        if figure is not None:
-            embedded.append((save_figure(figure, folder / f"{name}.png"), caption))
-            save_figure(figure, folder / f"{name}.svg")
-        tell((i + 1) / (len(captions) + 2), "drawing")
+        ("wrench", figure_wrench(recording, feet), "Wrench of the ground on each sole over time"),
+    )
+    embedded = write_figures(figures, folder, tell)
     (folder / "steps.csv").write_text(_steps_csv(feet, recording.raw), encoding="utf-8")
     if any(step.regions for gait in feet.values() for step in gait.steps):
         (folder / "regions.csv").write_text(_regions_csv(feet, recording.raw), encoding="utf-8")
@@ -229,26 +222,36 @@ def _keys(raw: bool) -> Callable[[str], str]:
 
 
 def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
-    levels, foot, named = gait.levels, gait.foot, _keys(recording.raw)
+    foot, named = gait.foot, _keys(recording.raw)
     landings = [c.heel_strike for c in gait.contacts if c.heel_strike is not None]
-    impacts = [landing_impact(recording.time, foot.vertical_force, strike) for strike in landings]
-    layout = foot.layout
+    impacts = (landing_impact(recording.time, foot.vertical_force, strike) for strike in landings)
     return {
         "steps": len(gait.steps),
-        "events": [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete],
-        "incomplete": [
-            {"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if not c.complete
-        ],
+        "events": _events(gait, complete=True),
+        "incomplete": _events(gait, complete=False),
         "landings_s": landings,
         named("landing_impacts_N"): [_plain(impact) for impact in impacts],
         "cells": foot.force.shape[1],
-        "cell_area_m2": None if layout is None else float(layout.areas.mean()),
+        "cell_area_m2": None if foot.layout is None else float(foot.layout.areas.mean()),
         "missing_percent": 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()),
-        named("event_level_N"): None if levels is None else levels.release,
-        named("contact_level_N"): None if levels is None else levels.contact,
-        named("toe_off_level_N"): None if levels is None else min(levels.lift, levels.contact),
+        **{named(key): level for key, level in _levels(gait).items()},
         "measures": _spreads(summary_of_foot(gait), named),
         "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
+    }
+
+
+def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
+    """Heel strike and toe off in s of the contacts that were recorded whole, or of those that were not."""
+    return [{"heel_strike_s": c.heel_strike, "toe_off_s": c.toe_off} for c in gait.contacts if c.complete == complete]
+
+
+def _levels(gait: FootGait) -> dict[str, float | None]:
+    """Force levels of the events."""
+    levels = gait.levels
+    return {
+        "event_level_N": None if levels is None else levels.release,
+        "contact_level_N": None if levels is None else levels.contact,
+        "toe_off_level_N": None if levels is None else min(levels.lift, levels.contact),
     }
 
 

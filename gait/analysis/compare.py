@@ -12,16 +12,33 @@ from typing import Any
 import numpy as np
 
 from gait.analysis.analyse import Analysis, analyse, with_layout, write_analysis
-from gait.analysis.figures import STANCE, figure_pair, stance_curves
 from gait.analysis.measures import MEASURES
-from gait.analysis.report import comparison_page
+from gait.analysis.pages.figure_files import write_figures
+from gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
+from gait.analysis.pages.report import comparison_page
+from gait.analysis.pages.sole_figures import figure_pair
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
-from plantar.layout import Side
-from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.plotting import COLOURS, new_figure
+from plantar.sides import SIDES, Side
 
 __all__ = ["compare_recordings", "difference_of"]
+
+_MAIN = (
+    "contact_time_s",
+    "stride_time_s",
+    "peak_force_N",
+    "landing_impact_N",
+    "loading_rate_N_s",
+    "impulse_Ns",
+    "peak_pressure_Pa",
+    "pressure_time_integral_Pas",
+    "contact_area_m2",
+    "cop_path_m",
+    "cop_velocity_m_s",
+)
+"""Measures whose difference is drawn."""
 
 
 def compare_recordings(
@@ -65,26 +82,26 @@ def compare_recordings(
             analyses[key] = analyse(path, format, known)
             (folder / key).mkdir()
             write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
-        pairs = _pairs(analyses["a"], analyses["b"])
-        difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
-        metrics: dict[str, Any] = {**{k: dict(v.metrics) for k, v in analyses.items()}, "difference": difference}
-        embedded: list[tuple[Path, str]] = []
         if analyses["a"].recording.raw != analyses["b"].recording.raw:
             raise InputError(
                 "one recording is calibrated and the other is of raw counts: their values cannot be compared"
             )
-        for name, figure, caption in _figures(analyses, pairs):
-            if figure is not None:
-                embedded.append((save_figure(figure, folder / f"{name}.png"), caption))
-                save_figure(figure, folder / f"{name}.svg")
-        tell(0.95, "writing")
-        (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
-        names = (Path(a).name, Path(b).name)
-        page = comparison_page(metrics, embedded, names, ("a/report.html", "b/report.html"))
-        (folder / "report.html").write_text(page, encoding="utf-8")
+        metrics = _write_comparison(analyses, folder, (Path(a).name, Path(b).name))
         written = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     tell(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in written]}
+
+
+def _write_comparison(analyses: Mapping[str, Analysis], folder: Path, names: tuple[str, str]) -> dict[str, Any]:
+    """Write what two analyses show side by side, and give what comparison.json holds."""
+    pairs = _pairs(analyses["a"], analyses["b"])
+    difference = {name: difference_of(analyses, one, other) for name, (one, other) in pairs.items()}
+    metrics: dict[str, Any] = {**{k: dict(v.metrics) for k, v in analyses.items()}, "difference": difference}
+    embedded = write_figures(_figures(analyses, pairs), folder)
+    (folder / "comparison.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    page = comparison_page(metrics, embedded, names, ("a/report.html", "b/report.html"))
+    (folder / "report.html").write_text(page, encoding="utf-8")
+    return metrics
 
 
 def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Callable[[float, str], None]:
@@ -94,8 +111,7 @@ def _later(tell: Callable[[float, str], None], begin: float, share: float) -> Ca
 
 def _pairs(a: Analysis, b: Analysis) -> dict[str, tuple[Side, Side]]:
     """Which feet are put side by side: the same ones; or the only foot of each where these differ."""
-    sides: tuple[Side, Side] = ("left", "right")
-    common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in sides if s in a.feet and s in b.feet}
+    common: dict[str, tuple[Side, Side]] = {s: (s, s) for s in SIDES if s in a.feet and s in b.feet}
     if not common and len(a.feet) == 1 and len(b.feet) == 1:
         one, other = next(iter(a.feet)), next(iter(b.feet))
         return {f"{one} and {other}": (one, other)}
@@ -121,9 +137,7 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
         if x["mean"] is None or y is None or y["mean"] is None:
             continue
         change = y["mean"] - x["mean"]
-        pooled = None
-        if x["sd"] is not None and y["sd"] is not None and x["n"] + y["n"] > 2:
-            pooled = math.sqrt(((x["n"] - 1) * x["sd"] ** 2 + (y["n"] - 1) * y["sd"] ** 2) / (x["n"] + y["n"] - 2))
+        pooled = _pooled_sd(x, y)
         out[key] = {
             "a": x,
             "b": y,
@@ -132,6 +146,13 @@ def difference_of(analyses: Mapping[str, Analysis], one: Side, other: Side) -> d
             "effect_size": change / pooled if pooled else None,
         }
     return out
+
+
+def _pooled_sd(x: Mapping[str, Any], y: Mapping[str, Any]) -> float | None:
+    """Standard deviation of two samples about their own means; None where one has none."""
+    if x["sd"] is None or y["sd"] is None or x["n"] + y["n"] <= 2:
+        return None
+    return math.sqrt(((x["n"] - 1) * x["sd"] ** 2 + (y["n"] - 1) * y["sd"] ** 2) / (x["n"] + y["n"] - 2))
 
 
 def _figures(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> list[tuple[str, Any, str]]:
@@ -159,38 +180,26 @@ def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) ->
     for panel, (name, sides) in zip(axes[0], shown.items(), strict=True):
         for key, analysis, side, colour in (("A", a, sides[0], COLOURS["left"]), ("B", b, sides[1], COLOURS["cop"])):
             curves = stance_curves(analysis.recording, analysis.feet[side])
-            mean = curves.mean(axis=0)
-            panel.plot(STANCE, mean, color=colour, linewidth=1.8, label=f"{key}, {side}: mean of {len(curves)}")
-            if len(curves) > 1:
-                sd = curves.std(axis=0, ddof=1)
-                panel.fill_between(STANCE, mean - sd, mean + sd, color=colour, alpha=0.2, linewidth=0)
+            name_of_mean = f"{key}, {side}: mean of {len(curves)}"
+            panel.plot(STANCE, curves.mean(axis=0), color=colour, linewidth=1.8, label=name_of_mean)
+            draw_sd(panel, curves, color=colour, alpha=0.2)
         panel.set_title(f"{name} foot" if sides[0] == sides[1] else name)
         panel.set_xlabel("stance (%)")
         panel.legend(fontsize=8, loc="lower center")
         panel.grid(alpha=0.3)
-    axes[0][0].set_ylabel(f"vertical force ({'counts' if a.recording.raw else 'N'})")
+    axes[0][0].set_ylabel(force_label(a.recording))
     return figure
 
 
+def _changes(difference: Mapping[str, Any]) -> dict[str, float]:
+    """By how many percent the main measures differ, as far as they are known."""
+    found = {key: difference[key]["percent"] for key in _MAIN if key in difference}
+    return {key: percent for key, percent in found.items() if percent is not None}
+
+
 def _bars(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, Side]]) -> Any | None:
-    wanted = (
-        "contact_time_s",
-        "stride_time_s",
-        "peak_force_N",
-        "landing_impact_N",
-        "loading_rate_N_s",
-        "impulse_Ns",
-        "peak_pressure_Pa",
-        "pressure_time_integral_Pas",
-        "contact_area_m2",
-        "cop_path_m",
-        "cop_velocity_m_s",
-    )
-    rows: dict[str, dict[str, float]] = {}
-    for name, (one, other) in pairs.items():
-        found = difference_of(analyses, one, other)
-        rows[name] = {k: found[k]["percent"] for k in wanted if k in found and found[k]["percent"] is not None}
-    keys = [k for k in wanted if any(k in r for r in rows.values())]
+    rows = {name: _changes(difference_of(analyses, one, other)) for name, (one, other) in pairs.items()}
+    keys = [k for k in _MAIN if any(k in r for r in rows.values())]
     if not keys:
         return None
     figure, axes = new_figure(8.0, 1.0 + 0.4 * len(keys))

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from plantar import SoleLayout, hex_layout, mirrored
-from plantar.layout import Side
-from plantar.pressure_recording import FootRecording, PressureRecording
+from plantar.layouts.layout import Side
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from plantar import FormatError, InputError, LayoutError, write_layout
 from plantar.formats import read_recording
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.plotting import thinned
-from plantar.recorder import Recorder
+from plantar.recordings.recorder import Recorder
 
 FIGURES = ("pressure", "regions", "force", "steps", "symmetry", "wrench")
 FILES = {"metrics.json", "steps.csv", "regions.csv", "report.html"} | {

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from gait.analysis.measures import MEASURES
+from gait.analysis.pages.summary import gait_of_feet, summary_of_foot, symmetry
 from gait.analysis.parameters import analyse_foot
-from gait.analysis.summary import gait_of_feet, summary_of_foot, symmetry
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.pressure_recording import FootRecording, PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 
 def rolling(steps: int = 4, rate: float = 200.0, peak: float = 800.0) -> PressureRecording:

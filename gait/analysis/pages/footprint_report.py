@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.footprint import Footprint, footprint_of_pixels
-from gait.analysis.regions import REGIONS, regions_of, with_toe_line
-from gait.analysis.report import footprint_page
+from gait.analysis.pages.figure_files import write_figures
+from gait.analysis.pages.footprint_figure import draw_footprints
+from gait.analysis.pages.footprint_page import footprint_page
+from gait.analysis.prints.footprint import Footprint, footprint_of_pixels
+from gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
-from plantar.layout import Side
-from plantar.plotting import COLOURS, draw_raster, new_figure, save_figure
+from plantar.sides import SIDES, Side
 
 __all__ = ["analyse_image", "footprint_in_image", "measures_of_footprint"]
 
@@ -40,15 +41,14 @@ def analyse_image(path: Path, folder: Path, mm_per_pixel: float | None, side: Si
         FormatError: If the file is no image, or shows no footprint.
     """
     image = read_footprints(path, mm_per_pixel)
-    warnings = list(image.warnings)
     pixel = image.pixel if image.pixel is not None else 1.0
-    sides = _sides(image, pixel, side, warnings)
+    sides, assumed = _sides(image, pixel, side)
     prints = {s: footprint_in_image(p, pixel, s) for s, p in zip(sides, image.prints, strict=True)}
-    for s, print_ in prints.items():
-        if print_.toe_line is None:
-            warnings.append(
-                f"no gap tells the {s} foot's toes from its forefoot: its arch index is that of the whole print"
-            )
+    toeless = [
+        f"no gap tells the {s} foot's toes from its forefoot: its arch index is that of the whole print"
+        for s, print_ in prints.items()
+        if print_.toe_line is None
+    ]
     feet = {s: measures_of_footprint(p, image.pixel is not None) for s, p in prints.items()}
     metrics: dict[str, Any] = {
         "format": "image",
@@ -59,13 +59,10 @@ def analyse_image(path: Path, folder: Path, mm_per_pixel: float | None, side: Si
         "mm_per_pixel": None if image.pixel is None else 1e3 * image.pixel,
         "feet": {s: {"steps": 0, "events": [], "footprint": values} for s, values in feet.items()},
         "gait": {},
-        "warnings": warnings,
+        "warnings": [*image.warnings, *assumed, *toeless],
     }
-    figure = _figure(image, prints, pixel)
-    embedded = [
-        (save_figure(figure, folder / "footprint.png"), "Footprints with their contours, axes, thirds and toe lines")
-    ]
-    save_figure(figure, folder / "footprint.svg")
+    caption = "Footprints with their contours, axes, thirds and toe lines"
+    embedded = write_figures([("footprint", draw_footprints(image, prints), caption)], folder)
     (folder / "footprints.csv").write_text(_csv(feet), encoding="utf-8")
     (folder / "metrics.json").write_text(json.dumps(metrics, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     (folder / "report.html").write_text(footprint_page(metrics, embedded, path.name), encoding="utf-8")
@@ -112,19 +109,18 @@ def _forward(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(axis if width(high - third, high) >= width(low, low + third) else -axis)
 
 
-def _sides(image: FootprintImage, pixel: float, stated: Side | None, warnings: list[str]) -> list[Side]:
+def _sides(image: FootprintImage, pixel: float, stated: Side | None) -> tuple[list[Side], list[str]]:
+    """The foot of each print in an image, and what had to be assumed."""
     if len(image.prints) == 2:
         tops = [_forward(_centres(p, pixel)) for p in image.prints]
         up = tops[0][0] + tops[1][0] >= 0.0
-        warnings.append("the picture is taken as seen from above: the foot to the left, toes up, is the left one")
-        return ["left", "right"] if up else ["right", "left"]
+        note = "the picture is taken as seen from above: the foot to the left, toes up, is the left one"
+        return list(SIDES if up else reversed(SIDES)), [note]
     if stated is not None:
-        return [stated]
+        return [stated], []
     side = _side_by_shape(footprint_in_image(image.prints[0], pixel, "right"))
-    warnings.append(
-        f"the image does not say which foot it is: taken as the {side} one from its arch (--side overrides)"
-    )
-    return [side]
+    note = f"the image does not say which foot it is: taken as the {side} one from its arch (--side overrides)"
+    return [side], [note]
 
 
 def _centres(part: Print, pixel: float) -> NDArray[np.float64]:
@@ -181,41 +177,6 @@ def _widest(print_: Footprint, low: float, high: float) -> float:
     centre = print_.centres
     inside = (centre[:, 0] >= low) & (centre[:, 0] <= high) & ~print_.is_toe
     return float(np.ptp(print_.rings[inside][:, :, 1])) if inside.any() else 0.0
-
-
-def _figure(image: FootprintImage, prints: dict[Side, Footprint], pixel: float) -> Any:
-    unit = 1e3 * pixel if image.pixel is not None else 1.0
-    scale = 1e3 if image.pixel is not None else 1.0
-    height, width = image.picture.shape[:2]
-    figure, axes = new_figure(min(9.0, 1.5 + 6.0 * width / height) if width < 1.6 * height else 9.0, 6.4)
-    draw_raster(axes, image.picture, unit)
-    for part, (side, print_) in zip(image.prints, prints.items(), strict=True):
-        for contour in part.contours:
-            ring = np.vstack([contour, contour[:1]]) + 0.5
-            axes.plot(ring[:, 0] * unit, (height - ring[:, 1]) * unit, color=COLOURS[side], linewidth=1.4)
-        low, high = float(print_.rings[:, :, 1].min()), float(print_.rings[:, :, 1].max())
-
-        def place(points: NDArray[np.float64], own: Footprint = print_) -> NDArray[np.float64]:
-            return np.asarray(own.from_foot(points)[:, ::-1] * (-scale, scale))
-
-        for k in range(4):
-            u = k * print_.toeless_length / 3.0
-            axes.plot(*place(np.array([[u, low], [u, high]])).T, color="#111111", linewidth=0.8, linestyle=":")
-        axes.plot(*place(np.array([[0.0, 0.0], [print_.length, 0.0]])).T, color=COLOURS["cop"], linewidth=1.4)
-        if print_.toe_line is not None:
-            v = np.linspace(low, high, 20)
-            line = np.column_stack([np.interp(v, *print_.toe_line.T), v])
-            axes.plot(*place(line).T, color=COLOURS["polygon"], linewidth=1.4, linestyle="--")
-        axes.plot([], [], color=COLOURS[side], label=f"{side} foot: contour")
-    axes.plot([], [], color=COLOURS["cop"], label="foot axis")
-    axes.plot([], [], ":", color="#111111", label="thirds without toes")
-    if any(p.toe_line is not None for p in prints.values()):
-        axes.plot([], [], "--", color=COLOURS["polygon"], label="toe line")
-    name = "mm" if image.pixel is not None else "pixels"
-    axes.set_xlabel(f"to the right ({name})")
-    axes.set_ylabel(f"up ({name})")
-    figure.legend(loc="outside right upper", fontsize=8)
-    return figure
 
 
 def _csv(feet: dict[Side, dict[str, Any]]) -> str:

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.parameters import FootGait
-from plantar.layout import Side
-from plantar.pressure_recording import PressureRecording
+from gait.analysis.pages.stepped_on import stepped_on
+from gait.analysis.steps.foot_gait import FootGait
+from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
 
 __all__ = ["player_data"]
 
@@ -22,7 +23,12 @@ LONGEST = 60.0
 USUAL_RATE = 25.0
 """Frames a second that the player shows of a long recording."""
 
-MOST_FRAMES = 1500
+MOST_FRAMES, FEWEST_FRAMES = 1500, 50
+"""Frames that are shown at most, and that a recording of many cells is not thinned below."""
+
+MOST_EVENTS = 2000
+"""Events that are listed."""
+
 MOST_BYTES = 900_000
 """Largest size of the packed pressures; a mat of very many cells is shown with fewer frames."""
 
@@ -42,29 +48,38 @@ def player_data(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
     shown = {side: gait for side, gait in feet.items() if gait.foot.layout is not None}
     if not shown:
         return None
-    chosen = _frames(recording, shown)
-    packed: list[dict[str, Any]] = []
-    while True:
-        packed = [_foot(recording, gait, chosen) for gait in shown.values()]
-        if sum(len(f["pressure"]) for f in packed) <= MOST_BYTES * 4 // 3 or len(chosen) <= 50:
-            break
-        chosen = chosen[::2]
+    chosen, packed = _packed(recording, shown)
     time = recording.time[chosen]
-    events = sorted(
-        (round(float(t), 3), f"{side} {name}")
-        for side, gait in shown.items()
-        for c in gait.contacts
-        for t, name in ((c.heel_strike, "heel strike"), (c.toe_off, "toe off"))
-        if t is not None and time[0] <= t <= time[-1]
-    )
     return {
         "times": np.round(time, 4).tolist(),
         "feet": packed,
-        "events": events[:2000],
+        "events": _events(shown, float(time[0]), float(time[-1]))[:MOST_EVENTS],
         "whole": bool(time[-1] >= recording.time[-1] - 1.0),
         "unit": "counts" if recording.raw else "kPa",
         "forceUnit": "counts" if recording.raw else "N",
     }
+
+
+def _packed(
+    recording: PressureRecording, feet: Mapping[Side, FootGait]
+) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
+    """The frames that are shown and what each foot shows of them: every other one until all of it is small enough."""
+    chosen = _frames(recording, feet)
+    while True:
+        packed = [_foot(recording, gait, chosen) for gait in feet.values()]
+        # Base64 takes 4 bytes for 3.
+        if len(chosen) <= FEWEST_FRAMES or sum(len(f["pressure"]) for f in packed) <= MOST_BYTES * 4 // 3:
+            return chosen, packed
+        chosen = chosen[::2]
+
+
+def _events(feet: Mapping[Side, FootGait], begin: float, end: float) -> list[tuple[float, str]]:
+    """Times in s and names of the events between two times, in order."""
+    found: list[tuple[float | None, str]] = []
+    for side, gait in feet.items():
+        found += [(c.heel_strike, f"{side} heel strike") for c in gait.contacts]
+        found += [(c.toe_off, f"{side} toe off") for c in gait.contacts]
+    return sorted((round(float(t), 3), name) for t, name in found if t is not None and begin <= t <= end)
 
 
 def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDArray[np.int64]:
@@ -83,38 +98,40 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
 
 
 def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> dict[str, Any]:
+    """What the player shows of one foot."""
     layout = gait.foot.layout
     assert layout is not None
     force = gait.foot.force[chosen]
-    missing = np.isnan(force)
-    force = np.where(missing, 0.0, force)
+    force = np.where(np.isnan(force), 0.0, force)
     loaded = force > gait.cell_threshold
-    cells = np.arange(len(layout))
-    if recording.kind == "platform":  # a platform shows what is stepped on
-        near = np.asarray(loaded.any(axis=0))
-        cells = np.flatnonzero(near | np.array([any(near[j] for j in row) for row in layout.neighbours]))
-        cells = cells if len(cells) else np.arange(len(layout))
+    cells, outline = np.arange(len(layout)), layout.outline
+    if recording.kind == "platform":
+        cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
     value = force[:, cells] if recording.raw else force[:, cells] / layout.areas[cells] / 1e3
     highest = float(value.max(initial=0.0)) or 1.0
-    levels = np.where(loaded[:, cells], 1.0 + np.clip(np.rint(254.0 * value / highest), 0.0, 254.0), 0.0)
-    vertical = gait.foot.vertical_force[chosen]
     cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)
-    outline = layout.outline
-    if recording.kind == "platform":
-        points = np.vstack([layout.cell_polygon(int(c)) for c in cells])
-        (x0, y0), (x1, y1) = points.min(axis=0) - 0.01, points.max(axis=0) + 0.01
-        outline = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
     return {
         "side": gait.foot.side,
         "cells": [_seen(layout.cell_polygon(int(c))) for c in cells],
         "outline": _seen(outline),
-        "pressure": base64.b64encode(zlib.compress(levels.astype(np.uint8).tobytes(), 9)).decode(),
+        "pressure": _bytes(value, loaded[:, cells], highest),
         "highest": float(f"{highest:.4g}"),
-        "force": [None if not np.isfinite(f) else round(float(f), 1) for f in vertical],
-        "cop": [None if not np.isfinite(x) else [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] for x, y in cop],
+        "force": [round(float(f), 1) if np.isfinite(f) else None for f in gait.foot.vertical_force[chosen]],
+        "cop": [_seen_point(x, y) for x, y in cop],
     }
+
+
+def _bytes(value: NDArray[np.float64], loaded: NDArray[np.bool_], highest: float) -> str:
+    """Values (n, m) as bytes: 0 where a cell is not loaded, else 1 + 254 value / highest; deflated, in base64."""
+    levels = np.where(loaded, 1.0 + np.clip(np.rint(254.0 * value / highest), 0.0, 254.0), 0.0)
+    return base64.b64encode(zlib.compress(levels.astype(np.uint8).tobytes(), 9)).decode()
 
 
 def _seen(ring: NDArray[np.float64]) -> list[list[float]]:
     """A ring as it is seen from above, toes up: to the right and forward, in mm."""
     return np.round(1e3 * ring[:, ::-1] * (-1.0, 1.0), 1).tolist()  # type: ignore[no-any-return]
+
+
+def _seen_point(x: float, y: float) -> list[float] | None:
+    """A point as it is seen from above, in mm; None where there is none."""
+    return [round(-1e3 * float(y), 1), round(1e3 * float(x), 1)] if np.isfinite(x) else None

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from gait.analysis.measures import MEASURES, REGION_MEASURES
-from gait.analysis.parameters import FootGait
-from gait.analysis.regions import REGIONS
+from gait.analysis.prints.regions import REGIONS
 from gait.analysis.spread import Spread, spread
-from plantar.layout import Side
+from gait.analysis.steps.foot_gait import FootGait
+from plantar.layouts.layout import Side
 
 __all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
 
@@ -46,23 +46,23 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
         walking_speed_m_s (means); None where the recording cannot tell.
     """
-    steps = [step for g in feet.values() for step in g.steps]
-    stride = spread([s["stride_time_s"] for s in steps]).mean
-
-    def mean(key: str) -> float | None:
-        return spread([s[key] for s in steps]).mean
-
+    stride = _mean(feet, "stride_time_s")
     return {
         "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
         "stride_time_s": stride,
         "cadence_steps_per_min": None if stride is None else 120.0 / stride,
-        "double_support_percent": mean("double_support_percent"),
-        "single_support_percent": mean("single_support_percent"),
-        "step_length_m": mean("step_length_m"),
-        "step_width_m": mean("step_width_m"),
-        "stride_length_m": mean("stride_length_m"),
-        "walking_speed_m_s": mean("stride_velocity_m_s"),
+        "double_support_percent": _mean(feet, "double_support_percent"),
+        "single_support_percent": _mean(feet, "single_support_percent"),
+        "step_length_m": _mean(feet, "step_length_m"),
+        "step_width_m": _mean(feet, "step_width_m"),
+        "stride_length_m": _mean(feet, "stride_length_m"),
+        "walking_speed_m_s": _mean(feet, "stride_velocity_m_s"),
     }
+
+
+def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
+    """Mean of a measure over the complete steps of all feet; None where no step has it."""
+    return spread([step[key] for gait in feet.values() for step in gait.steps]).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:

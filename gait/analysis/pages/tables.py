@@ -1,0 +1,143 @@
+"""Tables of measures: of the steps of one recording, of the regions of its feet, and of two recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
+from gait.analysis.pages.page import group_row, number, row, scaled, table, titled
+from gait.analysis.prints.regions import REGIONS
+
+__all__ = ["comparison_table", "measures_table", "regions_tables"]
+
+_UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s", "_Nm": "counts·m"}
+"""Unit of a measure of raw counts by the end of the key that it has in SI; counts for all others."""
+
+
+class _Shown(NamedTuple):
+    """How a measure is shown: its key in the metrics, its title with its unit, and the factor to that unit."""
+
+    key: str
+    title: str
+    factor: float
+
+
+def _shown(key: str, measure: Measure, raw: bool) -> _Shown:
+    if raw and raw_name(key) != key:
+        unit = next((u for end, u in _UNITS_OF_COUNTS.items() if key.endswith(end)), "counts")
+        return _Shown(raw_name(key), titled(measure.title, unit), 1.0)
+    return _Shown(key, titled(measure.title, measure.unit), measure.factor)
+
+
+def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
+    sd = "" if spread["sd"] is None else f" ± {number(spread['sd'] * factor, 2)}"
+    return number(spread["mean"] * factor) + sd
+
+
+def measures_table(metrics: Mapping[str, Any]) -> str:
+    """Every measure of the complete steps of each foot, with its spread and the symmetry of both feet.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML.
+    """
+    feet: Mapping[str, Any] = metrics["feet"]
+    both = len(feet) == 2
+    rows = list(_rows_of_measures(metrics, both))
+    if not rows:
+        return "<p>The recording holds no complete step.</p>"
+    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "CV (%)"))]
+    note = "; symmetry index 100 (L − R) / ((L + R) / 2), 0 is symmetric" if both else ""
+    caption = f"Over the complete steps: mean, standard deviation, coefficient of variation{note}."
+    return table("Measures", caption, [*head, "Symmetry index (%)"] if both else head, rows)
+
+
+def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
+    """A row for each measure that a foot has, under the heading of its group."""
+    feet = metrics["feet"].values()
+    group = ""
+    for plain, measure in MEASURES.items():
+        key, title, factor = _shown(plain, measure, bool(metrics.get("raw")))
+        spreads = [foot["measures"].get(key) for foot in feet]
+        if all(s is None or s["mean"] is None for s in spreads):
+            continue
+        if measure.group != group:
+            group = measure.group
+            yield group_row(group, 2 * len(feet) + 1 + both)
+        cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
+        yield row(title, [*cells, number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else cells)
+
+
+def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str]:
+    if spread is None or spread["mean"] is None:
+        return "–", "–"
+    return _mean_and_sd(spread, factor), number(spread["cv_percent"], 2)
+
+
+def regions_tables(metrics: Mapping[str, Any]) -> str:
+    """A table for each foot that has regions: the mean of each measure over its complete steps.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML, empty where no foot has regions.
+    """
+    shown = [_shown(key, measure, bool(metrics.get("raw"))) for key, measure in REGION_MEASURES.items()]
+    return "".join(
+        table(
+            f"Regions of the {side} foot",
+            f"The {side} foot, means over its complete steps.",
+            ["Region", *(title for _, title, _ in shown)],
+            [
+                row(title, [number(scaled(_mean(foot["regions"][region], key), factor)) for key, _, factor in shown])
+                for region, title in REGIONS.items()
+                if region in foot["regions"]
+            ],
+        )
+        for side, foot in metrics["feet"].items()
+        if foot["regions"]
+    )
+
+
+def _mean(values: Mapping[str, Any], key: str) -> float | None:
+    spread = values.get(key)
+    return None if spread is None else spread["mean"]
+
+
+def comparison_table(comparison: Mapping[str, Any]) -> str:
+    """Every measure that both recordings have, side by side.
+
+    Args:
+        comparison: What `compare_recordings` returns.
+
+    Returns:
+        HTML.
+    """
+    raw = bool(comparison["a"].get("raw") or comparison["b"].get("raw"))
+    shown = [_shown(key, measure, raw) for key, measure in MEASURES.items()]
+    rows: list[str] = []
+    for side, measures in comparison["difference"].items():
+        rows.append(group_row(f"{side.capitalize()} foot", 6))
+        rows += [row(title, _pair_cells(measures[key], factor)) for key, title, factor in shown if key in measures]
+    if not rows:
+        return "<p>The recordings have no foot with complete steps in common.</p>"
+    return table(
+        "Measures side by side",
+        "Over the complete steps. Effect size: B − A over the pooled standard deviation.",
+        ("Measure", "A: mean ± SD", "B: mean ± SD", "B − A", "B − A (% of A)", "Effect size (Cohen's d)"),
+        rows,
+    )
+
+
+def _pair_cells(pair: Mapping[str, Any], factor: float) -> tuple[str, ...]:
+    return (
+        _mean_and_sd(pair["a"], factor),
+        _mean_and_sd(pair["b"], factor),
+        number(pair["difference"] * factor),
+        number(pair["percent"], 2),
+        number(pair["effect_size"], 2),
+    )
