@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.geometry.polygon import area, convex_hull, signed_margin
 from plantar.kernels.few_points import small_hull, small_margin
-from plantar.polygon import area, convex_hull, signed_margin
-from sim.contact_truth import (
+from sim.model.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
     feet_contacts,

@@ -1,6 +1,9 @@
-"""Newton steps on MuJoCo's Jacobians against mink (the field's library), and torques against inverse dynamics."""
+"""A biped's legs against mink (the field's library), swings out of reach, and torques against inverse dynamics."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -8,10 +11,10 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from plantar.layout import Side
-from sim.inverse_kinematics import LegModel
-from sim.robots import Robot
-from sim.world import build_leg_model, robot_spec
+from plantar.layouts.layout import Side
+from sim.model.leg_model import LegModel
+from sim.model.world import build_leg_model, robot_spec
+from sim.robots import Robot, load_robot
 
 STANCE: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.085, 0.0]), "right": np.array([0.1, -0.085, 0.0])}
 LEVEL: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}
@@ -118,3 +121,65 @@ def test_torques_balance_gravity_and_ground_forces(legs: LegModel) -> None:
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     mujoco.mj_inverse(model, data)
     assert torques == pytest.approx((data.qfrc_inverse - applied)[6:], abs=1e-9)
+
+
+Swing = Callable[[float], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+
+def swings_out_of_reach() -> dict[str, Swing]:
+    """Way of the swing foot from its stand and rotation vector, over a share 0 to 1 of a second, and then held."""
+    level = np.zeros(3)
+    return {
+        "forward, until its knee is straight": lambda x: (np.array([0.6 * x, 0.0, 0.05]), level),
+        "down, below the ground": lambda x: (np.array([0.3 * x, 0.0, -0.3 * x]), level),
+        "sideways": lambda x: (np.array([0.0, 0.8 * x, 0.05]), level),
+        "just out of reach": lambda x: (np.array([0.35 * x, 0.0, -0.12 * x]), level),
+        "a jump to far away": lambda x: (np.array([5.0, 2.0, 1.0]) if x > 0.1 else level, level),
+        "turned beyond the ankle": lambda x: (np.array([0.1 * x, 0.0, 0.08 * x]), np.array([1.5 * x, 1.5 * x, 0.0])),
+    }
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+@pytest.mark.parametrize("case", swings_out_of_reach())
+def test_a_swing_out_of_reach_does_not_move_the_stance(robot: str, case: str) -> None:
+    """It used to throw the stance knee by 0.5 rad in a tick: every joint's step was clamped by itself."""
+    biped, swing = load_robot(robot), swings_out_of_reach()[case]
+    legs = build_leg_model(biped)
+    posture = np.array([*biped.posture["left"], *biped.posture["right"]])
+    legs.set_configuration(np.array([0.0, 0.0, 0.84]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    half, com = 0.5 * biped.stance_width, np.array([0.04, -0.03, biped.com_height])
+    stand: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, half, 0.0]), "right": np.array([0.0, -half, 0.0])}
+    joints, _ = legs.solve(com, np.eye(3), stand, LEVEL, iterations=50)
+    data = mujoco.MjData(legs.model)
+    stance = legs.model.site(biped.legs["right"].sole_site).id
+    steps, missed = [], []
+    for k in range(400):
+        way, turn = swing(min(1.0, k / 200))
+        positions = {**stand, "left": stand["left"] + way}
+        rotations = {**LEVEL, "left": np.asarray(Rotation.from_rotvec(turn).as_matrix())}
+        # The robot goes on to balance meanwhile.
+        sway = com + np.array([0.01 * math.sin(0.05 * k), 0.01 * math.sin(0.03 * k), 0.0])
+        before, (joints, _) = joints, legs.solve(sway, np.eye(3), positions, rotations, 1, ["left"], 0.1)
+        steps.append(np.abs(joints - before))
+        data.qpos[:] = legs.configuration
+        mujoco.mj_kinematics(legs.model, data)
+        mujoco.mj_comPos(legs.model, data)
+        missed.append([np.abs(data.site_xpos[stance] - stand["right"]).max(), np.abs(data.subtree_com[0] - sway).max()])
+    moved = np.array(steps)
+    assert moved.max() <= 0.1 + 1e-12
+    assert moved[:, 6:].max() < 0.05  # rad of a stance joint in a tick
+    assert np.max(missed) < 1e-3  # m
+    assert moved[-100:].max() < 0.01  # the target is held: nothing chatters
+
+
+@pytest.mark.parametrize("height", [1.0, 1.5])
+def test_a_stance_out_of_reach_stretches_and_stays_calm(legs: LegModel, height: float) -> None:
+    joints, _ = legs.solve(np.array([0.05, 0.0, 0.79]), np.eye(3), STANCE, LEVEL, iterations=12)
+    start, steps = joints, []
+    for k in range(400):
+        com = np.array([0.05, 0.0, 0.79 + (height - 0.79) * min(1.0, k / 100)])
+        before, (joints, _) = joints, legs.solve(com, np.eye(3), STANCE, LEVEL, largest_step=0.1)
+        steps.append(float(np.abs(joints - before).max()))
+    assert max(steps) <= 0.1 + 1e-12
+    assert max(steps[-100:]) < 0.01
+    assert joints[[3, 9]].max() < 0.5 * start[[3, 9]].min()  # the knees

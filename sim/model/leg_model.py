@@ -1,20 +1,22 @@
-"""Whole-body kinematics of the legs: soles and CoM forward, Newton steps on MuJoCo's Jacobians backward."""
+"""A robot's legs: forward kinematics, joint angles for CoM, torso and soles, and the torques that hold them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dposv
 
-from gait.estimator import Posture
-from plantar.layout import Side
+from gait.estimate.estimator import Posture
+from plantar.sides import SIDES, Side
+from sim.model.inverse_kinematics import InverseKinematics
+from sim.model.tasks.com_task import ComTask
+from sim.model.tasks.orientation_task import OrientationTask
+from sim.model.tasks.pose_task import PoseTask
+from sim.model.tasks.posture_task import PostureTask
 
 __all__ = ["LegModel"]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 class LegModel:
@@ -35,21 +37,25 @@ class LegModel:
         ids = [model.joint(name).id for name in joints]
         self._qpos = np.array([model.jnt_qposadr[i] for i in ids])
         self._dof = np.array([model.jnt_dofadr[i] for i in ids])
-        free = model.jnt_limited[ids] == 0  # a joint without limits has the range 0 to 0 in the model
-        self._lower = np.where(free, -np.inf, model.jnt_range[ids, 0])
-        self._upper = np.where(free, np.inf, model.jnt_range[ids, 1])
-        self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in _SIDES}
-        self._torso = model.body(torso).id
-        self._root = model.body_rootid[self._torso]
-        self._columns = np.concatenate([np.arange(6), self._dof])
+        self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in SIDES}
+        upright = model.body(torso).id
+        self._root = int(model.body_rootid[upright])
         self.mass = float(model.body_subtreemass[self._root])
-        n = model.nv
-        self._jac = np.zeros((18, n))
-        self._velocity = np.zeros(n)
         self._static = mujoco.MjData(model)
+        self._com = ComTask(model, self._data, self._root)
+        self._torso = OrientationTask(model, self._data, upright)
+        self._soles: dict[Side, PoseTask] = {s: PoseTask(model, self._data, self._sites[s]) for s in SIDES}
+        self._reference = PostureTask(model, self._data, ids)
+        self._inverse = InverseKinematics(
+            model,
+            self._data,
+            [self._com, self._torso, *self._soles.values()],
+            self._reference,
+            np.concatenate([np.arange(6), self._dof]),
+        )
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
-        """Forward kinematics in the base frame (see `gait.estimator.LegKinematics`)."""
+        """Forward kinematics in the base frame (see `gait.estimate.estimator.LegKinematics`)."""
         data = self._probe
         data.qpos[self._qpos] = joint_positions
         mujoco.mj_kinematics(self.model, data)
@@ -63,7 +69,7 @@ class LegModel:
     def set_configuration(
         self, position: NDArray[np.float64], quaternion: NDArray[np.float64], joints: NDArray[np.float64]
     ) -> None:
-        """Set the configuration that the next `solve` starts from.
+        """Set the configuration that the next `solve` starts from, and whose joints are the reference posture.
 
         Args:
             position: Base position (3,) in the world frame in m.
@@ -73,6 +79,7 @@ class LegModel:
         self._data.qpos[:3] = position
         self._data.qpos[3:7] = quaternion
         self._data.qpos[self._qpos] = joints
+        self._reference.target = np.array(joints, dtype=float)
 
     @property
     def configuration(self) -> NDArray[np.float64]:
@@ -86,11 +93,14 @@ class LegModel:
         positions: Mapping[Side, NDArray[np.float64]],
         rotations: Mapping[Side, NDArray[np.float64]],
         iterations: int = 1,
+        yielding: Collection[Side] = (),
+        largest_step: float = 0.5,
     ) -> tuple[NDArray[np.float64], float]:
-        """Joint angles for CoM, torso orientation and both soles: damped Newton steps from the last solution.
+        """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
 
         The 18 task rows (CoM 3, torso orientation 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped, so a
-        step is one square solve; a damping of 1e-6 keeps a straight knee finite.
+        step is one square solve. Near a straight knee, at a joint's limit and out of reach the rules of
+        `sim.model.inverse_kinematics` hold.
 
         Args:
             com: CoM (3,) in the world frame in m.
@@ -98,36 +108,20 @@ class LegModel:
             positions: Sole frame origin (3,) of each foot in m.
             rotations: Rotation (3, 3) from each sole to the world frame.
             iterations: Newton steps.
+            yielding: Feet that miss their targets where not all can be met, rather than that CoM, torso and the other
+                foot do: those that carry nothing.
+            largest_step: Largest change of a joint in rad, or of the base in m or rad, in a Newton step.
 
         Returns:
-            Joint angles (k,) in rad within their limits, and the largest task error before the last step (m or rad).
+            Joint angles (k,) in rad within their limits, and the largest task error before the last step (m or rad),
+            not a number if a target is not.
         """
-        model, data, jac = self.model, self._data, self._jac
-        error: list[float] = []
-        for _ in range(iterations):
-            mujoco.mj_kinematics(model, data)
-            mujoco.mj_comPos(model, data)
-            mujoco.mj_jacSubtreeCom(model, data, jac[0:3], self._root)
-            mujoco.mj_jacBody(model, data, None, jac[3:6], self._torso)
-            error = (com - data.subtree_com[self._root]).tolist()
-            error += _rotation_error(rotation_torso, data.xmat[self._torso].reshape(3, 3))
-            row = 6
-            for side in _SIDES:
-                site = self._sites[side]
-                mujoco.mj_jacSite(model, data, jac[row : row + 3], jac[row + 3 : row + 6], site)
-                error += (positions[side] - data.site_xpos[site]).tolist()
-                error += _rotation_error(rotations[side], data.site_xmat[site].reshape(3, 3))
-                row += 6
-            square = jac[:, self._columns]
-            normal = square.T @ square
-            normal.ravel()[:: len(normal) + 1] += 1e-8
-            _, step, _ = dposv(normal, square.T.dot(np.array(error)))
-            self._velocity[self._columns] = np.minimum(np.maximum(step, -0.5), 0.5)
-            configuration = data.qpos
-            mujoco.mj_integratePos(model, configuration, self._velocity, 1.0)
-            joints = np.minimum(np.maximum(configuration[self._qpos], self._lower), self._upper)
-            configuration[self._qpos] = joints
-        return joints, max(map(abs, error))
+        self._com.target, self._torso.target = com, rotation_torso
+        for side, sole in self._soles.items():
+            sole.position, sole.rotation = positions[side], rotations[side]
+            sole.level = 1 if side in yielding else 0
+        missed = self._inverse.solve(iterations, largest_step)
+        return self._data.qpos[self._qpos], missed
 
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, NDArray[np.float64]]
@@ -148,16 +142,10 @@ class LegModel:
         result = np.zeros(model.nv)
         mujoco.mj_rne(model, data, 0, result)
         jac = np.zeros((3, model.nv))
-        for side in _SIDES:
+        for side in SIDES:
             if forces[side][2] <= 0.0:
                 continue
             mujoco.mj_jac(model, data, jac, None, points[side], model.site_bodyid[self._sites[side]])
             result -= jac.T.dot(forces[side])
         torques: NDArray[np.float64] = result[self._dof]
         return torques
-
-
-def _rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> tuple[float, float, float]:
-    """Rotation vector in the world frame that turns `actual` into `wanted`, exact to first order."""
-    (_, xy, xz), (yx, _, yz), (zx, zy, _) = wanted.dot(actual.T).tolist()
-    return 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)

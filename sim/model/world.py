@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError, SceneError
-from plantar.layout import Side
-from sim.inverse_kinematics import LegModel
+from plantar.sides import SIDES, Side
+from sim.model.leg_model import LegModel
 from sim.robots.biped import biped_mjcf
+from sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
 from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
 from sim.terrain import GROUND_GROUP, Ground, Solid
@@ -23,7 +25,7 @@ __all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "check_s
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s."""
 
-_SIDES: tuple[Side, Side] = ("left", "right")
+_LEGS = tuple(contype for contype, _ in COLLIDES.values())
 _DIVERGED = (
     int(mujoco.mjtWarning.mjWARN_BADQPOS),
     int(mujoco.mjtWarning.mjWARN_BADQVEL),
@@ -55,7 +57,9 @@ def robot_spec(robot: Robot) -> Any:
             stiffness=robot.stiffness,
             damping=robot.damping,
         )
-        return mujoco.MjSpec.from_string(text)
+        spec = mujoco.MjSpec.from_string(text)
+        add_leg_shapes(spec, robot)
+        return spec
     return spec_from_file(robot)
 
 
@@ -99,7 +103,7 @@ def build_leg_model(robot: Robot) -> LegModel:
     """
     model = _compiled(robot_spec(robot), robot)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
-    return LegModel(model, joints, {s: robot.legs[s].sole_site for s in _SIDES}, robot.torso_body)
+    return LegModel(model, joints, {s: robot.legs[s].sole_site for s in SIDES}, robot.torso_body)
 
 
 def _add_looks(spec: Any, torso: str) -> None:
@@ -216,43 +220,62 @@ def build_world(robot: Robot, ground: Ground) -> World:
         RobotError: If the model cannot be read or simulated.
     """
     spec = robot_spec(robot)
-    spec.option.timestep = PHYSICS_PERIOD
-    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
-    spec.option.impratio = 10.0
-    spec.option.iterations = 20
+    _set_solver(spec)
     _add_looks(spec, robot.torso_body)
     for geom in spec.geoms:
         if geom.group == GROUND_GROUP:
             geom.group = 1  # as visible as before, but nothing that proximity sensors see
     ground.add_to(spec)
-    for side in _SIDES:
+    for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
+    _set_contacts(spec, ground.friction)
+    model = _compiled(spec, robot)
+    keep_apart(model, robot)
+    return _world_of(model, robot, ground)
+
+
+def _set_solver(spec: Any) -> None:
+    spec.option.timestep = PHYSICS_PERIOD
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.impratio = 10.0
+    spec.option.iterations = 20
+
+
+def _set_contacts(spec: Any, friction: float) -> None:
+    """Contact parameters of soles and ground, as `sim.contact_models` recommends them."""
     for geom in spec.geoms:
-        if geom.contype:
+        if geom.contype and geom.contype not in _LEGS:
             geom.condim = 3
-            geom.friction[0] = ground.friction
+            geom.friction[0] = friction
             geom.solref = [0.005, 1.0]
             geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
             geom.gap = 0.001  # corners that hover by micrometres stay in the contact list
-    model = _compiled(spec, robot)
-    data = mujoco.MjData(model)
-    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
-    ids = [model.joint(name).id for name in joints]
+
+
+def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:
+    """The actuator of each joint; refused is a joint that none drives."""
     servo_of = {int(model.actuator_trnid[a, 0]): a for a in range(model.nu)}
-    missing = [n for n, i in zip(joints, ids, strict=True) if i not in servo_of]
+    missing = [n for n, i in zip(names, ids, strict=True) if i not in servo_of]
     if missing:
         raise RobotError(f"robot '{robot.name}': no actuator drives joint {', '.join(missing)}")
-    servos = np.array([servo_of[i] for i in ids])
+    return np.array([servo_of[i] for i in ids])
+
+
+def _world_of(model: Any, robot: Robot, ground: Ground) -> World:
+    """The compiled model with the places of all that is read from it and written to it."""
+    joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
+    ids = [model.joint(name).id for name in joints]
+    servos = _servos_of(model, robot, joints, ids)
     return World(
         model=model,
-        data=data,
+        data=mujoco.MjData(model),
         robot=robot,
         joint_qpos=model.jnt_qposadr[ids].astype(np.int64),
         joint_qvel=model.jnt_dofadr[ids].astype(np.int64),
         servos=servos,
-        sole_geoms={s: (model.geom(f"{s}_sole_box").id,) for s in _SIDES},
-        sole_sites={s: model.site(robot.legs[s].sole_site).id for s in _SIDES},
+        sole_geoms={s: (model.geom(f"{s}_sole_box").id,) for s in SIDES},
+        sole_sites={s: model.site(robot.legs[s].sole_site).id for s in SIDES},
         torso=model.body(robot.torso_body).id,
         stiffness=model.actuator_gainprm[servos, 0].copy(),
         damping=-model.actuator_biasprm[servos, 2].copy(),
@@ -260,9 +283,9 @@ def build_world(robot: Robot, ground: Ground) -> World:
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
         ankle_wrench={
             s: (int(model.sensor(f"{s}_ankle_force").adr[0]), int(model.sensor(f"{s}_ankle_torque").adr[0]))
-            for s in _SIDES
+            for s in SIDES
         },
-        touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in _SIDES},
+        touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in SIDES},
         moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
         ground_top=ground.top,
     )

@@ -1,4 +1,5 @@
-"""Contact truth: what MuJoCo's own contacts say about the feet. It judges a run; no controller sees it.
+"""Contact truth: what MuJoCo's own contacts say about the feet. Skins are made from it and runs judged by it;
+no controller sees it.
 
 Everything here reads `MjModel` and `MjData` as the last `mj_step` or `mj_forward` left them: contacts, their forces
 and the kinematics then belong to the same instant. Wrenches are [fx, fy, fz, tx, ty, tz], exerted BY the world ON the

@@ -1,0 +1,39 @@
+"""Centre of mass at a point."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.model.tasks.task import Task
+
+__all__ = ["ComTask"]
+
+
+class ComTask(Task):
+    """The CoM of a body and all that hangs on it shall be at a point of the world.
+
+    Attributes:
+        target: The point (3,) in m.
+
+    Args:
+        model: The model.
+        data: Its data.
+        body: The root body's id.
+    """
+
+    rows = 3
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
+        self._model, self._data, self._body = model, data, body
+        self._com = data.subtree_com[body]
+        self.target: NDArray[np.float64] = self._com.copy()
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Target less CoM (3,) in m."""
+        np.subtract(self.target, self._com, out=out)
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Velocity of the CoM (3, nv)."""
+        mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)

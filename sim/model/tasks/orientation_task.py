@@ -1,0 +1,40 @@
+"""A body upright, or at any other orientation."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.rotation import rotation_error
+from sim.model.tasks.task import Task
+
+__all__ = ["OrientationTask"]
+
+
+class OrientationTask(Task):
+    """A body shall have an orientation in the world.
+
+    Attributes:
+        target: Rotation (3, 3) from the body to the world frame.
+
+    Args:
+        model: The model.
+        data: Its data.
+        body: The body's id.
+    """
+
+    rows = 3
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
+        self._model, self._data, self._body = model, data, body
+        self._rotation = data.xmat[body].reshape(3, 3)
+        self.target: NDArray[np.float64] = self._rotation.copy()
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Turn (3,) that is missing, in the world frame (see `plantar.mechanics.rotation.rotation_error`)."""
+        out[:] = rotation_error(self.target, self._rotation)
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Angular velocity of the body (3, nv) in the world frame."""
+        mujoco.mj_jacBody(self._model, self._data, None, out, self._body)

@@ -1,0 +1,44 @@
+"""A site, for example a sole's frame, at a pose."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.rotation import rotation_error
+from sim.model.tasks.task import Task
+
+__all__ = ["PoseTask"]
+
+
+class PoseTask(Task):
+    """A site shall be at a position and an orientation of the world.
+
+    Attributes:
+        position: Its origin (3,) in m.
+        rotation: Rotation (3, 3) from the site to the world frame.
+
+    Args:
+        model: The model.
+        data: Its data.
+        site: The site's id.
+    """
+
+    rows = 6
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
+        self._model, self._data, self._site = model, data, site
+        self._position = data.site_xpos[site]
+        self._rotation = data.site_xmat[site].reshape(3, 3)
+        self.position: NDArray[np.float64] = self._position.copy()
+        self.rotation: NDArray[np.float64] = self._rotation.copy()
+
+    def error(self, out: NDArray[np.float64]) -> None:
+        """Way (3,) in m and turn (3,) that are missing, in the world frame."""
+        np.subtract(self.position, self._position, out=out[:3])
+        out[3:] = rotation_error(self.rotation, self._rotation)
+
+    def jacobian(self, out: NDArray[np.float64]) -> None:
+        """Velocity and angular velocity of the site (6, nv) in the world frame."""
+        mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
