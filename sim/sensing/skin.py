@@ -1,4 +1,4 @@
-"""Simulated sole skin: what the taxels feel of MuJoCo's contacts, and what its electronics deliver of that.
+"""Simulated sole skin: the force on each taxel from MuJoCo's contacts, and what the electronics deliver of it.
 
 A rigid box under an eccentric load lifts a corner by micrometres, where rubber stays pressed. Give the sole's geoms a
 `gap` of 1 mm: MuJoCo then reports such corners, and those within REACH belong to the patch.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -17,13 +18,14 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
 from plantar.kernels.contact_sums import pair_loads
-from plantar.layout import DEFAULT_RANGES, SoleLayout
-from plantar.reading import Reading
-from sim.contact_truth import REACH, ContactSet, foot_contacts
-from sim.proximity import ProximitySensor
-from sim.sole_pressure import SolePressure
+from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.reading import Reading
+from sim.model.contact_truth import REACH, ContactSet, foot_contacts
+from sim.sensing.proximity import ProximitySensor
+from sim.sensing.sole_pressure import SolePressure
 
-__all__ = ["SkinSensor", "SoleSkin"]
+__all__ = ["SkinElectronics", "SkinSensor", "SoleSkin"]
 
 
 class SoleSkin:
@@ -97,6 +99,35 @@ class SoleSkin:
         return np.zeros(len(self.layout)) if out is None else out
 
 
+@dataclass(frozen=True)
+class SkinElectronics:
+    """What a skin's electronics do to its forces.
+
+    Attributes:
+        rate_hz: Sampling rate in Hz.
+        noise_std_N: Standard deviation of the white noise on each taxel in N (0.15 kg by default, T Table 2).
+        delay_periods: Whole sampling periods between taking a sample and delivering it; until the first one arrives
+            the first sample is delivered.
+        dead: Indices of dead taxels: they read NaN.
+
+    Raises:
+        InputError: If a value is outside what is allowed.
+    """
+
+    rate_hz: float = 250.0
+    noise_std_N: float = 0.15 * GRAVITY
+    delay_periods: int = 0
+    dead: Collection[int] = ()
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.rate_hz) and self.rate_hz > 0.0):
+            raise InputError(f"skin rate is {self.rate_hz} Hz; allowed: a finite value above 0")
+        if not (math.isfinite(self.noise_std_N) and self.noise_std_N >= 0.0):
+            raise InputError(f"skin noise is {self.noise_std_N} N; allowed: a finite value of 0 or more")
+        if int(self.delay_periods) != self.delay_periods or self.delay_periods < 0:
+            raise InputError(f"skin delay is {self.delay_periods} periods; allowed: whole numbers of 0 or more")
+
+
 class SkinSensor:
     """A skin as its electronics deliver it: sampled, noisy, clipped to its range, late.
 
@@ -105,44 +136,33 @@ class SkinSensor:
 
     Args:
         skin: The noise-free skin.
-        rate_hz: Sampling rate in Hz.
-        noise_std_N: Standard deviation of the white noise on each taxel in N (0.15 kg by default, T Table 2).
-        delay_periods: Whole sampling periods between taking a sample and delivering it; until the first one arrives
-            the first sample is delivered.
-        rng: Source of the noise; the same seed and calls give the same noise. None needs noise_std_N = 0.
-        dead: Indices of dead taxels: they read NaN.
+        electronics: Rate, noise, delay and dead taxels.
+        rng: Source of the noise; the same seed and calls give the same noise. None needs electronics without noise.
         proximity: Proximity of the same sole, sampled together with the forces; None where the skin has none.
 
     Raises:
-        InputError: If an argument is outside what is allowed.
+        InputError: If there is noise and no source of it, or a dead taxel does not exist.
     """
 
     def __init__(
         self,
         skin: SoleSkin,
-        rate_hz: float = 250.0,
-        noise_std_N: float = 0.15 * 9.81,
-        delay_periods: int = 0,
+        electronics: SkinElectronics | None = None,
         rng: np.random.Generator | None = None,
-        dead: Collection[int] = (),
         proximity: ProximitySensor | None = None,
     ) -> None:
-        n = len(skin)
-        if not (math.isfinite(rate_hz) and rate_hz > 0.0):
-            raise InputError(f"skin rate is {rate_hz} Hz; allowed: a finite value above 0")
-        if not (math.isfinite(noise_std_N) and noise_std_N >= 0.0):
-            raise InputError(f"skin noise is {noise_std_N} N; allowed: a finite value of 0 or more")
-        if int(delay_periods) != delay_periods or delay_periods < 0:
-            raise InputError(f"skin delay is {delay_periods} periods; allowed: whole numbers of 0 or more")
-        if rng is None and noise_std_N > 0.0:
+        electronics = electronics or SkinElectronics()
+        if rng is None and electronics.noise_std_N > 0.0:
             raise InputError("skin noise needs a random generator; pass rng=numpy.random.default_rng(seed)")
-        if any(not 0 <= int(i) < n for i in dead):
-            raise InputError(f"dead taxels {sorted(dead)} name one that does not exist; allowed: 0 to {n - 1}")
+        if any(not 0 <= int(i) < len(skin) for i in electronics.dead):
+            raise InputError(
+                f"dead taxels {sorted(electronics.dead)} name one that does not exist; allowed: 0 to {len(skin) - 1}"
+            )
         self.skin = skin
-        self.period = 1.0 / rate_hz
-        self.noise_std = noise_std_N
-        self.delay_periods = int(delay_periods)
-        self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
+        self.period = 1.0 / electronics.rate_hz
+        self.noise_std = electronics.noise_std_N
+        self.delay_periods = int(electronics.delay_periods)
+        self.dead = np.array(sorted({int(i) for i in electronics.dead}), dtype=np.int64)
         self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
         self.proximity = proximity
         self._rng = rng
@@ -177,10 +197,11 @@ class SkinSensor:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)
-            self._queue.append(Reading(time=now, force=self._sample(data, contacts), proximity=distance))
+            self._queue.append(Reading(time=now, force=self._forces(data, contacts), proximity=distance))
         return self._queue[0]
 
-    def _sample(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
+    def _forces(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
+        """Force (n,) on each taxel in N as it is sampled."""
         force = self.skin.taxel_forces(data, contacts)
         if self._rng is not None and self.noise_std > 0.0:
             force = force + self._rng.normal(0.0, self.noise_std, len(force))

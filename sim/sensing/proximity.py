@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
 from plantar.kernels.ground_rays import cast_rays
-from plantar.layout import SoleLayout
+from plantar.layouts.layout import SoleLayout
 from sim.terrain import GROUND_GROUP
 
 __all__ = ["ProximitySensor", "SoleProximity"]

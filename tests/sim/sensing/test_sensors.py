@@ -2,11 +2,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from sim.contact_truth import contact_wrench_in_frame, foot_contacts
-from sim.runner import Simulation
-from sim.scene import Sensing, load_scene
-from sim.sensors import SensorSuite, ankle_sensors
-from sim.world import World
+from sim.model.contact_truth import contact_wrench_in_frame, foot_contacts
+from sim.model.world import World
+from sim.run.runner import Simulation
+from sim.run.scene import load_scene
+from sim.sensing.sensors import SensorSuite, ankle_sensors
+from sim.sensing.settings import Sensing
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
 
@@ -14,8 +15,8 @@ QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, acceleromete
 def test_noise_free_sensors_tell_the_state(world: World) -> None:
     mujoco.mj_forward(world.model, world.data)
     suite = SensorSuite(world, QUIET, 0)
-    suite.sample_skin()
-    sensors = suite.sample_body()
+    suite.read_skins()
+    sensors = suite.read_body()
     assert np.array_equal(sensors.joint_positions, world.data.qpos[world.joint_qpos])
     assert np.array_equal(sensors.gyro, world.data.sensor("imu_gyro").data)
     assert np.array_equal(sensors.accelerometer, world.data.sensor("imu_accelerometer").data)
@@ -27,10 +28,10 @@ def test_noise_has_the_stated_size_and_follows_the_seed(world: World) -> None:
 
     def series(seed: int) -> np.ndarray:
         suite = SensorSuite(world, sensing, seed)
-        suite.sample_skin()
+        suite.read_skins()
         rows = []
         for _ in range(500):
-            s = suite.sample_body()
+            s = suite.read_body()
             rows.append(np.concatenate([s.joint_positions, s.gyro, s.accelerometer]))
         return np.array(rows)
 
@@ -49,7 +50,7 @@ def test_skin_is_sampled_at_its_rate(world: World) -> None:
     times = []
     for k in range(20):
         if k % suite.skin_every == 0:
-            suite.sample_skin()
+            suite.read_skins()
         times.append(round(1e3 * suite.readings["left"].time))
         mujoco.mj_step(world.model, world.data)
     assert times == [4 * (k // 4) for k in range(20)]
@@ -62,10 +63,10 @@ def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -
     mujoco.mj_forward(world.model, world.data)
     quiet = Sensing(force_noise=0.0, ankle_force_noise=0.0, ankle_torque_noise=0.0)
     suite = SensorSuite(world, quiet, 0, force_torque=True)
-    suite.sample_skin()
+    suite.read_skins()
     mounted = ankle_sensors(simulation.legs.model, simulation.robot)
     total = 0.0
-    for side, measured in suite.sample_body().ankles.items():
+    for side, measured in suite.read_body().ankles.items():
         site = world.sole_sites[side]
         rotation = world.data.site_xmat[site].reshape(3, 3)
         felt = mounted[side].sole_wrench(measured, rotation).wrench_in_sole
@@ -82,9 +83,9 @@ def test_ankle_noise_has_the_stated_size_and_leaves_the_other_sensors_alone(worl
     with_ankles, without = SensorSuite(world, sensing, 3, force_torque=True), SensorSuite(world, sensing, 3)
     rows = []
     for _ in range(400):
-        with_ankles.sample_skin()
-        without.sample_skin()
-        one, other = with_ankles.sample_body(), without.sample_body()
+        with_ankles.read_skins()
+        without.read_skins()
+        one, other = with_ankles.read_body(), without.read_body()
         assert np.array_equal(one.joint_positions, other.joint_positions)
         assert np.array_equal(one.readings["left"].force, other.readings["left"].force)
         assert other.ankles == {}

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from plantar import InputError, RobotError, fit_ground_plane, hex_layout
-from sim.proximity import ProximitySensor, SoleProximity
+from plantar.mechanics.rotation import rotation_from_angles
+from sim.sensing.proximity import ProximitySensor, SoleProximity
 from sim.terrain import GROUND_GROUP, Solid
-from sim.terrain.ground import rotation_of
 
 LAYOUT = hex_layout([[-0.125, -0.0775], [0.125, -0.0775], [0.125, 0.0775], [-0.125, 0.0775]])
 
@@ -74,7 +74,7 @@ def test_beyond_the_range_nothing_is_seen_and_a_pressed_taxel_is_negative() -> N
 def test_no_ray_is_cast_high_above_the_highest_ground(monkeypatch: pytest.MonkeyPatch) -> None:
     data, sole = rig(PLANE, height=0.2, top=0.14)
     assert not sole.within_range(data)
-    monkeypatch.setattr("sim.proximity.cast_rays", lambda *_: pytest.fail("a ray was cast"))
+    monkeypatch.setattr("sim.sensing.proximity.cast_rays", lambda *_: pytest.fail("a ray was cast"))
     assert np.isinf(sole.distances(data)).all()
     monkeypatch.undo()
     data, sole = rig(PLANE, height=0.2, top=0.16)
@@ -113,7 +113,7 @@ def test_a_sole_that_nobody_asks_about_costs_nothing_and_leaves_the_noise_in_ste
 
 @pytest.mark.parametrize("shape", ["box", "sphere", "ellipsoid", "cylinder"])
 def test_the_top_of_a_solid_is_where_rays_from_above_begin_to_meet_it(shape: str) -> None:
-    solid = Solid(shape, (0.05, 0.03, 0.02), np.array([0.0, 0.0, 0.1]), rotation_of(0.3, 0.4, -0.2))
+    solid = Solid(shape, (0.05, 0.03, 0.02), np.array([0.0, 0.0, 0.1]), rotation_from_angles(0.3, 0.4, -0.2))
     quaternion = np.empty(4)
     mujoco.mju_mat2Quat(quaternion, solid.rotation.ravel())
     model = mujoco.MjModel.from_xml_string(

@@ -9,24 +9,22 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.ankle_sensor import AnkleSensor
 from gait.controller import Sensors
-from plantar.layout import Side
-from plantar.reading import Reading
-from sim.contact_truth import ContactSet, feet_contacts
-from sim.proximity import ProximitySensor, SoleProximity
+from gait.estimate.ankle_sensor import AnkleSensor
+from plantar.sensing.reading import Reading
+from plantar.sides import SIDES, Side
+from sim.model.contact_truth import ContactSet, feet_contacts
+from sim.model.world import PHYSICS_PERIOD, World
 from sim.robots.robot import Robot
-from sim.scene import Sensing
-from sim.skin import SkinSensor, SoleSkin
-from sim.world import PHYSICS_PERIOD, World
+from sim.sensing.proximity import ProximitySensor, SoleProximity
+from sim.sensing.settings import Sensing
+from sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 
 __all__ = ["SensorSuite", "ankle_sensors"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
-
 
 class SensorSuite:
-    """Samples all sensors of a world.
+    """Reads all sensors of a world.
 
     Args:
         world: The world.
@@ -45,65 +43,44 @@ class SensorSuite:
         self._imu_to_base = _imu_to_base(world)
         self._body_noise = np.random.default_rng(streams[2])
         self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
-        self.proximity: dict[Side, ProximitySensor] = {}
-        dead: dict[Side, list[int]] = {}
         chance = np.random.default_rng(streams[5])
-        for i, side in enumerate(_SIDES):
-            layout = world.robot.layouts[side]
-            count = round(sensing.dead_taxels * len(layout))
-            dead[side] = chance.permutation(len(layout))[:count].tolist()
-            if proximity:
-                self.proximity[side] = ProximitySensor(
-                    SoleProximity(
-                        world.model,
-                        layout,
-                        world.robot.legs[side].sole_site,
-                        sensing.proximity_range,
-                        world.ground_top,
-                    ),
-                    sensing.proximity_noise,
-                    sensing.proximity_bias,
-                    np.random.default_rng(streams[3 + i]),
-                    dead[side],
-                )
+        dead = {side: _dead_taxels(len(world.robot.layouts[side]), sensing.dead_taxels, chance) for side in SIDES}
+        self.proximity: dict[Side, ProximitySensor] = {}
+        if proximity:
+            self.proximity = {
+                side: _proximity(world, sensing, side, dead[side], np.random.default_rng(stream))
+                for side, stream in zip(SIDES, streams[3:5], strict=True)
+            }
         self.skins = {
             side: SkinSensor(
-                SoleSkin(
-                    world.model,
-                    world.robot.layouts[side],
-                    world.robot.legs[side].sole_site,
-                    [world.model.geom(g).name for g in world.sole_geoms[side]],
-                ),
-                rate_hz=sensing.skin_rate,
-                noise_std_N=sensing.force_noise,
-                delay_periods=sensing.delay_periods,
-                rng=np.random.default_rng(streams[i]),
-                dead=dead[side],
-                proximity=self.proximity.get(side),
+                _skin(world, side),
+                SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
+                np.random.default_rng(stream),
+                self.proximity.get(side),
             )
-            for i, side in enumerate(_SIDES)
+            for side, stream in zip(SIDES, streams[:2], strict=True)
         }
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
         self.readings: dict[Side, Reading] = {}
 
-    def sample_skin(self, near: Collection[Side] = _SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
-        """Sample the soles, which is due every `skin_every` physics steps.
+    def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
+        """Read the soles, which is due every `skin_every` physics steps.
 
         Args:
             near: Soles whose proximity somebody asks for.
             everything: Measure proximity that nobody asks for too; readings stay the same.
 
         Returns:
-            The contacts of both soles that the skins felt.
+            The contacts of both soles from which the skins were read.
         """
         data = self._world.data
-        feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in _SIDES])
-        for side, contacts in zip(_SIDES, feet, strict=True):
+        feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in SIDES])
+        for side, contacts in zip(SIDES, feet, strict=True):
             self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
         return feet
 
-    def sample_body(self) -> Sensors:
-        """Sample encoders and IMU, with the soles' latest readings."""
+    def read_body(self) -> Sensors:
+        """Read encoders and IMU, with the soles' latest readings."""
         w, s, rng = self._world, self._sensing, self._body_noise
         k = len(w.joint_qpos)
         noise = rng.standard_normal(k + 6)
@@ -118,10 +95,10 @@ class SensorSuite:
             gyro=gyro,
             accelerometer=specific,
             readings=dict(self.readings),
-            ankles=self._sample_ankles(),
+            ankles=self._ankles(),
         )
 
-    def _sample_ankles(self) -> dict[Side, NDArray[np.float64]]:
+    def _ankles(self) -> dict[Side, NDArray[np.float64]]:
         """Wrench (6,) that each foot exerts on its leg, in the sensor's frame; nothing without sensors."""
         if self._ankle_noise is None:
             return {}
@@ -135,6 +112,26 @@ class SensorSuite:
             row[3:] -= data[torque : torque + 3]
             wrenches[side] = row
         return wrenches
+
+
+def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[int]:
+    """The taxels of a sole that are dead, by chance."""
+    return chance.permutation(count)[: round(share * count)].tolist()  # type: ignore[no-any-return]
+
+
+def _skin(world: World, side: Side) -> SoleSkin:
+    """The skin of one sole, free of noise."""
+    geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
+    return SoleSkin(world.model, world.robot.layouts[side], world.robot.legs[side].sole_site, geoms)
+
+
+def _proximity(
+    world: World, sensing: Sensing, side: Side, dead: Collection[int], rng: np.random.Generator
+) -> ProximitySensor:
+    """The proximity sensors of one sole."""
+    site, layout = world.robot.legs[side].sole_site, world.robot.layouts[side]
+    rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top)
+    return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
 
 
 def _imu_to_base(world: World) -> NDArray[np.float64] | None:
@@ -161,7 +158,7 @@ def ankle_sensors(model: Any, robot: Robot) -> dict[Side, AnkleSensor]:
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     sensors: dict[Side, AnkleSensor] = {}
-    for side in _SIDES:
+    for side in SIDES:
         sole, site = model.site(robot.legs[side].sole_site).id, model.site(f"{side}_ankle_force_torque").id
         body = model.site_bodyid[site]
         origin, rotation = data.site_xpos[sole], data.site_xmat[sole].reshape(3, 3)

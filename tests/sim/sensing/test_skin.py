@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar import InputError, RobotError, center_of_pressure, hex_layout
-from sim.contact_truth import ContactSet, contact_wrench_in_frame
-from sim.skin import SkinSensor, SoleSkin
+from sim.model.contact_truth import ContactSet, contact_wrench_in_frame
+from sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 
 GRAVITY = 9.81
 MASS = 43.0
@@ -136,10 +136,11 @@ def test_unknown_names_and_bad_values_are_refused() -> None:
         {"delay_periods": -1},
         {"delay_periods": 0.5},
         {"dead": [len(LAYOUT)]},
-        {"rng": None},
     ):
         with pytest.raises(InputError):
-            SkinSensor(skin, **{"rng": rng, **bad})  # type: ignore[arg-type]
+            SkinSensor(skin, SkinElectronics(**bad), rng)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="random generator"):
+        SkinSensor(skin)
 
 
 class _CountingSkin:
@@ -159,7 +160,8 @@ class _CountingSkin:
 
 def sensor(**options: Any) -> tuple[SkinSensor, _CountingSkin]:
     skin = _CountingSkin()
-    return SkinSensor(skin, **{"noise_std_N": 0.0, **options}), skin  # type: ignore[arg-type]
+    rng, proximity = options.pop("rng", None), options.pop("proximity", None)
+    return SkinSensor(skin, SkinElectronics(**{"noise_std_N": 0.0, **options}), rng, proximity), skin  # type: ignore[arg-type]
 
 
 def at(time: float) -> Any:

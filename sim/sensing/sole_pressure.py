@@ -24,13 +24,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.cell_cutting import CellCutter
 from plantar.errors import InputError, LayoutError
+from plantar.geometry.cell_cutting import CellCutter
+from plantar.geometry.polygon import area as polygon_area
+from plantar.geometry.polygon import closest_point, convex_hull, inner_offset
 from plantar.kernels.few_points import small_hull
 from plantar.kernels.foundation import spread_part, spread_whole
-from plantar.layout import SoleLayout
-from plantar.polygon import area as polygon_area
-from plantar.polygon import closest_point, convex_hull, inner_offset
+from plantar.layouts.layout import SoleLayout
 
 __all__ = ["SolePressure"]
 

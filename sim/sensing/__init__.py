@@ -1,0 +1,1 @@
+"""What the robot's sensors say of the simulated truth."""
