@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
-from plantar.unknown_keys import refuse_unknown_keys
+from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["BipedParameters", "biped_mjcf"]
 
@@ -45,6 +45,9 @@ class BipedParameters:
         velocity_limits: Six joint velocity limits in rad/s.
         chest_size: Box (3,) of the upper body.
         armature: Reflected rotor inertia of a joint in kg m^2.
+
+    Raises:
+        RobotError: If a dimension has another number of values, or one that is not finite.
     """
 
     total_mass: float
@@ -77,31 +80,47 @@ class BipedParameters:
         Raises:
             RobotError: If a value is missing, unknown or of the wrong length.
         """
-        lengths = {
-            "hip_offset": 3,
-            "ankle_offset": 2,
-            "link_masses": 6,
-            "joint_lower": 6,
-            "joint_upper": 6,
-            "effort_limits": 6,
-            "velocity_limits": 6,
-            "chest_size": 3,
-        }
         fields = list(cls.__dataclass_fields__)
         refuse_unknown_keys(table, fields, f"{where}: [biped]", RobotError)
-        values: dict[str, Any] = {}
-        for key in fields:
-            if key not in table:
-                raise RobotError(f"{where}: [biped] lacks '{key}'")
-            value = table[key]
-            count = lengths.get(key)
-            items = value if isinstance(value, list) else [value]
-            if (count is None) == isinstance(value, list) or len(items) != (count or 1):
-                raise RobotError(f"{where}: [biped] {key} needs {count or 1} number(s)")
-            if not all(isinstance(v, (int, float)) and math.isfinite(v) for v in items):
-                raise RobotError(f"{where}: [biped] {key} holds a value that is not a finite number")
-            values[key] = tuple(float(v) for v in items) if count else float(value)
-        return cls(**values)
+        missing = next((key for key in fields if key not in table), None)
+        if missing is not None:
+            raise RobotError(f"{where}: [biped] lacks '{missing}'")
+        try:
+            return cls(**table)
+        except RobotError as error:
+            raise RobotError(f"{where}: [biped] {error}") from None
+
+    def __post_init__(self) -> None:
+        for key in self.__dataclass_fields__:
+            object.__setattr__(self, key, _dimension(getattr(self, key), key))
+
+
+_COUNTS: Mapping[str, int] = {
+    "hip_offset": 3,
+    "ankle_offset": 2,
+    "link_masses": 6,
+    "joint_lower": 6,
+    "joint_upper": 6,
+    "effort_limits": 6,
+    "velocity_limits": 6,
+    "chest_size": 3,
+}
+"""How many numbers a dimension has that is not a single one."""
+
+
+def _dimension(value: Any, key: str) -> float | tuple[float, ...]:
+    """A dimension as floats: one, or as many as it has."""
+    many = isinstance(value, (list, tuple))
+    items = value if many else (value,)
+    if many != (key in _COUNTS) or len(items) != _COUNTS.get(key, 1):
+        raise RobotError(f"{key} needs {_COUNTS.get(key, 1)} number(s)")
+    if not all(map(_is_finite_number, items)):
+        raise RobotError(f"{key} holds a value that is not a finite number")
+    return tuple(map(float, items)) if many else float(value)
+
+
+def _is_finite_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and math.isfinite(value)
 
 
 def _mass_attributes(mass: float, size: Sequence[float], position: Sequence[float]) -> str:

@@ -12,8 +12,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gait.lip import GRAVITY
 from plantar.errors import RobotError
+from plantar.mechanics.lip import GRAVITY
+from plantar.model_files import check_model
+from plantar.sides import SIDES
+from sim.robots.leg_shapes import add_leg_shapes
 from sim.robots.robot import LegNames, Robot
 
 __all__ = ["spec_from_file"]
@@ -35,32 +38,57 @@ def spec_from_file(robot: Robot) -> Any:
     Raises:
         RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
     """
+    spec = _parsed(robot)
+    _forget_own_simulation(spec)
+    _free_base(spec, robot)
+    _weld_upper_body(spec, robot)
+    colliding = _without_collisions(spec)
+    _make_room(spec, robot)
+    for i, geom in enumerate(colliding):
+        geom.name = geom.name or f"shape {i} of the model"
+    for side in SIDES:
+        _put_on_shoe(spec, robot, side)
+        _add_servos(spec, robot, side)
+    add_leg_shapes(spec, robot, [geom.name for geom in colliding])
+    _add_imu(spec, robot)
+    return spec
+
+
+def _parsed(robot: Robot) -> Any:
+    """The model file as an editable `mujoco.MjSpec`."""
     assert robot.model_file is not None
+    check_model(robot.model_file, RobotError)  # MuJoCo would follow whatever it names
     try:
         spec = mujoco.MjSpec.from_file(str(robot.model_file))
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         text = " ".join(str(error).split())
         raise RobotError(f"robot '{robot.name}': model file {robot.model_file} cannot be read: {text}") from None
     spec.compiler.fusestatic = False  # URDF's default would melt shoes into feet
-    for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators"):
+    return spec
+
+
+def _forget_own_simulation(spec: Any) -> None:
+    """Take out what the file's author simulated with: without gravity or contacts nothing would walk."""
+    for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         for element in list(getattr(spec, part)):
             spec.delete(element)
-    # Settings of the file's own simulation: without gravity or contacts nothing would walk.
     spec.option.gravity = [0.0, 0.0, -GRAVITY]
     spec.option.density = spec.option.viscosity = 0.0
     spec.option.disableflags = spec.option.enableflags = 0
     for body in spec.bodies:
         body.gravcomp = 0.0
-    _free_base(spec, robot)
-    _weld_upper_body(spec, robot)
+
+
+def _without_collisions(spec: Any) -> list[Any]:
+    """Let no geom of the file collide; those that did are given back."""
+    colliding = [geom for geom in spec.geoms if geom.contype or geom.conaffinity]
     for geom in spec.geoms:
         geom.contype = geom.conaffinity = 0
-    for light in list(spec.lights):
-        spec.delete(light)
-    _make_room(spec, robot)
-    for side in ("left", "right"):
-        _put_on_shoe(spec, robot, side)
-        _add_servos(spec, robot, side)
+    return colliding
+
+
+def _add_imu(spec: Any, robot: Robot) -> None:
+    """The IMU's site, where the file has none, and its gyro and accelerometer."""
     torso = _body(spec, robot, robot.torso_body, "[torso] body")
     if spec.site(robot.imu_site) is None:
         torso.add_site(name=robot.imu_site, pos=[0.0, 0.0, 0.0])
@@ -69,7 +97,6 @@ def spec_from_file(robot: Robot) -> Any:
         ("imu_accelerometer", mujoco.mjtSensor.mjSENS_ACCELEROMETER),
     ):
         spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=robot.imu_site)
-    return spec
 
 
 def _body(spec: Any, robot: Robot, name: str, field: str) -> Any:
@@ -91,7 +118,11 @@ def _free_base(spec: Any, robot: Robot) -> None:
         for joint in list(root.joints):
             spec.delete(joint)
         root.add_freejoint(name="plantar_root")
-    # Whatever else stands in the world (floors of ready-made scenes) is not part of the robot.
+    _clear_world(spec, root)
+
+
+def _clear_world(spec: Any, root: Any) -> None:
+    """Take out whatever else stands in the world (floors of ready-made scenes): it is not part of the robot."""
     for body in list(spec.worldbody.bodies):
         if body.name != root.name:
             spec.delete(body)
@@ -100,17 +131,23 @@ def _free_base(spec: Any, robot: Robot) -> None:
 
 
 def _weld_upper_body(spec: Any, robot: Robot) -> None:
+    """Only the legs' joints and the free base stay."""
     legs = {name for leg in robot.legs.values() for name in leg.joints}
-    names = {j.name for j in spec.joints}
-    missing = sorted(legs - names)
-    if missing:
-        known = ", ".join(sorted(n for n in names if n))
-        raise RobotError(f"robot '{robot.name}': the model has no joint {', '.join(missing)}; it has {known}")
+    _check_joints(spec, robot, legs)
     for side, leg in robot.legs.items():
         _check_leg(spec, robot, side, leg)
     for joint in list(spec.joints):
         if joint.name not in legs and joint.type != mujoco.mjtJoint.mjJNT_FREE:
             spec.delete(joint)
+
+
+def _check_joints(spec: Any, robot: Robot, wanted: set[str]) -> None:
+    """Refuse legs with a joint that the model does not have."""
+    names = {j.name for j in spec.joints}
+    missing = sorted(wanted - names)
+    if missing:
+        known = ", ".join(sorted(filter(None, names)))
+        raise RobotError(f"robot '{robot.name}': the model has no joint {', '.join(missing)}; it has {known}")
 
 
 def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
@@ -125,15 +162,20 @@ def _check_leg(spec: Any, robot: Robot, side: str, leg: LegNames) -> None:
             raise RobotError(f"{where} joint '{name}' is no hinge; allowed: hinges")
     site = spec.site(robot.imu_site)
     for field, body in (("body", spec.body(robot.torso_body)), ("imu_site", None if site is None else site.parent)):
-        moved = [] if body is None else [j.name for b in _upwards(body) for j in b.joints if j.name in leg.joints]
-        if moved:
-            raise RobotError(f"robot '{robot.name}': [torso] {field} hangs on a leg: joint '{moved[0]}' moves it")
+        moved = next((name for name in _joints_above(body) if name in leg.joints), None)
+        if moved is not None:
+            raise RobotError(f"robot '{robot.name}': [torso] {field} hangs on a leg: joint '{moved}' moves it")
+
+
+def _joints_above(body: Any) -> list[str]:
+    """Names of the joints that move a body, from it upwards; none for None."""
+    return [joint.name for part in _upwards(body) for joint in part.joints]
 
 
 def _upwards(body: Any) -> list[Any]:
-    """A body and all that it hangs on, without the world."""
+    """A body and all that it hangs on, without the world; nothing for None."""
     chain = []
-    while body.parent is not None:
+    while body is not None and body.parent is not None:
         chain.append(body)
         body = body.parent
     return chain
@@ -141,11 +183,12 @@ def _upwards(body: Any) -> list[Any]:
 
 def _make_room(spec: Any, robot: Robot) -> None:
     """Give another name to what the model calls as the shoes' parts are called."""
-    for side in ("left", "right"):
+    for side in SIDES:
         for element in (
             spec.site(robot.legs[side].sole_site),
             spec.site(f"{side}_truth_touch"),
             spec.geom(f"{side}_sole_box"),
+            spec.geom(f"{side}_foot_shape"),
         ):
             if element is not None:
                 element.name = f"{element.name} of the model"

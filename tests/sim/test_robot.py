@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
+from sim.model.world import robot_spec
 from sim.robots import load_robot
-from sim.world import robot_spec
 
 
 def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:

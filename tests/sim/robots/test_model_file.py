@@ -12,11 +12,12 @@ import pytest
 
 from plantar.errors import RobotError, SceneError
 from shoes import build_shoe, export_shoe, foot_from_mesh
+from sim.model.world import build_world, robot_spec
 from sim.robots import load_robot
-from sim.runner import run_scene
-from sim.scene import load_scene
+from sim.run.runner import run_scene
+from sim.run.scene import load_scene
+from sim.run.servos import LegServos
 from sim.terrain import Ground
-from sim.world import build_world, robot_spec
 
 ROBOT = """
 name = "own"
@@ -88,8 +89,8 @@ def test_legs_are_kept_and_the_rest_is_welded(own: Path) -> None:
     assert model.nv == 18
     assert model.nu == 12
     assert mujoco.mj_getTotalmass(model) == pytest.approx(86.5, abs=0.01)
-    colliding = {model.geom(i).name for i in range(model.ngeom) if model.geom_contype[i]}
-    assert colliding == {"ground", "left_sole_box", "right_sole_box"}
+    on_the_ground = {model.geom(i).name for i in range(model.ngeom) if model.geom_contype[i] & 3}
+    assert on_the_ground == {"ground", "left_sole_box", "right_sole_box"}
     mujoco.mj_kinematics(model, world.data)
     for side in ("left", "right"):
         site, box = world.data.site(f"{side}_sole").xpos, world.data.geom(f"{side}_sole_box").xpos
@@ -161,7 +162,8 @@ def test_unstable_physics_is_an_error_that_leaves_no_log(
     own: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    own.write_text(own.read_text().replace("dcm_gain = 3.0", "dcm_gain = 1e300"))  # stands, and diverges as it walks
+    # It stands, and the servos' set-points diverge as it walks.
+    monkeypatch.setattr(LegServos, "drive", lambda servos: servos._controls.fill(1e11))
     with pytest.raises(SceneError, match="unstable"):
         run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
     assert capfd.readouterr().err == ""
@@ -276,11 +278,38 @@ com_gain = 1.0
 """
 
 
-def test_jvrc1_walks_in_a_shoe_of_its_own_foot(real_data: Path, tmp_path: Path) -> None:
+def test_jvrc1_walks_in_a_shoe_of_its_own_foot(
+    real_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     build = build_shoe(foot_from_mesh(real_data / "feet" / "jvrc1.stl"), side="both", layout_only=True)
     export_shoe(build, tmp_path)
     path = tmp_path / "robot.toml"
     path.write_text(JVRC1.format(model=real_data / "robots" / "jvrc1" / "xml" / "jvrc1.xml"))
+    with pytest.raises(RobotError, match=r"lies elsewhere; allowed: .*PLANTAR_MODEL_FOLDERS"):
+        load_robot(path)
+    monkeypatch.setenv("PLANTAR_MODEL_FOLDERS", str(real_data / "robots"))
     summary = run_scene(load_scene("flat", ["steps=4", "settle=1.0"], robot=str(path)))
     assert summary["completed"], summary
     assert summary["tilt_max_deg"] < 2.0
+
+
+def test_a_leg_keeps_the_models_own_shapes_and_gets_capsules_where_it_has_none(own: Path) -> None:
+    text = (own.parent / "own.xml").read_text()
+    spec = mujoco.MjSpec.from_string(text)
+    for geom in spec.geoms:
+        geom.contype = geom.conaffinity = 0
+    spec.body("left_shank").add_geom(
+        name="calf", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=[0.03, 0.1, 0.0], pos=[0.0, 0.0, -0.15]
+    )
+    spec.body("chest").add_geom(name="belly", type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.3, 0.0, 0.0])
+    (own.parent / "own.xml").write_text(spec.to_xml())
+    model = build_world(load_robot(own), Ground((), 0.0, 0.8)).model
+    for side, contype in (("left", 4), ("right", 8)):
+        found = [
+            (model.body(model.geom_bodyid[g]).name, int(model.geom_type[g]))
+            for g in range(model.ngeom)
+            if model.geom_contype[g] == contype and model.geom(g).name != f"{side}_foot_shape"
+        ]
+        shank = mujoco.mjtGeom.mjGEOM_CYLINDER if side == "left" else mujoco.mjtGeom.mjGEOM_CAPSULE
+        assert found == [(f"{side}_thigh", int(mujoco.mjtGeom.mjGEOM_CAPSULE)), (f"{side}_shank", int(shank))]
+    assert not model.geom("belly").contype

@@ -1,0 +1,275 @@
+"""Robots from TOML files: each table is read and checked by one function, and errors name table and field."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from gait.balance.balance_laws import balance_gains
+from gait.controller_tables import CONTROLLER_TABLES, check_controller_table
+from plantar.errors import InputError, LayoutError, RobotError
+from plantar.input_file import check_input, is_file
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.layout_file import read_layout
+from plantar.model_files import named_file
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.sides import SIDES, Side
+from plantar.structured_text import read_json, read_toml
+from sim.robots.biped import BipedParameters
+from sim.robots.robot import FootShape, LegNames, Robot
+from sim.robots.robot_tables import RobotTables
+
+__all__ = ["builtin_robots", "load_robot"]
+
+_FOLDER = Path(__file__).parent
+_LEAST_JOINTS = 6  # of a leg: a sole has six degrees of freedom
+_LARGEST_ANGLE = 360.0  # degrees, of a posture
+
+_KEYS: Mapping[str, tuple[str, ...]] = {
+    "model": ("kind", "file"),
+    "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
+    "shoe": ("layout", "origin", "thickness", "mass"),
+    "legs": SIDES,
+    "torso": ("body", "imu_site"),
+    "posture": SIDES,
+    "gait": (
+        "com_height",
+        "stance_width",
+        "largest_crouch",
+        "largest_crouch_partial",
+        "trunk_lean",
+        "single_support",
+        "double_support",
+    ),
+    "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
+}
+"""What each table of a robot file may hold; `biped` and `balance` check their own."""
+
+
+def builtin_robots() -> tuple[str, ...]:
+    """Names of the built-in robots."""
+    return tuple(sorted(p.parent.name for p in _FOLDER.glob("*/robot.toml")))
+
+
+def load_robot(name: str | os.PathLike[str]) -> Robot:
+    """Load a robot by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_robots()`) or the path of a robot TOML.
+
+    Returns:
+        The robot.
+
+    Raises:
+        RobotError: If the name is unknown or the file is not valid; the message names the field.
+
+    Example:
+        >>> load_robot("h1").biped.total_mass
+        86.0
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not os.path.exists(path):
+            raise RobotError(f"robot file {path} does not exist")
+    else:
+        path = _FOLDER / str(name) / "robot.toml"
+        if os.sep in str(name) or not is_file(path):
+            raise RobotError(f"unknown robot '{name}'; allowed: {', '.join(builtin_robots())}, or a robot .toml file")
+    return _RobotFile(read_toml(path, RobotError, f"robot file {path}"), path).robot()
+
+
+class _RobotFile(RobotTables):
+    """A robot's TOML, and where it lies.
+
+    Args:
+        source: What the file holds.
+        path: The file.
+    """
+
+    def __init__(self, source: Mapping[str, Any], path: Path) -> None:
+        super().__init__(source, str(path) if path.parent.parent != _FOLDER else f"robot '{path.parent.name}'")
+        self.path = path
+
+    def robot(self) -> Robot:
+        """The robot that it describes.
+
+        Raises:
+            RobotError: If a table or field is missing, unknown or outside what is allowed.
+        """
+        self._refuse_unknown_fields()
+        kind = self._kind()
+        biped = BipedParameters.from_table(self.table("biped"), self.where) if kind == "biped" else None
+        model_file = None if kind == "biped" else self._model_file()
+        foot = self._foot() if kind == "biped" or "foot" in self.source else None
+        legs = self._legs()
+        parts = {
+            "posture": {side: self._angles(side, len(legs[side].joints)) for side in SIDES},
+            **self._shoe(kind),
+            **self._torso(legs),
+            **self._gait(),
+            **self._servo(biped, len(legs["left"].joints)),
+            "balance": self._balance(),
+            "controller": self._controller(),
+        }
+        refuse_unknown_keys(
+            self.source, ("name", "description", "biped", *CONTROLLER_TABLES, *_KEYS), self.where, RobotError
+        )
+        return Robot(
+            name=self.text("name"),
+            description=str(self.source.get("description", "")),
+            kind=kind,
+            biped=biped,
+            model_file=model_file,
+            foot=foot,
+            legs=legs,
+            path=self.path,
+            **parts,
+        )
+
+    def _refuse_unknown_fields(self) -> None:
+        for key, allowed in _KEYS.items():
+            if key in self.source:
+                refuse_unknown_keys(self.table(key), allowed, self.place(key), RobotError)
+
+    def _kind(self) -> str:
+        """What the robot's model is made from."""
+        kind = self.text("kind", "model")
+        if kind not in ("biped", "mjcf", "urdf"):
+            raise RobotError(f"{self.place('model')} kind is '{kind}'; allowed: biped, mjcf, urdf")
+        return kind
+
+    def _model_file(self) -> Path:
+        path = self.path.parent / self.text("file", "model")
+        named_file(path, (self.path.parent,), RobotError, f"{self.place('model')} file")
+        check_input(path, RobotError, where=f"{self.place('model')} file {path}")
+        return path
+
+    def _foot(self) -> FootShape:
+        x, y = self.numbers("sole_center", "foot", 2, -1.0, 1.0)
+        return FootShape(
+            self.number("foot_length", "foot", 0.01, 1.0),
+            self.number("foot_width", "foot", 0.01, 1.0),
+            (x, y),
+            self.number("corner_radius", "foot", 0.0, 0.5),
+            int(self.number("taxels", "foot", 1, 100000)),
+        )
+
+    def _legs(self) -> dict[Side, LegNames]:
+        """The names of both legs, which have as many joints each and share none."""
+        legs = {side: self._leg(side) for side in SIDES}
+        shared = set(legs["left"].joints) & set(legs["right"].joints)
+        if shared:
+            raise RobotError(f"{self.place('legs')} both legs name joint '{min(shared)}'; each joint is of one leg")
+        count = len(legs["left"].joints)
+        if len(legs["right"].joints) != count:
+            raise RobotError(f"{self.place('legs')} the left leg has {count} joints, the right another number")
+        return legs
+
+    def _leg(self, side: Side) -> LegNames:
+        table, where = self.table("legs", side), self.place("legs", side)
+        refuse_unknown_keys(table, ("joints", "foot_body", "sole_site"), where, RobotError)
+        joints = table.get("joints")
+        if not isinstance(joints, list) or not all(isinstance(j, str) for j in joints):
+            raise RobotError(f"{where} joints is {joints!r}; allowed: a list of joint names")
+        if len(joints) < _LEAST_JOINTS:
+            raise RobotError(f"{where} joints names {len(joints)}; allowed: {_LEAST_JOINTS} or more from hip to foot")
+        if len(set(joints)) != len(joints):
+            twice = next(j for j in joints if joints.count(j) > 1)
+            raise RobotError(f"{where} joints names '{twice}' more than once")
+        site = self.text("sole_site", "legs", side, default=f"{side}_sole")
+        return LegNames(tuple(joints), self.text("foot_body", "legs", side), site)
+
+    def _angles(self, side: Side, joints: int) -> tuple[float, ...]:
+        """Joint angles in rad of one leg when standing."""
+        degrees = self.numbers(side, "posture", joints, -_LARGEST_ANGLE, _LARGEST_ANGLE)
+        return tuple(math.radians(v) for v in degrees)
+
+    def _shoe(self, kind: str) -> dict[str, Any]:
+        """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file says."""
+        exported = _exported_shoe(self._layout_file("left"))
+        origin = (0.0, 0.0, 0.0) if kind == "biped" else self.numbers("origin", "shoe", 3, -1.0, 1.0)
+        return {
+            "layouts": {side: self._layout(side) for side in SIDES},
+            "sole_origin": origin,
+            "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
+            "shoe_mass": self.number("mass", "shoe", 0.0, 20.0, exported.get("mass")),
+        }
+
+    def _layout_file(self, side: Side) -> Path:
+        path = self.path.parent / self.text("layout", "shoe").replace("{side}", side)
+        return named_file(path, (self.path.parent,), RobotError, f"{self.place('shoe')} layout")
+
+    def _layout(self, side: Side) -> SoleLayout:
+        path = self._layout_file(side)
+        try:
+            layout = read_layout(path)
+        except LayoutError as error:
+            raise RobotError(f"{self.where}: {error}") from None
+        if layout.side != side:
+            raise RobotError(
+                f"{self.place('shoe')} layout {path} is of the {layout.side} sole, not the {side} one; "
+                'allowed: a name with {side} in it, as "layout_{side}.json"'
+            )
+        return layout
+
+    def _torso(self, legs: Mapping[Side, LegNames]) -> dict[str, Any]:
+        imu_site = self.text("imu_site", "torso")
+        sites = [imu_site, *(leg.sole_site for leg in legs.values())]
+        if len(set(sites)) != len(sites):
+            raise RobotError(
+                f"{self.where}: the IMU's site and the soles' need different names, not {', '.join(sites)}"
+            )
+        return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
+
+    def _gait(self) -> dict[str, float]:
+        crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.15)
+        return {
+            "com_height": self.number("com_height", "gait", 0.05, 5.0),
+            "stance_width": self.number("stance_width", "gait", 0.01, 2.0),
+            "largest_crouch": crouch,
+            "largest_crouch_partial": self.number("largest_crouch_partial", "gait", 0.0, crouch, crouch),
+            "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
+            "single_support": self.number("single_support", "gait", 0.2, 10.0, 0.9),
+            "double_support": self.number("double_support", "gait", 0.02, 10.0, 0.3),
+        }
+
+    def _servo(self, biped: BipedParameters | None, joints: int) -> dict[str, Any]:
+        """Gains of the servos and limits of the joints of one leg; without limits there are none."""
+        given = self.table("servo")
+        efforts = self.numbers("effort_limits", "servo", joints, 1e-3, 1e5) if "effort_limits" in given else ()
+        speeds = () if biped is None else biped.velocity_limits
+        if "velocity_limits" in given:
+            speeds = self.numbers("velocity_limits", "servo", joints, 1e-3, 1e3)
+        return {
+            "stiffness": self.number("stiffness", "servo", 1.0, 1e6),
+            "damping": self.number("damping", "servo", 0.0, 1e5),
+            "effort_limits": efforts,
+            "velocity_limits": speeds,
+        }
+
+    def _balance(self) -> dict[str, Any]:
+        """The balance law and its gains."""
+        balance = dict(self.table("balance"))
+        try:
+            balance_gains(balance)
+        except InputError as error:
+            raise RobotError(f"{self.where}: {error}") from None
+        return balance
+
+    def _controller(self) -> dict[str, Mapping[str, Any]]:
+        """Settings of the controller's other parts."""
+        return {
+            name: check_controller_table(name, self.source[name], self.place(name), RobotError)
+            for name in CONTROLLER_TABLES
+            if name in self.source and name != "balance"
+        }
+
+
+def _exported_shoe(layout: Path) -> dict[str, Any]:
+    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg and thickness in m; a robot's file may say
+    otherwise."""
+    found = read_json(layout, RobotError, str(layout)).get("shoe", {})
+    return {k: found[k] for k in ("mass", "thickness") if k in found} if isinstance(found, dict) else {}
