@@ -2,7 +2,7 @@
 
 Both are low-pass filtered as a controller would, alike: taxel forces and ankle wrenches each pass a filter of first
 order with the same time constant before anything else. The taxels' means are then freed from what clipping their noise
-at zero adds (`gait.skin_load`). Feet are where the controller's estimator has them, for both.
+at zero adds (`gait.estimate.skin_load`). Feet are where the controller's estimator has them, for both.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.ankle_sensor import SoleWrench
 from gait.controller import Command
-from gait.skin_load import SkinLoad
-from plantar.force import zmp_of_feet
-from plantar.layout import Side, SoleLayout
+from gait.estimate.ankle_sensor import SoleWrench
+from gait.estimate.skin_load import SkinLoad
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.mechanics.zmp import zmp_of_feet
 
 __all__ = ["FILTER_TIME", "ZmpComparison"]
 

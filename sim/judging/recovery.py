@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.pushing import Shove
+from sim.model.shove import Shove
 
 __all__ = ["Recovery"]
 

@@ -10,17 +10,23 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.plan.plan_change import MovedStep
+from plantar.geometry.polygon import area
 from plantar.kernels.few_points import small_hull
-from plantar.layout import Side
-from plantar.polygon import area
-from sim.contact_truth import (
+from plantar.layouts.layout import Side
+from plantar.mechanics.lip import GRAVITY
+from sim.judging.joint_limits import JointLimits
+from sim.judging.leg_contact import LegContact
+from sim.judging.step_count import StepCount
+from sim.judging.walk_goal import WalkGoal
+from sim.model.contact_truth import (
     ContactSet,
     GroundTruth,
     feet_contacts,
     foot_contacts,
     ground_truth,
 )
-from sim.world import PHYSICS_PERIOD, World
+from sim.model.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
 
@@ -62,11 +68,13 @@ class Judge:
     Attributes:
         world: The world.
         standing_height: CoM height above the ground at the start in m.
+        goal: Where the feet have to be put down.
     """
 
     world: World
     standing_height: float
-    fell: bool = False
+    goal: WalkGoal
+    fall: tuple[float, float, str] | None = None
     tilt_max: float = 0.0
     margin_min: float = math.inf
     landings: list[Landing] = field(default_factory=list)
@@ -78,9 +86,20 @@ class Judge:
         self._sensed = self.world.data.sensordata
         self._air = dict.fromkeys(_SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
+        mass = float(self.world.model.body_subtreemass[self.world.model.body_rootid[self.world.torso]])
+        self.steps = StepCount(self.goal, mass * GRAVITY)
+        self.legs = LegContact(self.world)
+        self.joints = JointLimits(self.world)
+
+    @property
+    def fell(self) -> bool:
+        """Whether the robot fell."""
+        return self.fall is not None
 
     def watch(self) -> None:
-        """After each physics step: landings and their impacts."""
+        """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
+        self.legs.step()
+        self.joints.step()
         time, sensed = float(self.world.data.time), self._sensed
         for side, address in self.world.touch.items():
             force = float(sensed[address])
@@ -91,6 +110,7 @@ class Judge:
                 landing = Landing(side, time, angle=self._angle(side))
                 self.landings.append(landing)
                 self._landing[side] = landing
+                self.steps.touch(side, time)
             self._air[side] = 0
             last = self._landing[side]
             if last is not None and time - last.time <= _IMPACT_WINDOW:
@@ -114,13 +134,15 @@ class Judge:
         com: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         feet: Sequence[ContactSet] | None = None,
+        moved: Sequence[MovedStep] = (),
     ) -> GroundTruth:
-        """At each control tick: tilt, ZMP margin, contact areas and the controller's errors.
+        """At each control tick: tilt, ZMP margin, contact areas, places of the feet and the controller's errors.
 
         Args:
             com: The controller's estimate of the CoM (3,) in m.
             zmp: The controller's estimate of the ZMP (2,) in m, or None.
             feet: Contacts of both feet where they are known already.
+            moved: Footsteps that the controller says it has just planned anew.
 
         Returns:
             Ground reaction, true ZMP and true support polygon.
@@ -143,7 +165,26 @@ class Judge:
             last = self._landing[side]
             if last is not None and data.time - last.time <= _SETTLED and len(points) > 2:
                 last.area = max(last.area, area(np.array(small_hull(points))))
-        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
-        if tilt > _FALLEN_TILT or center[2] - ground < _FALLEN_HEIGHT * self.standing_height:
-            self.fell = True
+        if moved:
+            self.goal.hear(float(data.time), moved)
+        for side in _SIDES:
+            site = world.sole_sites[side]
+            x, y, _ = data.site_xpos[site].tolist()
+            rotation = data.site_xmat[site]
+            yaw = math.atan2(float(rotation[3]), float(rotation[0]))
+            self.steps.carry(side, float(self._sensed[world.touch[side]]), x, y, yaw)
+        self.joints.tick()
+        if self.fall is None:
+            least, height = _FALLEN_HEIGHT * self.standing_height, self.height
+            if tilt > _FALLEN_TILT:
+                self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
+            elif height < least:
+                self.fall = (height, least, f"the robot fell: its CoM was {height:.2f} m above the lower sole")
         return truth
+
+    @property
+    def height(self) -> float:
+        """Height in m of the CoM above the lower sole."""
+        data, world = self.world.data, self.world
+        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
+        return float(data.subtree_com[world.torso, 2]) - ground

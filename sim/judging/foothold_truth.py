@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.footholds import FootholdFelt
-from plantar.layout import Side
-from plantar.polygon import area, centroid
+from gait.contact.foot_contacts import FootholdFound
+from plantar.geometry.polygon import area, centroid
+from plantar.layouts.layout import Side
+from sim.model.world import World
 from sim.terrain import Ground
-from sim.world import World
 
 __all__ = ["FootholdTruth"]
 
@@ -42,7 +42,7 @@ class FootholdTruth:
         self._only_level = len(faces) == len(ground.solids)
         self._found: dict[int, tuple[float, float, float]] = {}
 
-    def look(self, footholds: tuple[FootholdFelt, ...]) -> None:
+    def look(self, footholds: tuple[FootholdFound, ...]) -> None:
         """Compare the footholds that were felt at this tick; of each step the last one counts."""
         for felt in footholds if self._only_level else ():
             true = self._under(felt.side)

@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from sim.pushing import Shove
-from sim.recovery import Recovery
+from sim.judging.recovery import Recovery
+from sim.model.shove import Shove
 
 SHOVES = [
     Shove(1.0, 2.0, np.array([0.0, 20.0, 0.0]), smooth=True),

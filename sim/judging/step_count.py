@@ -1,0 +1,151 @@
+"""Count the steps of a walk: by side, order and place, from where the feet truly stood."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from gait.plan.footsteps import Footstep
+from plantar.layouts.layout import Side
+from sim.judging.walk_goal import NEAR, NEAR_YAW, WalkGoal
+
+__all__ = ["Stand", "StepCount"]
+
+_CARRIES = 0.25
+"""Share of the weight that makes a touch a stand: probes, taps and bounces carry less, or are followed by one."""
+
+
+@dataclass
+class Stand:
+    """One stand of a foot.
+
+    Attributes:
+        side: Which foot.
+        touchdown: When it touched the ground in s.
+        place: Its sole's origin (x, y) in m and heading in rad when it last carried a quarter of the weight; None
+            where it never did.
+        slip: Largest distance in m of the origin from where it was when it first did.
+    """
+
+    side: Side
+    touchdown: float
+    place: tuple[float, float, float] | None = None
+    slip: float = 0.0
+    _first: tuple[float, float] = (0.0, 0.0)
+
+    def carry(self, x: float, y: float, yaw: float) -> None:
+        """Take in where the foot is, while it carries.
+
+        Args:
+            x: Its sole's origin in m.
+            y: The same.
+            yaw: Its heading in rad.
+        """
+        if self.place is None:
+            self._first = (x, y)
+        self.slip = max(self.slip, math.dist(self._first, (x, y)))
+        self.place = (x, y, yaw)
+
+
+class StepCount:
+    """Follows both feet through a walk.
+
+    A step is taken when the foot of its side, after all steps before it, stands at its place: not where it touched
+    first, but where it stood last before the other foot touched down. A foot that taps, probes or is put down anew
+    therefore takes one step.
+
+    Args:
+        goal: The footsteps.
+        weight: Weight of the robot in N.
+    """
+
+    def __init__(self, goal: WalkGoal, weight: float) -> None:
+        self.goal = goal
+        self._enough = _CARRIES * weight
+        self.stands: list[Stand] = []
+        self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in ("left", "right")}
+
+    def touch(self, side: Side, time: float) -> None:
+        """A foot touches the ground after it was in the air.
+
+        Args:
+            side: Which foot.
+            time: When, in s.
+        """
+        self._standing[side] = Stand(side, time)
+        self.stands.append(self._standing[side])
+
+    def carry(self, side: Side, force: float, x: float, y: float, yaw: float) -> None:
+        """Where a foot is at a control tick, and what it carries.
+
+        Args:
+            side: Which foot.
+            force: Ground force on it in N.
+            x: Its sole's origin in m.
+            y: The same.
+            yaw: Its heading in rad.
+        """
+        if force >= self._enough:
+            self._standing[side].carry(x, y, yaw)
+
+    @property
+    def slip(self) -> float:
+        """Largest slip in m of a foot while it carried a quarter of the weight."""
+        stands = [*self.stands, *self._standing.values()]
+        return max((s.slip for s in stands), default=0.0)
+
+    def _last_stands(self) -> list[Stand]:
+        """The stands that could be steps: of each foot the last one before the other foot touches down."""
+        carrying = [s for s in self.stands if s.place is not None]
+        return [list(group)[-1] for _, group in groupby(carrying, key=lambda s: s.side)]
+
+    def taken(self) -> tuple[int, str]:
+        """How many steps were taken one after the other, and what became of the first that was not."""
+        steps = self.goal.steps
+        stands = self._last_stands()
+        taken, missed = 0, ""
+        for stand in stands:
+            if taken == len(steps):
+                break
+            off = self._off(stand, taken)
+            if off is None:
+                taken, missed = taken + 1, ""
+            elif not missed:
+                missed = off
+        if taken == len(steps):  # whatever they did since, both feet have to stand there in the end
+            for side, k in self._last_steps().items():
+                last = next((s for s in reversed(stands) if s.side == side), None)
+                off = None if last is None else self._off(last, k)
+                if off is not None and k < taken:
+                    taken, missed = k, off
+        if taken < len(steps) and not missed:
+            missed = f"the {steps[taken].side} foot did not land for it"
+        return taken, missed
+
+    def _last_steps(self) -> Mapping[Side, int]:
+        return {step.side: k for k, step in enumerate(self.goal.steps)}
+
+    def _off(self, stand: Stand, k: int) -> str | None:
+        """What keeps a stand from being step k; None where nothing does."""
+        step = self.goal.steps[k]
+        if stand.side != step.side:
+            return f"the {stand.side} foot landed in its stead"
+        assert stand.place is not None
+        return _far_from(self.goal.places(k, stand.touchdown), stand.place, step.side)
+
+
+def _far_from(places: Sequence[Footstep], place: tuple[float, float, float], side: Side) -> str | None:
+    x, y, yaw = place
+    offs = []
+    for wanted in places:
+        off = math.hypot(x - wanted.x, y - wanted.y)
+        turn = abs(math.remainder(yaw - wanted.yaw, 2.0 * math.pi))
+        if off <= NEAR and turn <= NEAR_YAW:
+            return None
+        offs.append((off, turn))
+    off, turn = min(offs)
+    return f"the {side} foot stood {1e3 * off:.0f} mm and {np.degrees(turn):.1f} deg from its place"

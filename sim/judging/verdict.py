@@ -1,0 +1,97 @@
+"""The verdict on a run: every criterion that failed, with its value and its limit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sim.judging.joint_limits import JointLimits
+from sim.judging.leg_contact import LegContact
+
+__all__ = ["FASTER_FOR", "HEADING", "POSITION", "UPRIGHT", "Ending", "reasons"]
+
+POSITION = 0.10
+"""Distance in m of the CoM from the walk's end that counts as there."""
+
+HEADING = 5.0
+"""Angle in degrees from the walk's last heading that counts as straight."""
+
+UPRIGHT = 5.0
+"""Tilt of the torso in degrees that counts as upright."""
+
+FASTER_FOR = 0.02
+"""Time in s for which a joint may be faster than its limit."""
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a run ended.
+
+    Attributes:
+        fall: What fell how far, as (criterion's value, limit, text); None for no fall.
+        stopped: Whether the controller stopped in an emergency.
+        steps: Steps taken and planned.
+        missed: What became of the first step that was not taken.
+        position: Distance in m of the CoM from the walk's end; None for a walk that has no place to end at.
+        heading: Heading error in degrees; None likewise.
+        tilt: Tilt of the torso in degrees.
+        pushes: Pushes that the robot recovered from, and all of them.
+    """
+
+    fall: tuple[float, float, str] | None
+    stopped: bool
+    steps: tuple[int, int]
+    missed: str
+    position: float | None
+    heading: float | None
+    tilt: float
+    pushes: tuple[int, int] = (0, 0)
+
+
+def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
+    """Why a run is not completed; empty for one that is.
+
+    Args:
+        ending: How it ended.
+        legs: Whether the legs touched.
+        joints: How fast the joints were.
+
+    Returns:
+        For each criterion that failed its name "criterion", "value", "limit" and a "text".
+    """
+    found: list[dict[str, Any]] = []
+
+    def add(criterion: str, value: float, limit: float, text: str) -> None:
+        found.append({"criterion": criterion, "value": value, "limit": limit, "text": text})
+
+    if ending.fall is not None:
+        value, limit, text = ending.fall
+        add("fall", round(value, 3), round(limit, 3), text)
+    if ending.stopped:
+        add("emergency_stop", 1, 0, "the controller stopped for good")
+    if legs.first is not None:
+        time, one, other = legs.first
+        text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"
+        add("collision", round(legs.duration, 4), 0.0, text)
+    longest = float(joints.longest.max())
+    if longest > FASTER_FOR + 1e-9:
+        k = int(joints.longest.argmax())
+        share = float(joints.fastest[k])
+        text = f"{joints.names[k]} was faster than its limit for {longest:.3f} s, by {share:.2f} times at most"
+        add("joint_speed", round(longest, 4), FASTER_FOR, text)
+    taken, planned = ending.steps
+    if taken < planned:
+        add("steps", taken, planned, f"{taken} of {planned} steps; step {taken} (from 0): {ending.missed}")
+    recovered, pushes = ending.pushes
+    if recovered < pushes:
+        add("pushes", recovered, pushes, f"recovered from {recovered} of {pushes} pushes")
+    ends: tuple[tuple[str, float | None, float, str, str], ...] = (
+        ("position", ending.position, POSITION, "m", "the CoM ended {} from the walk's end"),
+        ("heading", ending.heading, HEADING, "deg", "the torso ended turned by {}"),
+        ("tilt", ending.tilt, UPRIGHT, "deg", "the torso ended tilted by {}"),
+    )
+    for criterion, off, limit, unit, text in ends:
+        if off is not None and not off < limit:
+            words = f"{text.format(f'{off:.3g} {unit}')}; allowed: less than {limit:g} {unit}"
+            add(criterion, round(off, 4), limit, words)
+    return found

@@ -1,0 +1,169 @@
+"""Runs that must not count, each with the reason it fails for. The judge was fooled by some of them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from cli import _print_run
+from gait.controller import Command, Sensors, Start, WalkingController
+from gait.plan.footsteps import straight_plan
+from gait.plan.plan_change import MovedStep, PlanChange
+from sim.run.runner import Simulation, run_scene
+from sim.run.scene import load_scene
+
+SHORT = ["steps=4", "settle=0.3"]
+
+
+def criteria(summary: dict[str, Any]) -> set[str]:
+    """What failed; every reason has a value that is beyond its limit, and a text."""
+    for reason in summary["reasons"]:
+        assert set(reason) == {"criterion", "value", "limit", "text"}
+        assert reason["value"] != reason["limit"]
+        assert reason["text"]
+    assert summary["completed"] == (not summary["reasons"])
+    return {reason["criterion"] for reason in summary["reasons"]}
+
+
+def test_an_honest_walk_has_no_reasons() -> None:
+    summary = run_scene(load_scene("flat", SHORT))
+    assert criteria(summary) == set()
+    assert summary["steps_taken"] == 4
+    assert not summary["moved_steps"]
+    assert summary["final"]["height_m"] == pytest.approx(0.80, abs=0.005)
+    assert summary["slip_max_m"] < 0.002
+    assert summary["torque_limit"] == {"share_of_ticks": 0.0, "joints": {}}
+    assert 0.7 < summary["joint_speed"]["share_of_limit"] < 1.0
+
+
+def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    simulation = Simulation(load_scene("feasibility-1", ["settle=0.3"]))
+    assert simulation.controller.guard is not None
+    simulation.controller.guard.rules = replace(simulation.controller.guard.rules, area_ratio=1.5)
+    summary = simulation.run()
+    assert {"emergency_stop", "steps", "position"} <= criteria(summary)
+    assert summary["emergency_stop"]
+    assert summary["steps_taken"] == 5
+    assert len(summary["landings_s"]) == 8  # which counted as 8 of 8 steps
+    _print_run(summary)
+    shown = capsys.readouterr().out
+    assert "NOT COMPLETED, 5 of 8 steps" in shown
+    for reason in summary["reasons"]:
+        assert reason["text"] in shown
+
+
+@pytest.mark.long
+def test_a_block_under_the_last_but_one_step_without_attempts_does_not_count() -> None:
+    simulation = Simulation(load_scene("feasibility-3", ["settle=0.3", "terrain.step=6"]))
+    assert simulation.controller.guard is not None
+    simulation.controller.guard.rules = replace(simulation.controller.guard.rules, attempts=0)
+    summary = simulation.run()
+    assert {"emergency_stop", "steps"} <= criteria(summary)
+    assert summary["steps_taken"] == 7
+
+
+def test_a_torso_that_leans_soles_into_each_other_does_not_count() -> None:
+    simulation = Simulation(load_scene("flat", SHORT))
+    for body in ("base", "chest"):
+        simulation.world.model.body(body).ipos[1] += 0.01
+    summary = simulation.run()
+    assert criteria(summary) == {"collision"}
+    assert "left_foot touched right_foot" in summary["reasons"][0]["text"]
+
+
+def test_a_fifth_more_mass_than_the_controller_knows_does_not_count() -> None:
+    simulation = Simulation(load_scene("flat", SHORT))
+    model = simulation.world.model
+    model.body_mass[:] *= 1.2
+    model.body_inertia[:] *= 1.2
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    summary = simulation.run()
+    assert "collision" in criteria(summary)
+    assert summary["torque_limit"]["share_of_ticks"] > 0.1
+    assert max(summary["torque_limit"]["joints"], key=summary["torque_limit"]["joints"].get).endswith("hip_roll")
+
+
+def test_a_fall_on_what_the_ankle_took_for_a_foothold_counts_the_steps_before_it() -> None:
+    summary = run_scene(load_scene("feasibility-3", ["feasibility=force_torque"]))
+    assert {"fall", "steps"} <= criteria(summary)
+    assert summary["steps_taken"] == 4  # of 8, by 9 landings
+
+
+class _Other(WalkingController):
+    """A controller that walks another plan, and says what it likes of it."""
+
+    says: tuple[MovedStep, ...] = ()
+
+    def step(self, sensors: Sensors) -> Command:
+        command, said = super().step(sensors), self.says
+        self.says = ()
+        return replace(command, moved_steps=said)
+
+
+def walked_otherwise(steps: int, length: float, says: tuple[MovedStep, ...] = ()) -> dict[str, Any]:
+    simulation = Simulation(load_scene("flat", SHORT))
+    feet, plan = straight_plan(steps, length=length, width=simulation.robot.stance_width)
+    controller = _Other(simulation.settings, Start(feet, plan), simulation.robot.layouts, simulation.legs)
+    controller.says = says
+    simulation.controller = controller
+    return simulation.run()
+
+
+def test_a_controller_that_cuts_its_plan_misses_the_goal() -> None:
+    summary = walked_otherwise(2, 0.2)
+    assert criteria(summary) == {"steps", "position"}
+    assert summary["steps_planned"] == 4
+    assert summary["steps_taken"] == 1  # the second one closed the feet
+    assert summary["final"]["position_error_m"] == pytest.approx(0.4, abs=0.02)
+
+
+def test_steps_at_other_places_than_planned_do_not_count() -> None:
+    summary = walked_otherwise(4, 0.14)
+    assert {"steps", "position"} <= criteria(summary)
+    text = next(r["text"] for r in summary["reasons"] if r["criterion"] == "steps")
+    assert re.search(r"step 0 .* 6\d mm and 0.0 deg from its place", text)
+
+
+@pytest.mark.parametrize("reason", ["", "because"])
+def test_saying_so_does_not_make_a_walk_in_place_one_of_three_steps(reason: str) -> None:
+    """Without a reason no place moves; with one none moves further than a detour explains."""
+    _, plan = straight_plan(4, length=0.0, width=0.17)
+    says = tuple(MovedStep(k, s.x, s.y, s.yaw, reason) for k, s in enumerate(plan))
+    summary = walked_otherwise(4, 0.0, says)
+    if reason:
+        assert len(summary["moved_steps"]) < 4
+    else:
+        assert not summary["moved_steps"]
+    assert "steps" in criteria(summary)
+
+
+def test_a_moved_step_is_told_with_its_reason() -> None:
+    summary = run_scene(load_scene("feasibility-2", ["settle=0.3"]))
+    assert criteria(summary) == set()
+    assert {(m["step"], m["reason"]) for m in summary["moved_steps"]} >= {(4, "foothold refused")}
+
+
+def test_joints_that_are_faster_than_they_can_be_do_not_count() -> None:
+    """Servos without speed limits, as they were."""
+    simulation = Simulation(load_scene("obstacle", ["settle=0.3"]))
+    simulation.servos._per_limit = None
+    summary = simulation.run()
+    assert criteria(summary) == {"joint_speed"}
+    assert summary["joint_speed"]["share_of_limit"] > 1.2
+    assert "knee was faster than its limit" in summary["reasons"][0]["text"]
+
+
+def test_the_judges_own_plan_cannot_be_changed_through_the_controller() -> None:
+    simulation = Simulation(load_scene("flat", SHORT))
+    before = simulation.judge.goal.steps
+    plan, nowhere = simulation.controller.plan, np.empty((0, 2))
+    plan.apply(PlanChange("a test", -1, following=(replace(before[0], x=0.1),)), 0.1, nowhere)
+    assert simulation.judge.goal.steps == before
+    assert len(before) == 4

@@ -1,0 +1,203 @@
+"""Steps are counted by side, order and place: walks that are made up, honest ones and others."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from gait.plan.footsteps import Footstep, straight_plan
+from gait.plan.plan_change import MovedStep
+from plantar.layouts.layout import Side
+from sim.judging.step_count import StepCount
+from sim.judging.walk_goal import WalkGoal
+
+FEET, STEPS = straight_plan(6, length=0.2)
+WEIGHT = 800.0
+
+
+class Walk:
+    """Feet that are put down somewhere, a second after each other."""
+
+    def __init__(self, steps: tuple[Footstep, ...] = STEPS, feet: dict[Side, Footstep] = FEET) -> None:
+        self.goal = WalkGoal(feet, steps)
+        self.count = StepCount(self.goal, WEIGHT)
+        self.time = 0.0
+
+    def land(self, step: Footstep, force: float = WEIGHT, dx: float = 0.0, dyaw: float = 0.0) -> None:
+        self.time += 1.0
+        self.count.touch(step.side, self.time)
+        self.count.carry(step.side, force, step.x + dx, step.y, step.yaw + dyaw)
+
+    def say(self, *moved: MovedStep) -> None:
+        self.goal.hear(self.time, moved)
+
+    @property
+    def taken(self) -> int:
+        return self.count.taken()[0]
+
+
+def test_a_walk_as_planned_counts_every_step() -> None:
+    walk = Walk()
+    for k, step in enumerate(STEPS):
+        assert walk.taken == k
+        walk.land(step)
+    assert walk.count.taken() == (6, "")
+
+
+@pytest.mark.parametrize(("off", "turn", "counts"), [(0.049, 0.0, 6), (0.051, 0.0, 2), (0.0, 4.9, 6), (0.0, 5.1, 2)])
+def test_a_place_is_5_cm_and_5_degrees_wide(off: float, turn: float, counts: int) -> None:
+    walk = Walk()
+    for k, step in enumerate(STEPS):
+        walk.land(step, dx=off if k == 2 else 0.0, dyaw=math.radians(turn) if k == 2 else 0.0)
+    taken, missed = walk.count.taken()
+    assert taken == counts
+    assert (f"{1e3 * off:.0f} mm and {turn:.1f} deg" in missed) == (counts < 6)
+
+
+def test_tapping_one_foot_is_one_step_at_most() -> None:
+    walk = Walk(*straight_plan(6, length=0.0)[::-1])
+    for _ in range(6):
+        walk.land(walk.goal.steps[0])
+    assert walk.taken == 1
+
+
+def test_bounces_and_taps_that_carry_nothing_are_no_steps() -> None:
+    steps = straight_plan(6, length=0.0)[1]
+    walk = Walk(steps)
+    for step in steps:
+        walk.land(step, force=0.2 * WEIGHT)
+    assert walk.taken == 0
+    missed = walk.count.taken()[1]
+    assert "left foot did not land" in missed
+
+
+def test_a_foot_that_is_lifted_again_is_where_it_stands_in_the_end() -> None:
+    walk = Walk()
+    walk.land(STEPS[0], dx=0.2)  # a probe that carries
+    walk.land(STEPS[0])
+    for step in STEPS[1:]:
+        walk.land(step)
+    assert walk.taken == 6
+    walk = Walk()
+    walk.land(STEPS[0])
+    walk.land(STEPS[0], dx=0.2)  # and elsewhere for good
+    for step in STEPS[1:]:
+        walk.land(step)
+    assert walk.taken == 0
+
+
+def test_a_foot_that_slides_away_while_it_stands_has_not_stayed() -> None:
+    walk = Walk()
+    for step in STEPS:
+        walk.land(step)
+    last = STEPS[-1]
+    walk.count.carry(last.side, WEIGHT, last.x + 0.08, last.y, 0.0)
+    assert walk.taken == 5
+    assert walk.count.slip == pytest.approx(0.08)
+
+
+def test_the_wrong_order_does_not_count() -> None:
+    walk = Walk()
+    for k in (1, 0, 3, 2, 5, 4):
+        walk.land(STEPS[k])
+    assert walk.taken < 6
+    walk = Walk()
+    for step in STEPS:
+        walk.land(replace(step, side="right" if step.side == "left" else "left"))
+    assert walk.taken == 0
+
+
+def test_both_feet_have_to_be_there_in_the_end() -> None:
+    walk = Walk()
+    for step in STEPS:
+        walk.land(step)
+    walk.land(STEPS[-2], dx=-0.3)
+    assert walk.taken == 4
+
+
+def test_a_step_that_is_left_out_is_missed() -> None:
+    walk = Walk()
+    for k in (0, 1, 4, 5):
+        walk.land(STEPS[k])
+    assert walk.taken == 2
+
+
+def moved_from(steps: tuple[Footstep, ...], first: int, dx: float, dy: float, reason: str) -> list[MovedStep]:
+    return [MovedStep(k, s.x + dx, s.y + dy, s.yaw, reason) for k, s in enumerate(steps) if k >= first]
+
+
+def test_a_walk_around_an_obstacle_counts_where_it_was_said_before() -> None:
+    walk = Walk()
+    walk.land(STEPS[0])
+    walk.land(STEPS[1])
+    walk.say(*moved_from(STEPS, 2, -0.22, 0.0, "foothold refused"))
+    for step in STEPS[2:]:
+        walk.land(step, dx=-0.22)
+    assert walk.taken == 6
+    assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0] == pytest.approx([STEPS[-1].x - 0.22, 0.0])  # type: ignore[dict-item]
+    assert [row["reason"] for row in walk.goal.summary()] == ["foothold refused"] * 4
+
+
+def test_what_is_said_after_the_foot_landed_does_not_count() -> None:
+    walk = Walk()
+    for k, step in enumerate(STEPS):
+        walk.land(step, dx=0.1 if k >= 2 else 0.0)
+        if k >= 2:
+            walk.time += 0.01
+            walk.say(MovedStep(k, step.x + 0.1, step.y, 0.0, "where it landed"))
+    assert walk.taken == 2
+
+
+@pytest.mark.parametrize(
+    ("dx", "yaw", "reason"),
+    [
+        (0.1, 0.0, ""),
+        (0.1, 0.0, "  "),
+        (0.9, 0.0, "far away"),
+        (math.nan, 0.0, "nowhere"),
+        (0.1, math.inf, "nowhere"),
+        (0.1, 0.7, "turned round"),
+    ],
+)
+def test_places_that_no_detour_explains_do_not_count(dx: float, yaw: float, reason: str) -> None:
+    walk = Walk()
+    walk.say(*(MovedStep(k, s.x + dx, s.y, s.yaw + yaw, reason) for k, s in enumerate(STEPS)))
+    assert walk.goal.refused == 6
+    assert not walk.goal.summary()
+    for step in STEPS:
+        walk.land(step, dx=0.1 if math.isnan(dx) else dx, dyaw=0.0 if math.isinf(yaw) else yaw)
+    assert walk.taken == 0
+
+
+def test_a_walk_that_is_cut_short_by_moving_its_steps_is_not_taken_over() -> None:
+    """20 steps of 0.2 m, each said to have been moved back to where the robot stands."""
+    feet, steps = straight_plan(20, length=0.2)
+    walk = Walk(steps, feet)
+    for k, step in enumerate(steps):
+        walk.say(MovedStep(k, 0.0, step.y, 0.0, "tired"))
+        walk.land(replace(step, x=0.0))
+    assert walk.taken == 1
+    assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0][0] > 3.0  # type: ignore[dict-item]
+
+
+def test_a_strip_that_turns_away_is_followed_to_its_end() -> None:
+    """50 side steps of 8 cm along a beam that is turned by 10 degrees: each step shifts those to come."""
+    feet, steps = straight_plan(50, length=0.0, sideways=0.08)
+    walk, shift = Walk(steps, feet), 0.0
+    for k, step in enumerate(steps):
+        wanted = math.tan(math.radians(10.0)) * step.y
+        move = max(-0.02, min(0.02, wanted - shift))
+        shift += move
+        walk.say(*moved_from(steps, k, shift, 0.0, "onto the strip that carries"))
+        walk.land(step, dx=shift)
+    assert shift > 0.3
+    assert walk.taken == 50
+    assert walk.goal.refused == 0
+
+
+def test_steps_that_do_not_exist_are_not_taken_over() -> None:
+    walk = Walk()
+    walk.say(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))
+    assert walk.goal.refused == 2
