@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from plantar.recording import read_mcap
-from sim.runner import Simulation, run_scene
-from sim.scene import Scene, load_scene
+from plantar.recordings.recording import read_mcap
+from sim.run.runner import Simulation, run_scene
+from sim.run.scene import Scene, load_scene
 
 MOTION = ("landings_s", "impacts_N", "tilt_max_deg", "zmp_margin_min_m", "final", "estimate", "contact_area_ratio")
 
@@ -37,6 +37,8 @@ def test_the_summary_holds_what_the_contract_names(short_run: tuple[dict[str, An
         "robot",
         "seed",
         "completed",
+        "reasons",
+        "emergency_stop",
         "fell",
         "steps_planned",
         "steps_taken",
@@ -103,6 +105,17 @@ def test_a_fall_is_seen_and_ends_the_run() -> None:
     assert summary["sim_time_s"] < 9.0
 
 
+@pytest.mark.parametrize("step", [1, 2])
+def test_feedback_survives_a_push_that_an_open_loop_does_not(step: int) -> None:
+    """25 N s from the front; 20 N s were within what stiff servos and the next step survive by themselves."""
+    settings = ["steps=4", "settle=1.0", "impulse=25", "direction=backward", f"push.step={step}"]
+    with_feedback = run_scene(load_scene("push", settings), 0)
+    assert with_feedback["completed"], with_feedback["reasons"]
+    without = run_scene(load_scene("push", [*settings, "feedback=false"]), 0)
+    assert not without["completed"]
+    assert {r["criterion"] for r in without["reasons"]} & {"fall", "collision"}
+
+
 def test_standing_is_a_walk_of_no_steps() -> None:
     summary = run_scene(load_scene("flat", ["steps=0", "settle=0.5"]), 0)
     assert summary["completed"]
@@ -157,9 +170,9 @@ def test_hrp2kai_walks_by_its_own_law_and_at_its_own_pace() -> None:
 
 def test_steps_beyond_the_legs_reach_are_pointed_out(short_run: tuple[dict[str, Any], Path]) -> None:
     assert short_run[0]["out_of_reach_since_s"] is None
-    wide = ["steps=2", "sideways=0.1", "settle=0.5"]
+    wide = ["steps=2", "length=0.3", "sideways=0.1", "settle=0.5"]
     late = run_scene(load_scene("flat", wide))["out_of_reach_since_s"]
-    assert 2.2 < late < 4.0  # in the first step, whose foot leads by 0.2 m forward and 0.1 m to the side
+    assert 2.2 < late < 4.0  # in the first step, whose foot leads by 0.3 m forward and 0.1 m to the side
     assert run_scene(load_scene("flat", [*wide, "crouch=0.05"]))["out_of_reach_since_s"] is None
 
 
@@ -168,3 +181,20 @@ def test_ground_that_is_not_under_the_feet_is_an_error(floor: float, words: str)
     with pytest.raises(SceneError, match=rf"does not keep standing.* {words} .*height of 0 m") as caught:
         run_scene(load_scene("flat", ["kind=course", f"floor={floor}", "steps=0"]))
     assert "\n" not in str(caught.value)
+
+
+def test_the_controllers_settings_do_not_depend_on_the_ground() -> None:
+    ground = {
+        "flat": ["kind=flat"],
+        "uneven": ["kind=uneven"],
+        "stones": ["kind=stones"],
+        "beam": ["kind=beam"],
+        "pebbles": ["kind=pebbles"],
+    }
+    for control in (["footholds=off"], ["footholds=skin"], ["pfc=true", "conform=true"]):
+        heights = set()
+        for terrain in ground.values():
+            scene = load_scene("flat", ["steps=2", "crouch=0.03", *terrain, *control], "hrp2kai")
+            heights.add(Simulation(scene).settings.com_height)
+        assert len(heights) == 1
+        assert heights == ({0.84} if control == ["footholds=off"] else {0.87})

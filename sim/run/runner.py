@@ -14,45 +14,36 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gait.balance_laws import balance_gains
-from gait.compliance_gains import ComplianceGains
-from gait.controller import Command, ControllerSettings, WalkingController
-from gait.estimator import EstimatorGains
-from gait.feasibility import FeasibilityRules
-from gait.foot_motion import Landing
-from gait.footholds import middle_of_sole
-from gait.footsteps import Footstep, straight_plan
-from gait.ground_conformity import ConformityGains
-from gait.phases import Timing
-from gait.walk_plan import vrp_of_step
-from plantar.errors import SceneError
-from plantar.layout import Side, SoleLayout
-from plantar.percept import Percept
-from sim.foothold_truth import FootholdTruth
-from sim.judge import Judge
-from sim.log import RunLog
-from sim.pushing import Pusher
-from sim.recovery import Recovery
-from sim.render import FRAME_RATE, Film
-from sim.robots.robot import Robot, load_robot
-from sim.scene import Scene
-from sim.sensors import SensorSuite, ankle_sensors
-from sim.servos import LegServos
-from sim.standing import stand
+from gait.contact.foot_contacts import middle_of_sole
+from gait.controller import Command, Start, WalkingController
+from gait.plan.footsteps import Footstep, straight_plan
+from gait.plan.walk_plan import vrp_of_step
+from gait.propose.velocity_command import Legs, VelocityCommand
+from plantar.layouts.layout import Side, SoleLayout
+from plantar.percepts.percept import Percept
+from sim.figures.render import FRAME_RATE, Film
+from sim.judging.foothold_truth import FootholdTruth
+from sim.judging.judge import Judge
+from sim.judging.recovery import Recovery
+from sim.judging.velocity_truth import VelocityTruth
+from sim.judging.verdict import Ending, reasons
+from sim.judging.walk_goal import WalkGoal
+from sim.judging.zmp_comparison import ZmpComparison
+from sim.model.world import PHYSICS_PERIOD, World, build_leg_model, build_world, check_stable
+from sim.robots.robot import Robot
+from sim.robots.robot_file import load_robot
+from sim.run.controller_settings import CONTROL_PERIOD, controller_settings
+from sim.run.log import RunLog
+from sim.run.pushing import Pusher
+from sim.run.scene import Scene
+from sim.run.servos import LegServos
+from sim.run.standing import stand
+from sim.sensing.sensors import SensorSuite, ankle_sensors
 from sim.terrain import Footprint, PlannedFeet
-from sim.world import PHYSICS_PERIOD, World, build_leg_model, build_world, check_stable
-from sim.zmp_comparison import ZmpComparison
 
 __all__ = ["Simulation", "run_scene"]
 
 Progress = Callable[[float, str], None]
-
-CONTROL_PERIOD = 0.005
-"""Control period of both robots in s."""
-
-_YAW_ON_UNKNOWN_GROUND = 0.1
-"""Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
-little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
 
 _SIDES: tuple[Side, Side] = ("left", "right")
 _MEMBERS = frozenset(Percept.members())
@@ -91,42 +82,18 @@ class Simulation:
         self.robot: Robot = robot
         self.legs = build_leg_model(robot)
         walk = scene.walk
+        self.velocities = walk.velocities(seed)
         self.feet, self.steps = straight_plan(
-            walk.steps,
+            walk.steps if self.velocities is None else 0,
             length=walk.length,
             sideways=walk.sideways,
             width=walk.stance_width or robot.stance_width,
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )
-        crouch = robot.largest_crouch if scene.terrain.whole else robot.largest_crouch_partial
-        self.settings = ControllerSettings(
-            com_height=robot.com_height - min(walk.crouch, crouch),
-            mass=self.legs.mass,
-            trunk_lean=robot.trunk_lean if walk.lean else 0.0,
-            period=CONTROL_PERIOD,
-            timing=Timing(
-                walk.single_support or robot.single_support,
-                walk.double_support or robot.double_support,
-                walk.start,
-                walk.end,
-                walk.settle,
-            ),
-            swing_height=walk.swing_height,
-            landing=Landing(approach_height=walk.approach_height, approach_speed=walk.approach_speed),
-            compliance=ComplianceGains(sensing_range=scene.sensing.proximity_range) if scene.control.pfc else None,
-            feasibility=self._feasibility(scene),
-            conformity=self._conformity(scene),
-            estimator=EstimatorGains(yaw=_YAW_ON_UNKNOWN_GROUND) if scene.control.pfc else EstimatorGains(),
-            gains=balance_gains(robot.balance),
-            feedback=scene.control.feedback,
-            zmp_source=scene.control.zmp_source,
-            ankles=ankle_sensors(self.legs.model, robot),
-            footholds=scene.control.footholds,
-        )
-        self.controller = WalkingController(
-            self.settings, self.feet, self.steps, robot.layouts, self.legs, begin=walk.begin
-        )
+        self.settings = controller_settings(scene, robot, self.legs.mass, ankle_sensors(self.legs.model, robot))
+        start = Start(self.feet, self.steps, walk.begin, self._commands())
+        self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.ground = ground
         self.world: World = build_world(robot, ground)
@@ -149,23 +116,26 @@ class Simulation:
             centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side]))
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
         self.foothold_truth = FootholdTruth(self.world, ground)
-        self.judge = Judge(self.world, self.settings.com_height)
+        self._centers = {side: middle_of_sole(robot.layouts[side]) for side in _SIDES}
+        self.speeds: VelocityTruth | None = None
+        if self.velocities is not None:
+            self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
+        self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps))
 
-    @staticmethod
-    def _feasibility(scene: Scene) -> FeasibilityRules | None:
-        if scene.control.feasibility == "off":
-            return None
-        if not scene.control.pfc:
-            raise SceneError(f"control.feasibility is '{scene.control.feasibility}'; allowed: off, or with pfc = true")
-        return FeasibilityRules(rule=scene.control.feasibility)
+    def _commands(self) -> tuple[VelocityCommand, ...]:
+        """Who commands the walk while it is walked."""
+        if self.velocities is None:
+            return ()
+        width = self.scene.walk.stance_width or self.robot.stance_width
+        rear, inner = (-self.robot.layouts["left"].outline.min(axis=0)).tolist()
+        return (VelocityCommand(self.velocities, Legs(width, self.settings.com_height, (rear, inner))),)
 
-    @staticmethod
-    def _conformity(scene: Scene) -> ConformityGains | None:
-        if not scene.control.conform:
-            return None
-        if not scene.control.pfc:
-            raise SceneError("control.conform is true; allowed: with pfc = true")
-        return ConformityGains()
+    @property
+    def end(self) -> float:
+        """Time in s at which the run is over: the walk has ended, and nothing is commanded any more."""
+        if self.velocities is None:
+            return self.controller.end
+        return max(self.controller.end, self.velocities.times[-1] + self.settings.timing.settle)
 
     def _planned_feet(self) -> PlannedFeet:
         """The plan's footprints with their times, which the ground is laid out by."""
@@ -221,15 +191,15 @@ class Simulation:
         skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
         began = shown = clock.perf_counter()
         k = 0
-        while k < math.ceil(controller.end / PHYSICS_PERIOD):  # a replan may make it later
+        while k < math.ceil(self.end / PHYSICS_PERIOD):  # a replan may make it later
             feet = None
             if k % sensors.skin_every == 0:
-                feet = sensors.sample_skin(controller.proximity_sides, everything)
+                feet = sensors.read_skins(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)
             if k % _EVERY == 0:
                 check_stable(data)
-                reading = sensors.sample_body()
+                reading = sensors.read_body()
                 start = clock.perf_counter()
                 command = controller.step(reading)
                 joints = servos.command(command)
@@ -237,7 +207,9 @@ class Simulation:
                 skipped["percept_members"] += _compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.look(command.footholds)
-                truth = judge.look(command.state.com, command.state.zmp, feet)
+                truth = judge.look(command.state.com, command.state.zmp, feet, command.moved_steps)
+                if self.speeds is not None:
+                    self.speeds.look(data.time)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
                     self.recovery.look(data.time, truth.zmp, com, plan.vrp, plan.com)
@@ -253,8 +225,8 @@ class Simulation:
                 if progress is not None and start - shown > 0.1:
                     shown = start
                     progress(
-                        data.time / controller.end,
-                        f"{data.time:.1f} s, {len(judge.landings)} of {len(self.steps)} steps",
+                        data.time / self.end,
+                        f"{data.time:.1f} s, {len(judge.landings)} landings for {len(self.steps)} steps",
                     )
             if k % _FRAME_EVERY == 0:
                 if film is not None:
@@ -286,12 +258,25 @@ class Simulation:
 
     def _summary(self, result: _Result) -> dict[str, Any]:
         world, data, judge = self.world, self.world.data, self.judge
-        taken = min(len(judge.landings), len(self.steps))
+        taken, missed = judge.steps.taken()
         position, yaw = self._final_error()
         upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
-        completed = not judge.fell and taken == len(self.steps) and position < 0.10 and yaw < 5.0 and upright < 5.0
         balance = {} if self.recovery is None else self.recovery.summary()
-        completed = completed and balance.get("recovered", 0) == len(balance.get("pushes", ()))
+        stopped = self.controller.stopped
+        ending = Ending(
+            fall=judge.fall,
+            stopped=stopped,
+            steps=(taken, len(self.steps)),
+            missed=missed,
+            position=position if self.speeds is None else None,
+            heading=yaw if self.speeds is None else None,
+            tilt=upright,
+            pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
+        )
+        why = reasons(ending, judge.legs, judge.joints)
+        landings = [x.time for x in judge.landings]
+        if self.speeds is not None:
+            why += self.speeds.reasons(landings)
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         late = self.servos.out_of_reach_since
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in _SIDES}
@@ -299,7 +284,9 @@ class Simulation:
             "scene": self.scene.name,
             "robot": self.robot.name,
             "seed": self.seed,
-            "completed": bool(completed),
+            "completed": not why,
+            "reasons": why,
+            "emergency_stop": stopped,
             "fell": judge.fell,
             "steps_planned": len(self.steps),
             "steps_taken": taken,
@@ -316,6 +303,7 @@ class Simulation:
             "sole_angles_deg": [None if x.angle is None else round(x.angle, 2) for x in judge.landings],
             "out_of_reach_since_s": None if late is None else round(late, 3),
             "replans": self.controller.replans,
+            "moved_steps": judge.goal.summary(),
             "control_us": {
                 "p50": round(float(np.percentile(ticks, 50)), 1),
                 "p99": round(float(np.percentile(ticks, 99)), 1),
@@ -325,7 +313,10 @@ class Simulation:
                 "position_error_m": round(position, 4),
                 "heading_error_deg": round(yaw, 3),
                 "tilt_deg": round(upright, 3),
+                "height_m": round(judge.height, 4),
             },
+            "slip_max_m": round(judge.steps.slip, 4),
+            **judge.joints.summary(),
             "estimate": {
                 "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],
                 "zmp_error_rms_m": round(float(np.sqrt(np.mean(np.square(judge.zmp_error)))), 5)
@@ -333,36 +324,43 @@ class Simulation:
                 else None,
             },
         }
+        summary |= self._of_parts(landings, balance)
+        return summary
+
+    def _of_parts(self, landings: list[float], balance: dict[str, Any]) -> dict[str, Any]:
+        """What only some scenes have to say."""
+        found: dict[str, Any] = {}
+        if self.speeds is not None:
+            found["velocity"] = self.speeds.summary(landings)
         footholds = self.foothold_truth.summary()
         if footholds:
-            summary["footholds"] = dict(footholds)
+            found["footholds"] = dict(footholds)
         if self.ground.facts:
-            summary["terrain"] = dict(self.ground.facts)
+            found["terrain"] = dict(self.ground.facts)
         if self.zmps is not None:
             balance["skin_against_force_torque"] = self.zmps.summary()
         if balance:
-            summary["balance"] = balance
+            found["balance"] = balance
         if self.controller.balance.states:
-            summary["wrench_distribution"] = dict(self.controller.balance.states)
+            found["wrench_distribution"] = dict(self.controller.balance.states)
         if self.controller.guard is not None:
-            summary |= self.controller.guard.summary()
+            found |= self.controller.guard.summary()
         if self.pusher.step is not None:
-            summary["push"] = {
+            found["push"] = {
                 "impulse_Ns": self.scene.push.impulse,
                 "direction": self.pusher.direction,
                 "step": self.pusher.step,
                 "time_s": round(self.pusher.shoves[0].start, 3),
             }
-        return summary
+        return found
 
     def _final_error(self) -> tuple[float, float]:
-        """Distance in m and heading error in degrees of the true torso from the plan's end."""
+        """Distance in m and heading error in degrees of the true torso from the end of the walk's goal."""
         world, data = self.world, self.world.data
         com = data.subtree_com[world.torso, :2]
-        plan = self.controller.plan.end
+        end, wanted = self.judge.goal.end(self._centers)
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
-        wanted = self.steps[-1].yaw if self.steps else self.feet["left"].yaw
-        return float(np.hypot(*(com - plan))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
+        return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
 
 
 def _compute_rest(command: Command, everything: bool) -> int:

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gait.phases import WalkSchedule
+from gait.plan.phases import WalkSchedule
 from plantar.errors import SceneError
-from sim.scene import Push
-from sim.world import World
+from sim.model.shove import Shove
+from sim.model.world import World
+from sim.run.scene import Push
 
-__all__ = ["Pusher", "Shove"]
+__all__ = ["Pusher"]
 
 _DIRECTIONS = {
     "forward": (1.0, 0.0, 0.0),
@@ -23,32 +22,6 @@ _DIRECTIONS = {
 }
 _FIRST = 1.5  # s: a robot that stands is left alone for so long
 _WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
-
-
-@dataclass(frozen=True)
-class Shove:
-    """One push.
-
-    Attributes:
-        start: Time in s at which it begins.
-        end: Time in s at which it ends.
-        impulse: Impulse (3,) in N s, world frame.
-        smooth: Whether the force swells and fades as a half sine, as a hand's does; else it is constant.
-    """
-
-    start: float
-    end: float
-    impulse: NDArray[np.float64]
-    smooth: bool
-
-    def force(self, time: float) -> NDArray[np.float64]:
-        """Force (3,) in N at a time in s."""
-        length = self.end - self.start
-        share = (time - self.start) / length
-        if not 0.0 <= share < 1.0:
-            return np.zeros(3)
-        shape = 0.5 * math.pi * math.sin(math.pi * share) if self.smooth else 1.0
-        return np.asarray(self.impulse * (shape / length))
 
 
 class Pusher:
@@ -104,7 +77,7 @@ class Pusher:
 def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> tuple[Shove, ...]:
     """Pushes at equal intervals on a robot that takes no step."""
     if schedule.steps:
-        raise SceneError(f"[push] count is {push.count}; allowed: 0 in a walk of {len(schedule.steps)} steps")
+        raise SceneError(f"[push] count is {push.count}; allowed: 0 in a walk of {schedule.steps} steps")
     needed = _FIRST + push.count * push.interval
     if push.duration > push.interval or needed > schedule.end:
         raise SceneError(

@@ -6,14 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command
-from plantar.layout import Side
-from sim.inverse_kinematics import LegModel
-from sim.world import PHYSICS_PERIOD, World
+from plantar.layouts.layout import Side
+from sim.model.leg_model import LegModel
+from sim.model.world import PHYSICS_PERIOD, World
 
 __all__ = ["LegServos"]
 
 _SIDES: tuple[Side, Side] = ("left", "right")
+_SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # m or rad, of a joint solution; the motion of one control period leaves 8 mm
+_LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
 
 
 class LegServos:
@@ -21,7 +23,8 @@ class LegServos:
 
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + (kv q'_d + tau_ff) / kp it follows q_d without lag and
     holds the expected load without error. Between control ticks u moves on at q'_d: held set-points would make a saw
-    tooth of kp q'_d dt in every torque.
+    tooth of kp q'_d dt in every torque. Where a joint would have to be faster than the robot's speed limits, all joints
+    move on by the same smaller share of their way, and make up for it later.
 
     Args:
         world: The world.
@@ -40,6 +43,8 @@ class LegServos:
         self._controls = world.data.ctrl
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
+        limits = np.array([*world.robot.velocity_limits] * 2)
+        self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -55,21 +60,27 @@ class LegServos:
         self._controls[self._world.servos] = self._setpoint
 
     def command(self, command: Command) -> NDArray[np.float64]:
-        """Solve a command for the joints; returns the joint reference (k,) in rad."""
+        """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
         feet = command.feet
         joints, missed = self._legs.solve(
             command.com,
             command.rotation_torso,
             {side: feet[side].position for side in _SIDES},
             {side: feet[side].rotation for side in _SIDES},
+            yielding=[side for side in _SIDES if feet[side].force[2] <= 0.0],
+            largest_step=_LARGEST_STEP,
         )
-        if missed > _REACH_ERROR and self.out_of_reach_since is None:
+        if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
         torques = self._legs.static_torques(
             {side: feet[side].force for side in _SIDES},
             {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in _SIDES},
         )
         last = joints if self._last is None else self._last
+        if self._per_limit is not None:
+            fastest = float(np.abs((joints - last) * self._per_limit).max())
+            if fastest > 1.0:
+                joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world
         self._setpoint = joints + (w.damping * velocity + torques) / w.stiffness

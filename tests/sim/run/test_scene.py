@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import SceneError
-from sim.scene import builtin_scenes, load_scene
+from sim.run.scene import builtin_scenes, load_scene, setting_name
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
@@ -73,3 +73,22 @@ def test_a_kind_of_ground_that_is_no_text_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"\xef\xbb\xbf" + b'[terrain]\nkind = ["flat"]\n')  # a byte order mark is no error
     with pytest.raises(SceneError, match=r"terrain\.kind is \['flat'\]; allowed: flat"):
         load_scene(path)
+
+
+def test_a_setting_has_one_full_name() -> None:
+    scene = load_scene("beam")
+    names = {"t_ss": "walk.single_support", "kind": "terrain.kind", "width": "terrain.width", "robot": "robot"}
+    assert {key: setting_name(scene, key) for key in names} == names
+    assert setting_name(scene, "push.impulse") == setting_name(scene, "impulse") == "push.impulse"
+    with pytest.raises(SceneError, match="no setting"):
+        setting_name(load_scene("flat"), "width")
+
+
+@pytest.mark.parametrize("text", ["", "# nothing\n", 'robot = "h1"\n', 'name = "mine"\n[push]\nimpulse = 20.0\n'])
+def test_a_file_that_names_neither_ground_nor_gait_is_no_scene(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(text)
+    with pytest.raises(SceneError, match=r"needs \[terrain\] or \[walk\]"):
+        load_scene(path, ["steps=2"])
+    path.write_text(text.split("[push]")[0] + "[walk]\nsteps = 3\n")
+    assert load_scene(path).walk.steps == 3

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command, Sensors
-from plantar.layout import Side
-from plantar.reading import Reading
-from plantar.recorder import Recorder
-from sim.contact_truth import GroundTruth
-from sim.world import World
+from plantar.layouts.layout import Side
+from plantar.recordings.recorder import Recorder
+from plantar.sensing.reading import Reading
+from sim.model.contact_truth import GroundTruth
+from sim.model.world import World
 
 __all__ = ["MOST_VERTICES", "RunLog"]
 

@@ -8,13 +8,15 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.footsteps import Footstep, level_rotation
-from gait.lip import GRAVITY
+from gait.plan.footsteps import Footstep
 from plantar.errors import RobotError, SceneError
-from plantar.layout import Side
-from sim.inverse_kinematics import LegModel
-from sim.servos import LegServos
-from sim.world import PHYSICS_PERIOD, World, check_stable
+from plantar.layouts.layout import Side
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.rotation import level_rotation
+from sim.judging.leg_contact import legs_that_touch
+from sim.model.leg_model import LegModel
+from sim.model.world import PHYSICS_PERIOD, World, check_stable
+from sim.run.servos import LegServos
 
 __all__ = ["stand"]
 
@@ -43,8 +45,8 @@ def stand(
 
     Raises:
         RobotError: If the left foot is to the right of the other.
-        SceneError: If the legs cannot reach that stance, it does not keep standing there, or the physics becomes
-            unstable.
+        SceneError: If the legs cannot reach that stance or touch each other in it, it does not keep standing there, or
+            the physics becomes unstable.
     """
     posture = np.array([*world.robot.posture["left"], *world.robot.posture["right"]])
     stands = legs.posture(posture).positions
@@ -79,6 +81,15 @@ def stand(
     mujoco.mj_resetData(world.model, data)
     data.qpos[:] = legs.configuration
     data.time = -_SETTLING
+    mujoco.mj_kinematics(world.model, data)
+    mujoco.mj_collision(world.model, data)
+    touching = legs_that_touch(world)
+    if touching is not None:
+        raise SceneError(
+            f"robot '{world.robot.name}' cannot stand with its feet "
+            f"{np.hypot(feet['left'].x - feet['right'].x, feet['left'].y - feet['right'].y):.3f} m apart: "
+            f"{' and '.join(touching)} touch; allowed: a wider stance (walk.stance_width, or the robot's stance_width)"
+        )
     servos.start(joints, torques)
     mujoco.mj_step(world.model, data, round(_SETTLING / PHYSICS_PERIOD))
     check_stable(data)

@@ -1,14 +1,14 @@
 import numpy as np
 import pytest
 
-from gait.footsteps import straight_plan
-from gait.phases import Timing, WalkSchedule
+from gait.plan.footsteps import straight_plan
+from gait.plan.phases import Timing, WalkSchedule
 from plantar.errors import SceneError
-from sim.pushing import Pusher
-from sim.scene import Push
-from sim.world import World
+from sim.model.world import World
+from sim.run.pushing import Pusher
+from sim.run.scene import Push
 
-SCHEDULE = WalkSchedule(straight_plan(6)[1], Timing(), begin=1.0)
+SCHEDULE = WalkSchedule.of([s.side for s in straight_plan(6)[1]], Timing(), begin=1.0)
 
 
 def test_the_push_has_its_impulse_time_and_direction(world: World) -> None:
@@ -45,7 +45,7 @@ def test_a_step_that_is_not_walked_is_an_error() -> None:
         Pusher(Push(impulse=1.0, step=6), SCHEDULE, 0)
 
 
-STANDING = WalkSchedule((), Timing(settle=24.0), begin=1.0)
+STANDING = WalkSchedule.of((), Timing(settle=24.0), begin=1.0)
 
 
 def test_a_standing_robot_is_pushed_smoothly_all_around() -> None:

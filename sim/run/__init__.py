@@ -1,0 +1,1 @@
+"""One scenario from scene to summary, and many of them."""

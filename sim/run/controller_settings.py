@@ -1,0 +1,110 @@
+"""The controller's settings of a run: defaults, then the robot's tables, then the scene's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from gait.balance.balance_laws import balance_gains
+from gait.contact.stance_contact import ContactSettings
+from gait.controller import ControllerSettings
+from gait.estimate.ankle_sensor import AnkleSensor
+from gait.estimate.estimator import EstimatorGains
+from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.foot_motion import Landing
+from gait.feet.ground_conformity import ConformityGains
+from gait.plan.phases import Timing
+from gait.propose.feasibility import FeasibilityRules
+from plantar.errors import SceneError
+from plantar.layouts.layout import Side
+from plantar.settings.schema import Settings
+from sim.robots.robot import Robot
+from sim.run.scene import Scene
+
+__all__ = ["CONTROL_PERIOD", "controller_settings"]
+
+CONTROL_PERIOD = 0.005
+"""Control period of both robots in s."""
+
+_YAW_ON_UNKNOWN_GROUND = 0.1
+"""Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
+little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
+
+T = TypeVar("T", bound=Settings)
+
+
+def controller_settings(
+    scene: Scene, robot: Robot, mass: float, ankles: Mapping[Side, AnkleSensor]
+) -> ControllerSettings:
+    """Settings of the walking controller for a scene.
+
+    Args:
+        scene: The scene.
+        robot: The robot.
+        mass: Its mass in kg.
+        ankles: Force-torque sensor of each ankle, where it has them.
+
+    Returns:
+        The settings.
+
+    Raises:
+        SceneError: If the scene sets something that it does not run, or asks for parts that need another one.
+    """
+    walk, control = scene.walk, scene.control
+    _refuse_unused(scene)
+    partial = control.footholds != "off" or control.conform
+    crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
+    yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
+
+    def made(kind: type[T], name: str, **given: Any) -> T:
+        table = {**given, **robot.controller.get(name, {}), **scene.controller.get(name, {})}
+        return kind.from_table(table, f"[{name}]", SceneError)
+
+    return ControllerSettings(
+        com_height=robot.com_height - min(walk.crouch, crouch),
+        mass=mass,
+        trunk_lean=robot.trunk_lean if walk.lean else 0.0,
+        period=CONTROL_PERIOD,
+        timing=Timing(
+            walk.single_support or robot.single_support,
+            walk.double_support or robot.double_support,
+            walk.start,
+            walk.end,
+            walk.settle,
+        ),
+        swing_height=walk.swing_height,
+        landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
+        compliance=made(ComplianceGains, "compliance", sensing_range=scene.sensing.proximity_range)
+        if control.pfc
+        else None,
+        feasibility=made(FeasibilityRules, "feasibility", rule=control.feasibility)
+        if control.feasibility != "off"
+        else None,
+        conformity=made(ConformityGains, "conformity") if control.conform else None,
+        estimator=made(EstimatorGains, "estimator", **yaw),
+        contact=made(ContactSettings, "contact"),
+        gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
+        feedback=control.feedback,
+        zmp_source=control.zmp_source,
+        ankles=ankles,
+        footholds=control.footholds,
+    )
+
+
+def _refuse_unused(scene: Scene) -> None:
+    """Refuse switches that need another one, and settings of what is switched off: they would do nothing."""
+    control = scene.control
+    if control.feasibility != "off" and not control.pfc:
+        raise SceneError(f"control.feasibility is '{control.feasibility}'; allowed: off, or with pfc = true")
+    if control.conform and not control.pfc:
+        raise SceneError("control.conform is true; allowed: with pfc = true")
+    runs = {
+        "compliance": (control.pfc, "control.pfc = true"),
+        "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
+        "conformity": (control.conform, "control.conform = true"),
+        "contact": (control.footholds != "off", "control.footholds = 'force' or 'skin'"),
+    }
+    for name, (used, needed) in runs.items():
+        if scene.controller.get(name) and not used:
+            keys = ", ".join(f"{name}.{key}" for key in scene.controller[name])
+            raise SceneError(f"scene '{scene.name}' sets {keys}, which does nothing; allowed: with {needed}")

@@ -1,0 +1,418 @@
+"""A scene is data: a TOML that names terrain, robot, gait, what is sensed and what disturbs.
+
+Reading a scene needs no simulator; `plantar list scenes` uses it too.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
+from gait.propose.velocity_command import STOP, VelocityTable, table_of
+from plantar.errors import InputError, SceneError
+from plantar.input_file import is_file
+from plantar.settings.schema import Settings, choice, number, switch, tables, whole
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.structured_text import parse_toml, read_toml
+from sim.sensing.settings import Sensing
+from sim.terrain import TERRAIN_KINDS, Flat, Terrain
+
+__all__ = [
+    "SECTIONS",
+    "Control",
+    "Push",
+    "Scene",
+    "Walk",
+    "builtin_scenes",
+    "load_scene",
+    "override",
+    "scene_file",
+    "setting_name",
+]
+
+_FOLDER = Path(__file__).parent.parent / "scenes"
+
+
+@dataclass(frozen=True)
+class Walk(Settings):
+    """Gait of a scene. Lengths in m, times in s.
+
+    Attributes:
+        steps: Number of steps; the last one closes the feet.
+        length: Distance by which a step leads the other foot.
+        sideways: Lateral distance by which each opening step leads, positive to the left.
+        stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
+        first: Foot that moves first.
+        single_support: t_ss; 0 takes the robot's own.
+        double_support: t_ds; 0 takes the robot's own.
+        swing_height: Clearance of the swing foot.
+        lean: Whether the trunk leans over the stance foot, which takes load off the hip roll joints (see the robot's
+            `trunk_lean`).
+        crouch: How much lower than its own CoM height the robot walks, to reach further and ground that is lower than
+            expected; as far as the robot can (its `largest_crouch` and `largest_crouch_partial`).
+        approach_height: Height above the expected ground from which the swing foot goes down slowly; it then aims as
+            far below it, for ground that is lower than expected.
+        approach_speed: Speed of that in m/s.
+        start: Duration of the first weight shift.
+        end: Duration of the last weight shift.
+        settle: Standing time that is simulated after the walk.
+        begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
+        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s instead of a number of steps; zeros
+            take steps in place.
+        commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
+        wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
+            `change_every`.
+        change_every: Time from one such velocity to the next.
+        until: Time after which a walk at a velocity is told to stop.
+    """
+
+    steps: int = whole(20, "steps", 0, 100000)
+    length: float = number(0.2, "m", -0.5, 0.5)
+    sideways: float = number(0.0, "m", -0.3, 0.3)
+    stance_width: float = number(0.0, "m", 0, 0.6)
+    first: str = choice("left", "right")
+    single_support: float = number(0.0, "s", 0, 10)
+    double_support: float = number(0.0, "s", 0, 10)
+    swing_height: float = number(0.05, "m", 0.005, 0.25)
+    lean: bool = switch(False)
+    crouch: float = number(0.0, "m", 0, 0.15)
+    approach_height: float = number(0.0, "m", 0, 0.1)
+    approach_speed: float = number(0.06, "m/s", 0.005, 0.5)
+    start: float = number(1.2, "s", 0.2, 60)
+    end: float = number(1.0, "s", 0.2, 60)
+    settle: float = number(2.0, "s", 0, 600)
+    begin: float = number(1.0, "s", 1, 60)
+    velocity: tuple[float, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    commands: tuple[Sequence[float | str], ...] = tables('a list of [time, forward, left, turn] or [time, "stop"]')
+    wander: tuple[float, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    change_every: float = number(6.0, "s", 0.5, 600)
+    until: float = number(10.0, "s", 0, 36000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given = [name for name in ("velocity", "commands", "wander") if getattr(self, name)]
+        if len(given) > 1:
+            raise InputError(f"{' and '.join(given)} are given; allowed: one of them")
+        self.velocities(0)
+
+    def velocities(self, seed: int) -> VelocityTable | None:
+        """The commanded velocities over time in s; None for a walk of a number of steps.
+
+        Args:
+            seed: Draws those of a walk that wanders.
+        """
+        rows: list[Sequence[float | str]] = list(self.commands)
+        if self.velocity:
+            rows = [[0.0, *self.velocity]]
+        if self.wander:
+            table_of([[0.0, *self.wander]], 0.0)  # checks it
+            rng = np.random.default_rng([seed, 0xC0])
+            count = max(1, math.ceil(self.until / self.change_every - 1e-9))
+            drawn = rng.uniform(-1.0, 1.0, (count, 3)) * self.wander
+            rows = [[k * self.change_every, *velocity] for k, velocity in enumerate(drawn.tolist())]
+        if not rows:
+            return None
+        table = table_of(rows, self.begin)
+        if table.commands[-1] is not STOP:
+            table = table_of([*rows, [self.until, "stop"]], self.begin)
+        return table
+
+
+@dataclass(frozen=True)
+class Push(Settings):
+    """Pushes on the base: one in a step, or several while the robot stands.
+
+    Attributes:
+        impulse: Impulse in N s; 0 pushes nobody.
+        duration: Duration in s.
+        direction: Direction in the robot's frame, or "seeded": the seed chooses.
+        step: Step in whose single support it comes; -1 lets the seed choose.
+        phase: Share of the single support at which it begins.
+        count: Number of pushes on a robot that stands; 0 pushes once, in a step.
+        interval: Time in s from one such push to the next.
+        sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
+        height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
+    """
+
+    impulse: float = number(0.0, "N s", 0, 1000)
+    duration: float = number(0.1, "s", 0.001, 10)
+    direction: str = choice("seeded", "forward", "backward", "left", "right")
+    step: int = whole(-1, "step", -1, 100000)
+    phase: float = number(0.5, "1", 0, 1)
+    count: int = whole(0, "pushes", 0, 1000)
+    interval: float = number(4.0, "s", 0.1, 60)
+    sideways: float = number(1.0, "1", 0, 1)
+    height: float = number(0.0, "m", -1, 1)
+
+
+@dataclass(frozen=True)
+class Control(Settings):
+    """How the scene is controlled and computed.
+
+    Attributes:
+        feedback: False walks the plan in open loop.
+        zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
+            taxels' forces, "skin" by what they see before they touch, too.
+        pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.
+        feasibility: Rule by which a foothold is refused that is higher than expected: "off", "skin" (supported area) or
+            "force_torque" (moment at the ankle). Needs pfc.
+        conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
+            loaded. For bumps; needs pfc.
+        skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
+    """
+
+    feedback: bool = switch(True)
+    zmp_source: str = choice("skin", "force_torque")
+    footholds: str = choice("off", "force", "skin")
+    pfc: bool = switch(False)
+    feasibility: str = choice("off", "skin", "force_torque")
+    conform: bool = switch(False)
+    skip: str = choice("auto", "none")
+
+
+SECTIONS: dict[str, type[Settings]] = {
+    "terrain": Flat,  # or another of TERRAIN_KINDS, by its field `kind`
+    "walk": Walk,
+    "sensing": Sensing,
+    "push": Push,
+    "control": Control,
+}
+"""Settings class of each table of a scene; `terrain` has the one of its kind."""
+
+_LEAST = ("terrain", "walk")
+"""Sections of which a scene file has one at least: an empty or foreign file is no scene."""
+
+_ALIASES: Mapping[str, str] = {
+    "sideways": "walk.sideways",
+    "t_ss": "walk.single_support",
+    "t_ds": "walk.double_support",
+    "noise": "sensing.force_noise",
+    "delay": "sensing.delay_periods",
+}
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene.
+
+    Attributes:
+        name: Name.
+        description: One line for people.
+        robot: Name or TOML file of the robot.
+        terrain: Ground.
+        walk: Gait.
+        sensing: Sensor noise and delay.
+        push: Disturbance.
+        control: Switches.
+        controller: Settings of the controller's parts by table and name (`gait.controller_tables`), as far as given.
+    """
+
+    name: str
+    description: str
+    robot: str
+    terrain: Terrain
+    walk: Walk
+    sensing: Sensing
+    push: Push
+    control: Control
+    controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+
+def builtin_scenes() -> tuple[str, ...]:
+    """Names of the built-in scenes."""
+    return tuple(sorted(p.stem for p in _FOLDER.glob("*.toml")))
+
+
+def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, Any]:
+    """Apply `key=value` settings to a scene's tables.
+
+    Args:
+        source: The scene as read from TOML.
+        settings: Each "section.key=value" or, where the key is unique, "key=value"; values are TOML, bare words texts.
+            A scene's own key goes before one of the controller's parts.
+
+    Returns:
+        A changed copy.
+
+    Raises:
+        SceneError: If a key is unknown or a setting is not of that form.
+
+    Example:
+        >>> override({"walk": {"steps": 20}}, ["steps=4", "control.feedback=false"])
+        {'walk': {'steps': 4}, 'control': {'feedback': False}}
+    """
+    result = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}
+    pairs: list[tuple[str, str]] = []
+    for setting in settings:
+        key, equals, text = setting.partition("=")
+        key = _ALIASES.get(key.strip(), key.strip())
+        if not equals or not key:
+            raise SceneError(f"setting {setting!r} is not of the form key=value")
+        if key in ("kind", "terrain.kind"):  # first: it decides which other keys there are
+            terrain = result.setdefault("terrain", {})
+            if isinstance(terrain, dict):
+                terrain["kind"] = text.strip()
+        else:
+            pairs.append((key, text))
+    keys = {name: kind.names() for name, kind in (SECTIONS | _terrain_kind(result)).items()}
+    parts = {name: controller_keys(name) for name in CONTROLLER_TABLES}
+    for key, text in pairs:
+        if key == "robot":
+            result["robot"] = text.strip()
+            continue
+        owner, name = _owner(key, text, keys, parts)
+        table = result.setdefault(owner, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"scene section '{owner}' is not a table")
+        table[name] = _value(text.strip())
+    return result
+
+
+def _owner(
+    key: str, text: str, keys: Mapping[str, Sequence[str]], parts: Mapping[str, Sequence[str]]
+) -> tuple[str, str]:
+    """Section and name of a setting's key, among a scene's own keys, else among those of the controller's parts."""
+    section, dot, name = key.rpartition(".")
+    for known in (keys, parts):
+        owners = [s for s, names in known.items() if name in names and (not dot or s == section)]
+        if len(owners) > 1:
+            found = ", ".join(f"{s}.{name}" for s in owners)
+            raise SceneError(f"setting '{key}={text}' could be more than one key; allowed: {found}")
+        if owners:
+            return owners[0], name
+    every = [f"{s}.{n}" for tables in (keys, parts) for s, names in tables.items() for n in names]
+    short = {full.partition(".")[2]: full for full in every}
+    near = get_close_matches(key, every, 3) or [short[n] for n in get_close_matches(name, short, 3)]
+    hint = f"nearest: {', '.join(near)}; " if near else ""
+    raise SceneError(
+        f"setting '{key}={text}': no such key; {hint}`plantar list settings` lists all; allowed: robot, "
+        + ", ".join(f"{s}.{n}" for s, names in keys.items() for n in names)
+    )
+
+
+def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
+    """The dataclass of a scene's terrain, as its section."""
+    table = source.get("terrain", {})
+    kind = table.get("kind", "flat") if isinstance(table, Mapping) else "flat"
+    if not isinstance(kind, str) or kind not in TERRAIN_KINDS:
+        raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
+    return {"terrain": TERRAIN_KINDS[kind]}
+
+
+def _value(text: str) -> Any:
+    try:
+        return parse_toml(f"v = {text}")["v"]
+    except ValueError:
+        return text
+
+
+def setting_name(scene: Scene, key: str) -> str:
+    """Full name of a setting's key.
+
+    Args:
+        scene: A scene that has the setting; its kind of terrain decides which keys there are.
+        key: Any name that the setting is given by.
+
+    Returns:
+        "section.key", or "robot".
+
+    Raises:
+        SceneError: If the scene has no such key.
+
+    Example:
+        >>> setting_name(load_scene("flat"), "t_ss")
+        'walk.single_support'
+    """
+    full = _ALIASES.get(key.strip(), key.strip())
+    if full == "robot":
+        return full
+    section, _, name = full.rpartition(".")
+    for owner in (section,) if section else SECTIONS:
+        if owner in SECTIONS and name in getattr(scene, owner).names():
+            return f"{owner}.{name}"
+    owners = [s for s in CONTROLLER_TABLES if name in controller_keys(s) and section in ("", s)]
+    if len(owners) == 1:
+        return f"{owners[0]}.{name}"
+    raise SceneError(f"scene '{scene.name}' has no setting '{key}'")
+
+
+def scene_file(name: str | os.PathLike[str]) -> Path:
+    """File of a scene.
+
+    Args:
+        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
+
+    Returns:
+        Its path.
+
+    Raises:
+        SceneError: If there is none.
+
+    Example:
+        >>> scene_file("flat").name
+        'flat.toml'
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        if not os.path.exists(path):
+            raise SceneError(f"scene file {path} does not exist")
+    else:
+        path = _FOLDER / f"{name}.toml"
+        if os.sep in str(name) or not is_file(path):
+            raise SceneError(f"unknown scene '{name}'; allowed: {', '.join(builtin_scenes())}, or a scene .toml file")
+    return path
+
+
+def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot: str | None = None) -> Scene:
+    """Load a scene by its built-in name or from a TOML file.
+
+    Args:
+        name: A built-in name (`builtin_scenes()`) or the path of a scene TOML.
+        settings: `key=value` settings that override the file's.
+        robot: Robot to use instead of the file's.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: If the name is unknown or a field is not valid; the message names it.
+
+    Example:
+        >>> load_scene("flat", ["steps=4"]).walk.steps
+        4
+    """
+    path = scene_file(name)
+    source = read_toml(path, SceneError, f"scene file {path}")
+    given = set(source)
+    source = override(source, settings)
+    where = f"scene '{path.stem}'"
+    refuse_unknown_keys(source, ("name", "description", "robot", *SECTIONS, *CONTROLLER_TABLES), where, SceneError)
+    if given.isdisjoint(_LEAST):
+        raise SceneError(f"scene file {path} names neither ground nor gait; it needs [terrain] or [walk], or both")
+    for key in ("name", "description", "robot"):
+        if not isinstance(source.get(key, ""), str):
+            raise SceneError(f"{where}: '{key}' is not a text")
+    parts: dict[str, Any] = {
+        section: kind.from_table(source.get(section, {}), f"{where}: [{section}]", SceneError)
+        for section, kind in (SECTIONS | _terrain_kind(source)).items()
+    }
+    return Scene(
+        name=source.get("name", path.stem),
+        description=source.get("description", ""),
+        robot=robot or source.get("robot", "h1"),
+        controller={
+            name: check_controller_table(name, source[name], f"{where}: [{name}]", SceneError)
+            for name in CONTROLLER_TABLES
+            if name in source
+        },
+        **parts,
+    )

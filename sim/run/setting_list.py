@@ -1,0 +1,51 @@
+"""What settings there are: every dotted name that a scene, `--set`, a sweep or a robot file takes."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
+from plantar.errors import InputError
+from plantar.settings.schema import Setting
+from sim.run.scene import SECTIONS
+from sim.terrain import TERRAIN_KINDS
+
+__all__ = ["settings_listed"]
+
+
+def settings_listed(name: str | None = None) -> dict[str, Setting]:
+    """The settings by their dotted names.
+
+    Args:
+        name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
+
+    Returns:
+        What there is to say of each; those of a kind of terrain stand under "terrain.KIND.", which a scene writes as
+        `terrain.kind` and the last part.
+
+    Raises:
+        InputError: If there is no such table or setting; the message names the nearest.
+
+    Example:
+        >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
+        ('0.2', '1/s', 'a number 0 to 50')
+    """
+    tables: dict[str, tuple[Setting, ...]] = {
+        section: kind.described() for section, kind in SECTIONS.items() if section != "terrain"
+    }
+    tables |= {f"terrain.{kind}": ground.described() for kind, ground in TERRAIN_KINDS.items()}
+    tables |= {table: controller_settings_described(table) for table in CONTROLLER_TABLES}
+    every = {f"{table}.{told.name}": told for table, settings in tables.items() for told in settings}
+    if name is None:
+        return every
+    found = {
+        full: told
+        for full, told in every.items()
+        if full == name or full.startswith(f"{name}.") or full.endswith(f".{name}")
+    }
+    if not found:
+        words = {*tables, *every, *(told.name for told in every.values())}
+        near = get_close_matches(name, sorted(words), 4)
+        hint = f"nearest: {', '.join(near)}; " if near else ""
+        raise InputError(f"no setting or table '{name}'; {hint}tables: {', '.join(tables)}")
+    return found

@@ -1,0 +1,103 @@
+"""Every setting of the controller's parts is reached by its dotted name: from a scene, `--set`, a robot file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from gait.controller_tables import CONTROLLER_TABLES, controller_keys, controller_settings_described
+from plantar.errors import RobotError, SceneError
+from sim.robots.robot_file import load_robot
+from sim.run.controller_settings import controller_settings
+from sim.run.scene import load_scene, setting_name
+
+ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
+PART_OF = {"balance": "gains"}
+
+
+def value_of(settings: object, table: str, name: str) -> object:
+    part = getattr(settings, PART_OF.get(table, table))
+    return getattr(part, name) if hasattr(part, name) else getattr(part.feet, name)
+
+
+@pytest.mark.parametrize("table", CONTROLLER_TABLES)
+def test_every_setting_is_reached_by_its_dotted_name(table: str) -> None:
+    for robot in ("h1", "hrp2kai"):
+        law = load_robot(robot).balance.get("law", "com_admittance")
+        for told in controller_settings_described(table):
+            kinds = [k for k in CONTROLLER_TABLES[table] if told.name in k.names()]
+            if table == "balance" and not any(("Wrench" in k.__name__) == (law != "com_admittance") for k in kinds):
+                continue
+            other = {"true": "false", "false": "true"}.get(told.default)
+            if other is None:
+                words = told.allowed.split(", ")
+                other = words[-1] if told.default.startswith('"') else str(float(told.default) * 0.5 or 1.0)
+                if "whole" in told.allowed:
+                    other = str(int(told.default) + 1)
+            scene = load_scene("flat", [*ALL_ON, f"{table}.{told.name}={other}"], robot)
+            found = value_of(controller_settings(scene, load_robot(robot), 60.0, {}), table, told.name)
+            assert str(found).lower() in (other, f"{other}.0") or float(str(found)) == float(other), told
+
+
+def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> None:
+    robot = replace(load_robot("h1"), controller={"estimator": {"gravity": 0.3, "observer": 15.0}})
+    made = controller_settings(load_scene("flat", ["estimator.gravity=0.4"]), robot, 86.0, {})
+    assert (made.estimator.gravity, made.estimator.observer, made.estimator.tare) == (0.4, 15.0, 0.05)
+    assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, 86.0, {}).gains.dcm_gain == 2.0
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        (["dcm_gian=2"], "nearest: balance.dcm_gain"),
+        (["estimator.gravty=2"], "nearest: estimator.gravity"),
+        (["estimator.gravity=-1"], r"\[estimator\] 'gravity' is -1; allowed: a number 0 to 50"),
+        (["compliance.damping=0.05"], "does nothing; allowed: with control.pfc = true"),
+        (["landing.approach_height=0.01"], "no such key"),
+        (["clearance=0.02"], "compliance.clearance, feasibility.clearance"),
+    ],
+)
+def test_a_wrong_setting_is_refused_with_what_is_right(settings: list[str], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        controller_settings(load_scene("flat", settings), load_robot("h1"), 86.0, {})
+
+
+def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text('robot = "h1"\n[walk]\nsteps = 2\n[landing]\napproach_height = 0.01\n')
+    with pytest.raises(SceneError, match=r"\[landing\] 'approach_height' is given by 'walk.approach_height'"):
+        load_scene(path)
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        ("[estimator]\ngravity = -1", r"\[estimator\] 'gravity' is -1"),
+        ("[estimator]\ngravty = 1", "nearest: gravity"),
+        ("[contact]\nsettle_readings = 2.5", "a whole number"),
+    ],
+)
+def test_a_robot_file_is_checked_when_it_is_read(lines: str, words: str, tmp_path: Path) -> None:
+    source = load_robot("h1").path
+    text = source.read_text(encoding="utf-8").replace("layout_{side}.json", str(source.parent / "layout_{side}.json"))
+    path = tmp_path / "robot.toml"
+    for side in ("left", "right"):
+        (tmp_path / f"layout_{side}.json").write_bytes((source.parent / f"layout_{side}.json").read_bytes())
+    text = source.read_text(encoding="utf-8")
+    path.write_text(text + "\n" + lines + "\n")
+    with pytest.raises(RobotError, match=words):
+        load_robot(str(path))
+    path.write_text(text.replace("dcm_gain", "dcm_gian"))
+    with pytest.raises(RobotError, match="nearest: dcm_gain"):
+        load_robot(str(path))
+
+
+def test_a_short_name_is_completed() -> None:
+    scene = load_scene("flat")
+    assert setting_name(scene, "dcm_gain") == "balance.dcm_gain"
+    assert setting_name(scene, "estimator.gravity") == "estimator.gravity"
+    with pytest.raises(SceneError, match="no setting 'clearance'"):
+        setting_name(scene, "clearance")
+    assert "approach_height" not in controller_keys("landing")

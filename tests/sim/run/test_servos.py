@@ -1,0 +1,108 @@
+import shutil
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.errors import RobotError
+from sim.run.runner import Simulation
+from sim.run.scene import load_scene
+
+
+@pytest.fixture
+def standing() -> Simulation:
+    return Simulation(load_scene("flat", ["steps=0"]))
+
+
+def test_a_held_posture_carries_its_feed_forward_torque(standing: Simulation) -> None:
+    world = standing.world
+    data = world.data
+    mujoco.mj_step(world.model, data, 300)
+    error = data.qpos[world.joint_qpos] - standing.servos._last
+    # With the expected torque fed forward, the spring of the servo is left with next to nothing to do.
+    assert np.abs(np.degrees(error)).max() < 0.02
+    expected = world.stiffness * (standing.servos._setpoint - standing.servos._last)
+    assert data.actuator_force[world.servos] == pytest.approx(expected, abs=2.0)
+
+
+def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Simulation) -> None:
+    """A reference that moves at constant speed gives set-points on a straight line, not stairs."""
+    from dataclasses import replace
+
+    world, servos = standing.world, standing.servos
+    command = standing.controller.step(_sensors(standing))
+    setpoints = []
+    for k in range(12):
+        servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -2e-5 * k])))
+        for _ in range(5):
+            servos.drive()
+            setpoints.append(world.data.ctrl[world.servos].copy())
+    knee = np.array(setpoints)[10:, 3]
+    steps = np.diff(knee)
+    assert steps.std() < 0.02 * abs(steps.mean())
+
+
+def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
+    simulation.sensors.read_skins()
+    return simulation.sensors.read_body()
+
+
+def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standing: Simulation) -> None:
+    """A target that jumps: all joints go the same way as fast as the one that is at its limit allows, and arrive."""
+    from dataclasses import replace
+
+    servos, robot = standing.servos, standing.robot
+    command = standing.controller.step(_sensors(standing))
+    start = servos.command(command)
+    lower = replace(command, com=command.com + np.array([0.0, 0.0, -0.03]))
+    limits = np.array([*robot.velocity_limits] * 2)
+    before, end = (
+        start,
+        standing.legs.solve(
+            lower.com,
+            lower.rotation_torso,
+            {s: lower.feet[s].position for s in lower.feet},
+            {s: lower.feet[s].rotation for s in lower.feet},
+            20,
+        )[0],
+    )
+    shares = []
+    for _ in range(60):
+        joints = servos.command(lower)
+        shares.append(float(np.abs((joints - before) / 0.005 / limits).max()))
+        way = np.abs(end - start) > 0.01
+        if shares[-1] > 0.5:  # in the same proportion for all
+            done = ((joints - start) / (end - start))[way]
+            assert done == pytest.approx(np.full(len(done), done[0]), abs=0.02)
+        before = joints
+    assert max(shares) == pytest.approx(0.9, abs=1e-6)
+    assert joints == pytest.approx(end, abs=1e-4)
+
+
+def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> None:
+    from dataclasses import replace
+
+    from sim.run.servos import LegServos
+
+    world = replace(standing.world, robot=replace(standing.robot, velocity_limits=()))
+    servos = LegServos(world, standing.legs, 0.005)
+    command = standing.controller.step(_sensors(standing))
+    start = servos.command(command)
+    jumped = servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -0.03])))
+    assert np.abs((jumped - start) / 0.005).max() > 6.0
+
+
+def test_speed_limits_of_a_model_file_come_from_its_servo_table(tmp_path: Path) -> None:
+    from sim.robots import load_robot
+
+    h1 = load_robot("h1")
+    text = h1.path.read_text().replace("damping = 150.0", "damping = 150.0\nvelocity_limits = [1, 2, 3, 4, 5, 6]")
+    for side in ("left", "right"):
+        shutil.copy(h1.path.parent / f"layout_{side}.json", tmp_path)
+    (tmp_path / "robot.toml").write_text(text)
+    assert load_robot(tmp_path / "robot.toml").velocity_limits == (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    assert h1.velocity_limits == (2.74, 3.94, 6.0, 4.25, 4.0, 3.94)
+    (tmp_path / "robot.toml").write_text(text.replace("[1, 2, 3, 4, 5, 6]", "[1, 2, 0, 4, 5, 6]"))
+    with pytest.raises(RobotError, match=r"\[servo\].*velocity_limits.*0.001 to 1000"):
+        load_robot(tmp_path / "robot.toml")

@@ -1,0 +1,33 @@
+"""The list of settings holds every name that a scene takes, and each says what it is."""
+
+from __future__ import annotations
+
+import pytest
+
+from plantar.errors import InputError
+from sim.run.scene import load_scene
+from sim.run.setting_list import settings_listed
+
+
+def test_every_setting_has_a_default_an_allowed_range_and_a_meaning() -> None:
+    every = settings_listed()
+    assert len(every) > 170
+    assert [full for full, told in every.items() if not told.meaning] == []
+    assert all(told.allowed and told.default for told in every.values())
+
+
+def test_what_is_listed_is_taken() -> None:
+    for full, told in settings_listed().items():
+        table, _, name = full.rpartition(".")
+        section, _, kind = table.partition(".")
+        if name in ("kind", "solid"):
+            continue
+        given = [f"terrain.kind={kind}"] if section == "terrain" else []
+        load_scene("flat", [*given, f"{section}.{name}={told.default}"])
+
+
+def test_a_table_a_setting_or_its_last_part_is_found() -> None:
+    assert set(settings_listed("terrain.beam")) == {f for f in settings_listed() if f.startswith("terrain.beam.")}
+    assert list(settings_listed("dcm_gain")) == ["balance.dcm_gain"]
+    with pytest.raises(InputError, match="nearest: dcm_gain"):
+        settings_listed("dcm_gian")
