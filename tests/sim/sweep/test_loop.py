@@ -1,0 +1,79 @@
+"""Sweeps of very short runs: resuming, clusters and refusals. Kills are in test_kills.py."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from plantar.errors import InputError
+from plantar.plotting import save_figure
+from sim.sweep import Sweep, figures_of, run_sweep
+
+TIMINGS = ("real_time_factor", "control_p99_us")  # the only columns of a run that differ from one to the next
+STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
+
+
+def standing(seeds: int = 2) -> Sweep:
+    return Sweep("flat", (("friction", ("0.7", "0.9")),), seeds, None, STANDING)
+
+
+def rows(folder: Path) -> list[dict[str, str]]:
+    with (folder / "results.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_point_and_seed_is_run_once_and_a_stopped_sweep_goes_on(tmp_path: Path) -> None:
+    first = run_sweep(standing(1), tmp_path, workers=2)
+    assert (first["runs"], first["resumed"]) == (2, 0)
+    text = (tmp_path / "results.csv").read_text()
+    (tmp_path / "results.csv").write_text(text + "0.7,1,Tr")  # killed while it wrote
+    second = run_sweep(standing(2), tmp_path, workers=1)
+    assert (second["runs"], second["resumed"]) == (2, 2)
+    found = {(r["friction"], r["seed"]) for r in rows(tmp_path)}
+    assert found == {(f, s) for f in ("0.7", "0.9") for s in ("0", "1")}
+    assert [p["completed"] for p in second["points"]] == [2, 2]
+    assert (tmp_path / "completed.png").stat().st_size > 1000
+
+
+def test_another_sweep_in_the_same_folder_is_refused(tmp_path: Path) -> None:
+    run_sweep(standing(1), tmp_path)
+    with pytest.raises(InputError, match="another sweep"):
+        run_sweep(Sweep("push", (), 1, None, STANDING), tmp_path)
+
+
+def test_runs_that_could_not_be_say_why(tmp_path: Path) -> None:
+    result = run_sweep(Sweep("push", (), 1, None, ("steps=2", "push.step=7")), tmp_path)
+    (point,) = result["points"]
+    assert (point["runs"], point["completed"]) == (1, 0)
+    assert "2 steps" in point["errors"][0]
+
+
+def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path: Path) -> None:
+    """Two runs at a time in one process, as Dask does it, and one at a time in a process of its own."""
+    distributed = pytest.importorskip("distributed")
+    sweep = Sweep("flat", (("friction", ("0.7", "0.9")),), 2, None, ("steps=1", "settle=0.0", "noise=3"))
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
+    ) as cluster:
+        run_sweep(sweep, tmp_path / "cluster", scheduler=cluster.scheduler_address)
+    run_sweep(sweep, tmp_path / "local")
+    there, here = (
+        sorted(({k: v for k, v in r.items() if k not in TIMINGS} for r in rows(tmp_path / name)), key=str)
+        for name in ("cluster", "local")
+    )
+    assert there == here
+    assert len({r["tilt_max_deg"] for r in here}) == 4
+
+
+def test_more_points_than_there_is_room_for_words_are_drawn(tmp_path: Path) -> None:
+    points = [{"settings": {"impulse": str(i)}, "runs": 4, "completed": i % 5} for i in range(500)]
+    path = save_figure(figures_of(points, "push"), tmp_path / "completed.png")
+    assert int.from_bytes(path.read_bytes()[16:20], "big") < 6000
+
+
+def test_no_scheduler_is_one_line(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    with pytest.raises(InputError, match="no Dask scheduler"):
+        run_sweep(standing(1), tmp_path, scheduler="tcp://127.0.0.1:9")

@@ -1,0 +1,48 @@
+"""A run as a row, also where it could not be."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from plantar.errors import DependencyError
+from sim.sweep.task import COLUMNS, Task, criteria_of, failed, run_one, run_task
+
+STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
+
+
+def test_a_row_says_what_the_run_said() -> None:
+    row = run_one("flat", None, STANDING, 0)
+    assert row["completed"] is True
+    assert row["error"] == ""
+    bad = run_one("push", None, ["steps=2", "push.step=7"], 0)
+    assert bad["completed"] is False
+    assert "2 steps" in bad["error"]
+
+
+def test_a_row_names_every_criterion_that_failed() -> None:
+    assert run_one("flat", None, STANDING, 0)["reasons"] == ""
+    row = run_one("push", None, ["impulse=90", "push.step=0", "direction=right", "feedback=false", "steps=2"], 0)
+    assert row["completed"] is False
+    assert "fall: " in row["reasons"]
+    assert {"fall", "steps"} <= set(criteria_of(row))
+
+
+def test_a_defect_is_a_row_and_a_missing_library_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    def defect(*_: Any) -> None:
+        raise KeyError("knee")
+
+    def without_mujoco(*_: Any) -> None:
+        raise DependencyError("mujoco", "sim")
+
+    task = Task("flat", None, STANDING, 0)
+    monkeypatch.setattr("sim.run.runner.run_scene", defect)
+    row = run_task(task)
+    assert set(row) == set(COLUMNS) == set(failed(""))
+    assert row["completed"] is False
+    assert "KeyError" in row["error"]
+    assert "test_task.py" in row["error"]
+    monkeypatch.setattr("sim.run.runner.run_scene", without_mujoco)
+    with pytest.raises(DependencyError):
+        run_task(task)

@@ -1,0 +1,111 @@
+"""Processes that run tasks and may die of them. A worker runs any function of its task: here small ones."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import closing
+from pkgutil import resolve_name
+from typing import Any
+
+import pytest
+
+from plantar.errors import WorkerError
+from sim.sweep.workers import TRIES, LocalWorkers
+
+psutil = pytest.importorskip("psutil")
+WAIT = 120.0
+
+
+def processes() -> list[Any]:
+    """The workers of this process."""
+    return [p for p in psutil.Process().children() if "spawn_main" in " ".join(p.cmdline())]
+
+
+def answers(pool: LocalWorkers, count: int) -> Iterator[Any]:
+    deadline = time.monotonic() + WAIT
+    while count > 0:
+        assert time.monotonic() < deadline
+        for answer in pool.finished(0.2):
+            count -= 1
+            yield answer
+
+
+def test_tasks_run_beside_one_another_and_no_more_than_there_is_room_for() -> None:
+    with closing(LocalWorkers(2, str)) as pool:
+        left = list(range(5))
+        done = []
+        while len(done) < 5:
+            while left and pool.room:
+                pool.submit(left.pop())
+            assert len(processes()) <= 2
+            done += list(pool.finished(0.2))
+        assert sorted(done) == [(i, str(i)) for i in range(5)]
+        assert pool.room == 2
+    assert processes() == []
+
+
+def test_a_run_that_kills_its_worker_is_tried_again_and_then_a_row_that_says_so() -> None:
+    with closing(LocalWorkers(1, os._exit)) as pool:
+        pool.submit(7)
+        ((task, row),) = answers(pool, 1)
+        assert task == 7
+        assert row["completed"] is False
+        assert f"{TRIES} times of {TRIES} (exit code 7)" in row["error"]
+        assert pool.room == 1
+
+
+def test_a_killed_worker_is_replaced_and_its_run_begins_again() -> None:
+    with closing(LocalWorkers(1, time.sleep)) as pool:
+        pool.submit(1.0)
+        deadline = time.monotonic() + WAIT
+        while not (pool.finished(0.05) or pool._workers[0].ready):
+            assert time.monotonic() < deadline
+        (first,) = processes()
+        first.send_signal(signal.SIGKILL)
+        assert list(answers(pool, 1)) == [(1.0, None)]
+        assert first.pid not in [p.pid for p in processes()]
+        (idle,) = processes()
+        idle.kill()  # while it has nothing to do
+        pool.submit(0.0)
+        assert list(answers(pool, 1)) == [(0.0, None)]
+
+
+def test_closing_ends_workers_in_the_middle_of_a_run() -> None:
+    pool = LocalWorkers(2, time.sleep)
+    pool.submit(600.0)
+    pool.submit(601.0)
+    assert len(processes()) == 2
+    start = time.monotonic()
+    pool.close()
+    assert time.monotonic() - start < 2.0
+    assert processes() == []
+
+
+def test_workers_that_cannot_begin_end_the_sweep(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their module search path leads nowhere, so that they end while they load."""
+    monkeypatch.setattr("multiprocessing.spawn.get_command_line", lambda **_: ["/bin/false"])
+    with closing(LocalWorkers(1, str)) as pool:
+        pool.submit(0)
+        with pytest.raises(WorkerError, match=r"end before they are ready \(exit code"):
+            list(answers(pool, 1))
+
+
+def test_an_error_that_stops_all_runs_is_raised_after_the_rows_that_came() -> None:
+    with closing(LocalWorkers(1, resolve_name)) as pool:
+        pool.submit("json:__name__")
+        assert list(answers(pool, 1)) == [("json:__name__", "json")]
+        pool.submit("no_such_library")
+        with pytest.raises(WorkerError, match=r"cannot load .*no_such_library"):
+            list(answers(pool, 1))
+
+
+def test_a_system_that_gives_no_process_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_more(*_: Any) -> None:
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr("multiprocessing.process.BaseProcess.start", no_more)
+    with closing(LocalWorkers(1, str)) as pool, pytest.raises(WorkerError, match=r"can be started .Resource"):
+        pool.submit(0)
