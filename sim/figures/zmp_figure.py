@@ -6,14 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from plantar.layout import Side
+from plantar.percepts.support import feet_support_polygon
 from plantar.plotting import COLOURS, new_figure
-from plantar.recording import Recording
-from plantar.support import feet_support_polygon
+from plantar.recordings.recording import Recording
+from plantar.sides import SIDES
 
 __all__ = ["draw_zmp_plane", "draw_zmps"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _FROM = 1.0  # s: before, filters and estimator settle
 
 
@@ -60,7 +59,7 @@ def draw_zmp_plane(run: Recording) -> Any:
     counts = topic.time >= _FROM
     figure, axis = new_figure(6.0, 6.0)
     soles = []
-    for side in _SIDES:
+    for side in SIDES:
         truth = run.topics[f"/truth/{side}"].fields
         rotation, place = truth["rotation"][0].reshape(3, 3), truth["position"][0]
         sole = run.layouts[side].outline @ rotation[:2, :2].T + place[:2]

@@ -9,10 +9,10 @@ import pytest
 
 SCRIPT = """
 import sys
-from sim.render import Camera, Film, save_picture
+from sim.figures.render import Camera, Film, save_picture
 from sim.robots import load_robot
 from sim.terrain import Ground
-from sim.world import build_world
+from sim.model.world import build_world
 import mujoco
 world = build_world(load_robot("h1"), Ground((), 0.0, 0.8))
 mujoco.mj_forward(world.model, world.data)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -11,28 +12,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.atomic import replacing
-from plantar.errors import DependencyError, InputError
+from plantar.errors import InputError
+from plantar.optional_library import optional_library
 
 if TYPE_CHECKING:
-    from sim.world import World
+    from sim.model.world import World
 
-__all__ = ["FRAME_RATE", "Camera", "Film", "VideoWriter", "save_picture"]
+__all__ = ["FRAME_RATE", "Camera", "Film", "VideoWriter", "View", "save_picture"]
 
 FRAME_RATE = 25.0
 """Frames a second of a video; a whole number of physics steps apart."""
 
 
+@dataclass(frozen=True)
+class View:
+    """From where a camera shows a body; as it is, from the robot's right front side.
+
+    Attributes:
+        distance: Distance of the eye in m.
+        azimuth: Viewing direction about z in degrees.
+        elevation: Viewing direction against the horizon in degrees.
+    """
+
+    distance: float = 2.6
+    azimuth: float = 145.0
+    elevation: float = -12.0
+
+
 class Camera:
-    """Looks at the robot from its right front side and follows it.
+    """Shows a body of a simulation and follows it.
 
     Args:
         model: MuJoCo model.
         body: Id of the body to follow.
         width: Picture width in pixels.
         height: Picture height in pixels.
-        distance: Distance of the eye in m.
-        azimuth: Viewing direction about z in degrees.
-        elevation: Viewing direction against the horizon in degrees.
+        view: From where it is shown.
 
     Raises:
         InputError: If no renderer can be made; the message names the cause.
@@ -44,15 +59,15 @@ class Camera:
         body: int,
         width: int = 960,
         height: int = 540,
-        distance: float = 2.6,
-        azimuth: float = 145.0,
-        elevation: float = -12.0,
+        view: View | None = None,
     ) -> None:
         import mujoco
 
+        view = view or View()
         self._body = body
         self._camera = mujoco.MjvCamera()
-        self._camera.distance, self._camera.azimuth, self._camera.elevation = distance, azimuth, elevation
+        self._camera.distance = view.distance
+        self._camera.azimuth, self._camera.elevation = view.azimuth, view.elevation
         model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
         model.vis.global_.offheight = max(model.vis.global_.offheight, height)
         try:
@@ -75,10 +90,8 @@ class Camera:
 
 
 def _opencv() -> Any:
-    try:
+    with optional_library("cv2", "sim"):
         import cv2
-    except ImportError:
-        raise DependencyError("opencv-contrib-python-headless", "sim") from None
     return cv2
 
 

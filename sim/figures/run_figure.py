@@ -10,15 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.layout import Side
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.recording import Recording, read_mcap
-from sim.foothold_figure import draw_footholds
-from sim.zmp_figure import draw_zmp_plane, draw_zmps
+from plantar.recordings.recording import Recording, read_mcap
+from plantar.sides import SIDES
+from sim.figures.foothold_figure import draw_footholds
+from sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
 
 __all__ = ["plot_landing_forces", "plot_run"]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path]:
@@ -61,7 +59,7 @@ def plot_landing_forces(recordings: Mapping[str, str | Path | Recording], path: 
     panels = [axes] if len(recordings) == 1 else list(axes)
     for axis, (name, recording) in zip(panels, recordings.items(), strict=True):
         run = recording if isinstance(recording, Recording) else read_mcap(recording)
-        for side in _SIDES:
+        for side in SIDES:
             topic = f"/truth/{side}"
             force = _field(run, topic, "normal_force")[:, 0]
             axis.plot(run.topics[topic].time, force, color=COLOURS[side], lw=0.7, label=side)
@@ -103,7 +101,7 @@ def _balance(run: Recording) -> Any:
 
 def _plane(run: Recording) -> Any:
     figure, axis = new_figure(11.0, 4.0)
-    for side in _SIDES:
+    for side in SIDES:
         layout = run.layouts[side]
         position = _field(run, f"/truth/{side}", "position")
         rotation = _field(run, f"/truth/{side}", "rotation").reshape(-1, 3, 3)
@@ -127,7 +125,7 @@ def _plane(run: Recording) -> Any:
 
 def _feet(run: Recording) -> Any:
     figure, axes = new_figure(11.0, 5.0, 2, 1, sharex=True)
-    for side in _SIDES:
+    for side in SIDES:
         time = run.topics[f"/truth/{side}"].time
         axes[0].plot(time, _field(run, f"/truth/{side}", "normal_force")[:, 0], color=COLOURS[side], lw=0.8, label=side)
         skin = run.topics[f"/skin/{side}"]
