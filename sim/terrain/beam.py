@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import ClassVar
+from dataclasses import dataclass
 
 import numpy as np
 
-from sim.table import limits
-from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain, rotation_of
+from plantar.mechanics.rotation import level_rotation
+from plantar.settings.schema import number
+from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 
 __all__ = ["Beam"]
 
@@ -31,14 +31,13 @@ class Beam(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    whole: ClassVar[bool] = False
-    width: float = field(default=0.12, metadata=limits(0.005, 2.0))
-    length: float = field(default=1.3, metadata=limits(0.1, 100.0))
-    start: float = field(default=0.32, metadata=limits(0.0, 10.0))
-    offset: float = field(default=0.0, metadata=limits(-1.0, 1.0))
-    offset_range: float = field(default=0.0, metadata=limits(0.0, 1.0))
-    yaw: float = field(default=0.0, metadata=limits(-45.0, 45.0))
-    depth: float = field(default=0.3, metadata=limits(0.02, 10.0))
+    width: float = number(0.12, "m", 0.005, 2)
+    length: float = number(1.3, "m", 0.1, 100)
+    start: float = number(0.32, "m", 0, 10)
+    offset: float = number(0.0, "m", -1, 1)
+    offset_range: float = number(0.0, "m", 0, 1)
+    yaw: float = number(0.0, "deg", -45, 45)
+    depth: float = number(0.3, "m", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         begin, end = feet.middle(), feet.middle(last=True)
@@ -56,7 +55,7 @@ class Beam(Terrain):
 
         def platform(first: float, last: float) -> Solid:
             middle = begin + 0.5 * (first + last) * along
-            return Solid("box", (0.5 * (last - first), 0.8, _THICK), np.array([*middle, z]), rotation_of(heading))
+            return Solid("box", (0.5 * (last - first), 0.8, _THICK), np.array([*middle, z]), level_rotation(heading))
 
         # The beam's ends run 50 mm into the platforms, so that no gap opens where it is turned.
         beam_middle = near + 0.5 * reach * line
@@ -65,7 +64,7 @@ class Beam(Terrain):
             (
                 platform(self.start - 1.2, self.start),
                 platform(self.start + self.length, max(self.start + self.length, distance) + 1.0),
-                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), rotation_of(turned)),
+                Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), level_rotation(turned)),
             ),
             self.height - self.depth,
             self.friction,

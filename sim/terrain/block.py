@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from plantar.errors import SceneError
-from sim.table import limits
-from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain, rotation_of
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.settings.schema import choice, number, whole
+from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 __all__ = ["Block"]
 
@@ -33,18 +34,18 @@ class Block(Terrain):
         height_range: The seed adds up to this much in m to `top`, either way.
     """
 
-    step: int = field(default=2, metadata=limits(0, 100000))
-    top: float = field(default=0.03, metadata=limits(0.001, 0.3))
-    length: float = field(default=0.35, metadata=limits(0.005, 5.0))
-    width: float = field(default=0.16, metadata=limits(0.005, 5.0))
-    along: float = field(default=0.0, metadata=limits(-1.0, 1.0))
-    across: float = field(default=0.0, metadata=limits(-1.0, 1.0))
-    pitch: float = field(default=0.0, metadata=limits(-30.0, 30.0))
-    roll: float = field(default=0.0, metadata=limits(-30.0, 30.0))
-    shape: str = field(default="box", metadata={"choices": ("box", "spheres")})
-    at: str = field(default="center", metadata={"choices": ("center", "ankle")})
-    slide: float = field(default=0.0, metadata=limits(0.0, 2.0))
-    height_range: float = field(default=0.0, metadata=limits(0.0, 0.1))
+    step: int = whole(2, "step", 0, 100000)
+    top: float = number(0.03, "m", 0.001, 0.3)
+    length: float = number(0.35, "m", 0.005, 5)
+    width: float = number(0.16, "m", 0.005, 5)
+    along: float = number(0.0, "m", -1, 1)
+    across: float = number(0.0, "m", -1, 1)
+    pitch: float = number(0.0, "deg", -30, 30)
+    roll: float = number(0.0, "deg", -30, 30)
+    shape: str = choice("box", "spheres")
+    at: str = choice("center", "ankle")
+    slide: float = number(0.0, "m", 0, 2)
+    height_range: float = number(0.0, "m", 0, 0.1)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
@@ -60,7 +61,7 @@ class Block(Terrain):
         return place + (foot.ankle - foot.center if self.at == "ankle" else 0.0)
 
     def _box(self, foot: Footprint, top: float) -> Solid:
-        rotation = rotation_of(foot.yaw, math.radians(self.pitch), math.radians(self.roll))
+        rotation = rotation_from_angles(foot.yaw, math.radians(self.pitch), math.radians(self.roll))
         # Thick enough to reach the floor at its lowest corner, whatever the slope.
         half = 0.5 * (top + 0.5 * self.length * abs(rotation[2, 0]) + 0.5 * self.width * abs(rotation[2, 1])) + 0.01
         upper = np.array([*self._middle(foot), self.height + top])

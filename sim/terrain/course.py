@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from plantar.errors import SceneError
-from plantar.unknown_keys import refuse_unknown_keys
-from sim.table import limits
-from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain, rotation_of
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.settings.schema import number, tables
+from plantar.settings.unknown_keys import refuse_unknown_keys
+from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 
 __all__ = ["Course"]
 
@@ -30,11 +31,11 @@ class Course(Terrain):
             degrees.
     """
 
-    whole: ClassVar[bool] = False
-    floor: float = field(default=0.0, metadata=limits(-10.0, 10.0))
-    solid: tuple[Mapping[str, Any], ...] = ()
+    floor: float = number(0.0, "m", -10, 10)
+    solid: tuple[Mapping[str, Any], ...] = tables()
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for i, table in enumerate(self.solid):
             _solid(table, f"terrain.solid {i}")
 
@@ -56,7 +57,7 @@ def _solid(table: Mapping[str, Any], where: str) -> Solid:
     position = _numbers(table.get("position"), 3, f"{where}: position")
     roll, pitch, yaw = (math.radians(v) for v in _numbers(table.get("angles", [0, 0, 0]), 3, f"{where}: angles"))
     x, y, z = (*size, 0.0, 0.0)[:3]
-    return Solid(shape, (x, y, z), np.array(position), rotation_of(yaw, pitch, roll))
+    return Solid(shape, (x, y, z), np.array(position), rotation_from_angles(yaw, pitch, roll))
 
 
 def _numbers(value: Any, count: int, where: str) -> tuple[float, ...]:

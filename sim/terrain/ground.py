@@ -9,15 +9,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layout import Side
-from sim.table import limits
+from plantar.layouts.layout import Side
+from plantar.settings.schema import Settings, number, text
 
-__all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain", "rotation_of"]
+__all__ = ["GROUND_GROUP", "Flat", "Footprint", "Ground", "Motion", "PlannedFeet", "Solid", "Terrain"]
 
 
 GROUND_GROUP = 2
@@ -240,20 +240,18 @@ class Ground:
 
 
 @dataclass(frozen=True)
-class Terrain:
+class Terrain(Settings):
     """What every kind of ground has.
 
     Attributes:
         kind: Name of the kind.
         friction: Sliding friction coefficient of sole on ground.
         height: Height in m of the ground that the robot stands on at the start, and that the plan expects.
-        whole: Whether all of a sole that lands where it is planned to finds ground.
     """
 
-    whole: ClassVar[bool] = True
-    kind: str = "flat"
-    friction: float = field(default=0.8, metadata=limits(0.05, 5.0))
-    height: float = field(default=0.0, metadata=limits(-10.0, 10.0))
+    kind: str = text("flat")
+    friction: float = number(0.8, "1", 0.05, 5)
+    height: float = number(0.0, "m", -10, 10)
 
     def ground(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         """Lay the ground out.
@@ -277,28 +275,3 @@ class Flat(Terrain):
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         return Ground((), self.height, self.friction)
-
-
-def rotation_of(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:
-    """Rotation by roll, then pitch, then yaw.
-
-    Args:
-        yaw: Angle about z in rad.
-        pitch: Angle about y in rad; positive lowers the front.
-        roll: Angle about x in rad; positive raises the left.
-
-    Returns:
-        Rotation (3, 3) to the world.
-
-    Example:
-        >>> bool(rotation_of(0.0, pitch=0.1)[2, 0] < 0.0)
-        True
-    """
-    cy, sy, cp, sp, cr, sr = (f(a) for a in (yaw, pitch, roll) for f in (math.cos, math.sin))
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import SceneError
-from plantar.layout import Side
-from sim.table import limits
-from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain, rotation_of
+from plantar.mechanics.rotation import rotation_from_angles
+from plantar.settings.schema import choice, number, whole
+from plantar.sides import SIDES
+from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 __all__ = ["Partial", "Pebbles", "Stones", "Uneven"]
 
 _MARGIN = 0.05  # m that a whole stone is larger than the sole, on each end
 _GAP = 0.002  # m between the stones of two lanes
-_SIDES: tuple[Side, Side] = ("left", "right")
 _PARTS = ("rear", "front", "inner", "outer")
 
 
@@ -34,12 +34,11 @@ class Partial(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    whole: ClassVar[bool] = False
-    step: int = field(default=2, metadata=limits(0, 100000))
-    share: float = field(default=0.5, metadata=limits(0.02, 1.0))
-    part: str = field(default="rear", metadata={"choices": _PARTS})
-    rise: float = field(default=0.0, metadata=limits(-0.1, 0.1))
-    depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
+    step: int = whole(2, "step", 0, 100000)
+    share: float = number(0.5, "1", 0.02, 1)
+    part: str = choice(*_PARTS)
+    rise: float = number(0.0, "m", -0.1, 0.1)
+    depth: float = number(0.15, "m", 0.01, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
@@ -61,15 +60,14 @@ class Stones(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    whole: ClassVar[bool] = False
-    share_min: float = field(default=0.3, metadata=limits(0.02, 1.0))
-    share_max: float = field(default=1.0, metadata=limits(0.02, 1.0))
-    depth: float = field(default=0.15, metadata=limits(0.01, 10.0))
+    share_min: float = number(0.3, "1", 0.02, 1)
+    share_max: float = number(1.0, "1", 0.02, 1)
+    depth: float = number(0.15, "m", 0.01, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.share_min > self.share_max:
             raise SceneError(f"terrain.share_min is {self.share_min:g}; allowed: up to share_max, {self.share_max:g}")
-        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
+        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
         for k, foot in enumerate(feet.steps):
             share = float(rng.uniform(self.share_min, self.share_max))
             part = _PARTS[int(rng.integers(len(_PARTS)))]
@@ -95,14 +93,14 @@ class Uneven(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    height_range: float = field(default=0.015, metadata=limits(0.0, 0.1))
-    slope_range: float = field(default=0.0, metadata=limits(0.0, 20.0))
-    gap: float = field(default=0.05, metadata=limits(0.0, 0.2))
-    depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
+    height_range: float = number(0.015, "m", 0, 0.1)
+    slope_range: float = number(0.0, "deg", 0, 20)
+    gap: float = number(0.05, "m", 0, 0.2)
+    depth: float = number(0.15, "m", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
-        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in _SIDES}
-        place, height = dict(feet.standing), dict.fromkeys(_SIDES, 0.0)
+        solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
+        place, height = dict(feet.standing), dict.fromkeys(SIDES, 0.0)
         for foot in feet.steps:
             rise = float(rng.uniform(-1.0, 1.0)) * self.height_range
             pitch, roll = _slope(rng, self.slope_range)
@@ -138,20 +136,20 @@ class Pebbles(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    whole: ClassVar[bool] = False
-    bump_min: float = field(default=0.005, metadata=limits(0.0, 0.05))
-    bump_max: float = field(default=0.015, metadata=limits(0.0, 0.05))
-    bump_radius: float = field(default=0.03, metadata=limits(0.005, 0.2))
-    bumps: int = field(default=8, metadata=limits(0, 200))
-    slope_range: float = field(default=8.0, metadata=limits(0.0, 20.0))
-    depth: float = field(default=0.15, metadata=limits(0.02, 10.0))
+    bump_min: float = number(0.005, "m", 0, 0.05)
+    bump_max: float = number(0.015, "m", 0, 0.05)
+    bump_radius: float = number(0.03, "m", 0.005, 0.2)
+    bumps: int = whole(8, "bumps", 0, 200)
+    slope_range: float = number(8.0, "deg", 0, 20)
+    depth: float = number(0.15, "m", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.bump_min > self.bump_max:
             raise SceneError(f"terrain.bump_min is {self.bump_min:g} m; allowed: up to bump_max, {self.bump_max:g} m")
-        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in _SIDES]
+        solids = [_stone(feet.standing[side], feet, self.height, self.depth) for side in SIDES]
         level = [*feet.standing.values(), *feet.steps[-2:]]
         for k, foot in enumerate(feet.steps):
+            # Drawn in any case: what chance gives to one step does not depend on the steps before it.
             pitch, roll = _slope(rng, self.slope_range)
             places = rng.uniform(-1.0, 1.0, (self.bumps, 2)) * foot.half
             heights = rng.uniform(self.bump_min, self.bump_max, self.bumps)
@@ -161,15 +159,21 @@ class Pebbles(Terrain):
                 solids.append(_stone(foot, feet, self.height, self.depth))
                 continue
             stone = _stone(foot, feet, self.height, self.depth, pitch=pitch, roll=roll)
-            solids.append(stone)
-            normal = stone.rotation[:, 2]
-            for (along, across), height in zip(places.tolist(), heights.tolist(), strict=True):
-                x, y = foot.place(along, across)
-                face = stone.position + stone.size[2] * normal
-                z = face[2] - (normal[0] * (x - face[0]) + normal[1] * (y - face[1])) / normal[2]
-                center = np.array([x, y, z]) + (height - self.bump_radius) * normal
-                solids.append(Solid("sphere", (self.bump_radius, 0.0, 0.0), center))
+            solids += [stone, *self._bumps(stone, foot, places, heights)]
         return Ground(tuple(solids), self.height - self.depth, self.friction)
+
+    def _bumps(
+        self, stone: Solid, foot: Footprint, places: NDArray[np.float64], heights: NDArray[np.float64]
+    ) -> Iterator[Solid]:
+        """Caps of spheres on a stone's upper face, at places (n, 2) in m along and across the foot."""
+        normal = stone.rotation[:, 2]
+        face = stone.position + stone.size[2] * normal
+        for (along, across), height in zip(places.tolist(), heights.tolist(), strict=True):
+            x, y = foot.place(along, across)
+            z = face[2] - (normal[0] * (x - face[0]) + normal[1] * (y - face[1])) / normal[2]
+            yield Solid(
+                "sphere", (self.bump_radius, 0.0, 0.0), np.array([x, y, z]) + (height - self.bump_radius) * normal
+            )
 
 
 def _slope(rng: np.random.Generator, largest: float) -> tuple[float, float]:
@@ -239,10 +243,10 @@ def _stone(
         else:
             inner = half_width - 2.0 * half_width * share
     center = foot.place(0.5 * (rear + front), outward * 0.5 * (inner + outer))
-    rotation = rotation_of(foot.yaw, pitch, roll)
+    rotation = rotation_from_angles(foot.yaw, pitch, roll)
     half = 0.5 * max(depth, 0.02)
     # A slope turns about the middle of the footprint, which keeps its height there.
     level = np.array([*center, height])
     pivot = np.array([*foot.center, height])
-    upper = pivot + rotation @ rotation_of(foot.yaw).T @ (level - pivot)
+    upper = pivot + rotation @ rotation_from_angles(foot.yaw).T @ (level - pivot)
     return Solid("box", (0.5 * (front - rear), 0.5 * (outer - inner), half), upper - half * rotation[:, 2], rotation)

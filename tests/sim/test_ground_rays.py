@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from plantar import hex_layout, kernels
 from plantar.kernels import ground_rays
-from sim.proximity import SoleProximity
+from sim.sensing.proximity import SoleProximity
 from sim.terrain import GROUND_GROUP
 
 KINDS = ("plane", "sphere", "ellipsoid", "cylinder", "box")

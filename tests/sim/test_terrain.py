@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import SceneError
-from sim.scene import load_scene
+from sim.run.scene import load_scene
 from sim.terrain import Beam, Block, Course, Flat, Footprint, Partial, Pebbles, PlannedFeet, Stones, Terrain, Uneven
 
 HALF = (0.125, 0.075)
