@@ -1,13 +1,15 @@
 """How a simulated sole can touch the ground and feel it: candidates, what they are measured by, and the comparison.
 
-`plantar bench contact` runs it. The model that the simulator uses is `sim.skin`; the others stay here so that the
+`plantar bench contact` runs it. The simulator uses the model of `sim.sensing.skin`; the others stay here so that the
 choice can be repeated on another machine or another version of MuJoCo.
 """
 
-from sim.contact_models.candidates import CANDIDATES, Candidate, build_sole
+from sim.contact_models.candidate import CANDIDATES, Candidate
 from sim.contact_models.comparison import ContactRow, compare_contact_models
+from sim.contact_models.page import holds
 from sim.contact_models.parameters import ParameterRow, study_contact_parameters
-from sim.contact_models.report import holds, write_contact_report
+from sim.contact_models.report import write_contact_report
+from sim.contact_models.sole import build_sole
 
 __all__ = [
     "CANDIDATES",

@@ -15,19 +15,22 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.force import center_of_pressure
-from plantar.layout import SoleLayout
-from plantar.polygon import area, convex_hull
-from sim.contact_models.candidates import CANDIDATES, Candidate, Contact, Sole, build_sole
-from sim.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
+from plantar.geometry.polygon import area, convex_hull
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.force import center_of_pressure
+from sim.contact_models.candidate import CANDIDATES, Candidate, Contact
+from sim.contact_models.sole import Sole, build_sole
+from sim.model.contact_truth import contact_wrench_in_frame, foot_contacts, support_polygon_of_contacts
 
 __all__ = ["ContactRow", "Rig", "compare_contact_models", "full_stance", "on_beams", "run_times", "tip_over"]
 
-GRAVITY = 9.81
 MASS = 43.0
 PLANE = '<geom name="ground" type="plane" size="2 2 0.1" {contact}/>'
 INNER = 0.7
 BEAMS = (0.12, 0.06)
+_TIPPED = math.radians(1.0)
+_TIPPING_LOAD = 600.0  # N
 BEAM_OFFSETS = (-0.031, -0.013, 0.0, 0.009, 0.027)
 
 
@@ -193,24 +196,13 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
     contacts = 0
     for seed in range(seeds):
         rng = np.random.default_rng(seed)
-        rig = Rig(sole, layout)
-        rig.push(MASS * GRAVITY, middle)
-        rig.step(100)
+        rig = _standing(sole, layout, MASS * GRAVITY)
         contacts = int(rig.data.ncon)
         for target in targets:
-            load = float(rng.uniform(200.0, 844.0))
-            angle = float(rng.uniform(0.0, 2.0 * math.pi))
-            side = float(rng.uniform(0.0, 0.3)) * load
-            twist = float(rng.uniform(-5.0, 5.0)) * load / 844.0
-            for _ in range(8):  # the push is about the sole's place, which moves a little
-                rig.push(load, target, (side * math.cos(angle), side * math.sin(angle)), twist)
-                rig.step(15)
-            wrench = rig.wrench()
-            if rig.tilt() > 0.02 or wrench[2] < 0.5 * load:  # toppled: this sole cannot carry that load
+            wrench = _loaded(rig, target, rng)
+            if wrench is None:
                 errors.append(math.inf)
-                rig = Rig(sole, layout)
-                rig.push(MASS * GRAVITY, middle)
-                rig.step(100)
+                rig = _standing(sole, layout, MASS * GRAVITY)
                 continue
             taxels = layout.wrench_map @ sole.read(rig.data)
             cop, true = _cop(taxels), _cop(wrench)
@@ -226,6 +218,27 @@ def full_stance(sole: Sole, layout: SoleLayout, seeds: int) -> dict[str, Any]:
     }
 
 
+def _standing(sole: Sole, layout: SoleLayout, load: float) -> Rig:
+    """A rig at rest with a load in N over the middle of its sole."""
+    rig = Rig(sole, layout)
+    rig.push(load, _rectangle(layout)[0])
+    rig.step(100)
+    return rig
+
+
+def _loaded(rig: Rig, target: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64] | None:
+    """True wrench (6,) under a random load with a given CoP (2,); None where the sole topples under it."""
+    load = float(rng.uniform(200.0, 844.0))
+    angle = float(rng.uniform(0.0, 2.0 * math.pi))
+    side = float(rng.uniform(0.0, 0.3)) * load
+    twist = float(rng.uniform(-5.0, 5.0)) * load / 844.0
+    for _ in range(8):  # the push is about the sole's place, which moves a little
+        rig.push(load, target, (side * math.cos(angle), side * math.sin(angle)), twist)
+        rig.step(15)
+    wrench = rig.wrench()
+    return None if rig.tilt() > 0.02 or wrench[2] < 0.5 * load else wrench
+
+
 def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
     """Where the sole tips over: the load moves out at 40 mm/s until the foot tilts; the true CoP stops at the pivot.
 
@@ -236,34 +249,31 @@ def tip_over(sole: Sole, layout: SoleLayout) -> dict[str, Any]:
     Returns:
         The fields of `ContactRow` that it measures.
     """
-    middle, half = _rectangle(layout)
     out: dict[str, Any] = {}
-    for axis, name in enumerate("xy"):
-        edges, seen = [], []
-        for sign in (-1.0, 1.0):
-            direction = np.zeros(2)
-            direction[axis] = sign
-            rig = Rig(sole, layout)
-            rig.push(600.0, middle)
-            rig.step(100)
-            pivot = shown = -math.inf
-            reach = 0.9 * half[axis]
-            while rig.tilt() < math.radians(1.0) and reach < half[axis] + 0.03:
-                reach += 0.04 * sole.model.opt.timestep
-                rig.push(600.0, middle + reach * direction)
-                rig.step()
-                wrench = rig.wrench()
-                if wrench[2] > 100.0:
-                    pivot = max(pivot, float((_cop(wrench) - middle) @ direction))
-                    cop = center_of_pressure(layout, sole.read(rig.data))
-                    if cop is not None:
-                        shown = max(shown, float((cop - middle) @ direction))
-            tipped = rig.tilt() >= math.radians(1.0)
-            edges.append((pivot - half[axis]) * 1e3 if tipped else math.inf)
-            seen.append((shown - half[axis]) * 1e3)
+    for name, direction in (("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))):
+        edges, seen = zip(*(_edge(sole, layout, sign * direction) for sign in (-1.0, 1.0)), strict=True)
         out[f"edge_{name}_mm"] = float(max(edges, key=abs))
         out[f"seen_{name}_mm"] = float(max(seen, key=abs))
     return out
+
+
+def _edge(sole: Sole, layout: SoleLayout, direction: NDArray[np.float64]) -> tuple[float, float]:
+    """How far beyond the true edge in mm the load gets in a direction before the sole tips, and the taxels show it."""
+    middle, half_sizes = _rectangle(layout)
+    half = float(half_sizes @ np.abs(direction))
+    rig = _standing(sole, layout, _TIPPING_LOAD)
+    pivot = shown = -math.inf
+    reach = 0.9 * half
+    while rig.tilt() < _TIPPED and reach < half + 0.03:
+        reach += 0.04 * sole.model.opt.timestep
+        rig.push(_TIPPING_LOAD, middle + reach * direction)
+        rig.step()
+        wrench = rig.wrench()
+        if wrench[2] > 100.0:
+            pivot = max(pivot, float((_cop(wrench) - middle) @ direction))
+            cop = center_of_pressure(layout, sole.read(rig.data))
+            shown = shown if cop is None else max(shown, float((cop - middle) @ direction))
+    return (pivot - half) * 1e3 if rig.tilt() >= _TIPPED else math.inf, (shown - half) * 1e3
 
 
 def on_beams(candidate: Candidate, layout: SoleLayout, contact: Contact | None) -> dict[str, Any]:

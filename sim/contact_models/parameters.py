@@ -11,10 +11,12 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from plantar.layout import SoleLayout
-from sim.contact_models.candidates import CANDIDATES, Contact, build_sole
-from sim.contact_models.comparison import GRAVITY, MASS, PLANE, Rig
-from sim.contact_truth import contact_wrench_in_world, foot_contacts
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics.lip import GRAVITY
+from sim.contact_models.candidate import CANDIDATES, Contact
+from sim.contact_models.comparison import MASS, PLANE, Rig
+from sim.contact_models.sole import build_sole
+from sim.model.contact_truth import contact_wrench_in_world, foot_contacts
 
 __all__ = ["PARAMETERS", "ParameterRow", "study_contact_parameters"]
 

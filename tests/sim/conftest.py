@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
+from sim.model.world import World, build_world
 from sim.robots import Robot, load_robot
-from sim.runner import run_scene
-from sim.scene import Scene, load_scene
+from sim.run.runner import run_scene
+from sim.run.scene import Scene, load_scene
 from sim.terrain import Ground
-from sim.world import World, build_world
 
 
 @pytest.fixture(scope="session")

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.recording import read_mcap
-from sim.figures import plot_run
-from sim.runner import run_scene
-from sim.scene import load_scene
+from plantar.recordings.recording import read_mcap
+from sim.figures.run_figure import plot_run
+from sim.run.runner import run_scene
+from sim.run.scene import load_scene
 
 SHORT = ["push.count=2", "settle=8"]
 
