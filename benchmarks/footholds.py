@@ -1,22 +1,19 @@
-"""Count what the soles' view of a foothold is worth: `python benchmarks/footholds.py [WORKERS]`.
+"""Count what the soles' view of a foothold is worth: the table of footholds.md, the map footholds_map.png.
 
-Runs every case over its seeds, appends a row a run to benchmarks/footholds.csv (a run that is there already is not
-repeated), and writes the tables in footholds.md and the map footholds_map.png beside it.
+`python benchmarks/outcomes.py` runs what is missing in footholds.csv; this one writes table and map.
 """
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from statistics import median
 from typing import Any
 
 import numpy as np
-from resumable import Case, rows_of, run_missing, write_table
+from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = (
-    "completed",
     "fell",
     "steps_planned",
     "steps_taken",
@@ -29,7 +26,6 @@ COLUMNS = (
     "foothold_error_p95_m",
     "area_ratios",
     "zmp_margins_mm",
-    "error",
 )
 ROBOTS = ("h1", "hrp2kai")
 BLIND = {"pebbles": "conform=false"}
@@ -68,36 +64,41 @@ MAP_SEEDS = 2
 
 def cases(lines: bool = True, grid: bool = True) -> list[Case]:
     """Everything there is to run."""
-    found = []
+    found: list[Case] = []
     if lines:
         for name, scene, settings, seeds in LINES:
             off = BLIND.get(scene, "footholds=off")
             for robot in ROBOTS:
                 found.append(Case(name, scene, robot, settings, seeds))
-                found.append(Case(f"{name}, blind", scene, robot, (*settings, off), seeds))
+                found.append(Case(f"{name}, blind", scene, robot, (*settings, off), seeds, aside=True))
     if grid:
         for width in WIDTHS:
             for name, settings in DISTURBANCES:
                 # The same share of the offsets that leave something of each beam under the sole.
                 place = (f"width={width}", f"offset_range={0.08 * (width / 0.12):.3f}")
-                found.append(Case(f"map {width} {name}", "beam", "h1", (*place, *settings), MAP_SEEDS))
+                found.append(Case(f"map {width} {name}", "beam", "h1", (*place, *settings), MAP_SEEDS, aside=True))
     return found
 
 
-def run(case: Case, seed: int) -> dict[str, Any]:
-    """One run as a row."""
-    from sim.sweep import run_one
+def figures(simulation: Any, summary: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    return {
+        **{name: summary[name] for name in COLUMNS if name in summary},
+        "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
+        "control_p99_us": summary["control_us"]["p99"],
+        "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
+        "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
+        "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
+    }
 
-    row = run_one(case.scene, case.robot, case.settings, seed)
-    return {name: row[name] for name in COLUMNS}
 
-
-def report(rows: list[dict[str, str]]) -> None:
-    """Write the tables between their markers, and draw the map."""
+def report() -> None:
+    """Write the table between its markers, and draw the map."""
+    rows = latest(rows_of(BENCHMARK.path))
     lines = [
-        "| scene | robot | with | without | smallest true share of the sole | true ZMP margin of a step, median [mm] "
-        "| centroid error, 95 % of a run [mm] |",
-        "|---|---|---|---|---|---|---|",
+        "| scene | robot | with | with, fresh seeds | without | without, fresh seeds | smallest true share of the sole "
+        "| true ZMP margin of a step, median [mm] | centroid error, 95 % of a run [mm] |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for name, *_ in LINES:
         for robot in ROBOTS:
@@ -111,19 +112,14 @@ def report(rows: list[dict[str, str]]) -> None:
             margins = [float(v) for r in good for v in r["zmp_margins_mm"].split() if v != "-"]
             errors = [1e3 * float(r["foothold_error_p95_m"]) for r in mine if r["foothold_error_p95_m"]]
             cells = (
-                _count(mine),
-                _count(blind),
+                *(count(found, fresh) for found in (mine, blind) for fresh in (False, True)),
                 f"{min(shares):.2f}" if shares else "",
                 f"{round(median(margins))}" if margins else "",
                 f"{median(errors):.1f}" if errors else "",
             )
             lines.append(f"| {name} | {robot} | " + " | ".join(cells) + " |")
-    write_table(FOLDER / "footholds.md", lines)
+    write_table(FOLDER / "footholds.md", [*lines, "", origin(BENCHMARK)])
     _draw_map(rows)
-
-
-def _count(rows: list[dict[str, str]]) -> str:
-    return f"{sum(r['completed'] == 'True' for r in rows)}/{len(rows)}" if rows else "-"
 
 
 def _draw_map(rows: list[dict[str, str]]) -> None:
@@ -138,7 +134,7 @@ def _draw_map(rows: list[dict[str, str]]) -> None:
             mine = [r for r in rows if r["case"] == f"map {width} {name}"]
             if mine:
                 share[i, j] = sum(r["completed"] == "True" for r in mine) / len(mine)
-                texts[i, j] = _count(mine)
+                texts[i, j] = f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}"
     figure, axis = new_figure(8.0, 3.0)
     image = axis.imshow(100.0 * share, cmap="RdYlGn", vmin=0.0, vmax=100.0, aspect="auto")
     for (i, j), text in texts.items():
@@ -153,8 +149,7 @@ def _draw_map(rows: list[dict[str, str]]) -> None:
     save_figure(figure, FOLDER / "footholds_map.png")
 
 
+BENCHMARK = Benchmark(FOLDER / "footholds.csv", COLUMNS, cases(), figures)
+
 if __name__ == "__main__":
-    path = FOLDER / "footholds.csv"
-    if sys.argv[1:] != ["report"]:
-        run_missing(path, COLUMNS, cases(), run, int(sys.argv[1]) if len(sys.argv) > 1 else 2)
-    report(rows_of(path))
+    report()

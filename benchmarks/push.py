@@ -1,0 +1,79 @@
+"""Count what feedback is worth under pushes: the table of push.md and its bars push.png.
+
+`python benchmarks/outcomes.py` runs what is missing in push.csv; `python benchmarks/push.py` writes table and bars.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
+
+FOLDER = Path(__file__).parent
+COLUMNS = ("fell", "direction", "step", "steps_taken", "tilt_max_deg", "zmp_margin_min_m", "impact_median_N")
+COLUMNS += ("impact_max_N", "position_error_m", "heading_error_deg", "com_error_max_m")
+
+# robot and impulse in N s
+LINES = (("h1", 20), ("h1", 25), ("h1", 30), ("hrp2kai", 20), ("hrp2kai", 25))
+
+
+def _name(impulse: int, feedback: bool) -> str:
+    return f"{impulse} N s, feedback {'on' if feedback else 'off'}"
+
+
+def _cases() -> list[Case]:
+    return [
+        Case(_name(n, on), "push", robot, (f"impulse={n}", f"feedback={str(on).lower()}"), 20)
+        for robot, n in LINES
+        for on in (True, False)
+    ]
+
+
+def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    return {
+        **{name: out[name] for name in COLUMNS if name in out},
+        "direction": out["push"]["direction"],
+        "step": out["push"]["step"],
+        "impact_median_N": median(out["impacts_N"] or [0.0]),
+        "impact_max_N": max(out["impacts_N"], default=0.0),
+        "position_error_m": out["final"]["position_error_m"],
+        "heading_error_deg": out["final"]["heading_error_deg"],
+        "com_error_max_m": max(out["estimate"]["com_error_max_m"]),
+    }
+
+
+def report() -> None:
+    """Write the table between its markers in push.md, and the bars."""
+    from plantar.plotting import COLOURS, new_figure, save_figure
+
+    rows = latest(rows_of(BENCHMARK.path))
+    lines = [
+        "| robot | impulse | feedback on | on, fresh seeds | feedback off | off, fresh seeds |",
+        "|---|---|---|---|---|---|",
+    ]
+    bars: list[tuple[str, list[float]]] = []
+    for robot, impulse in LINES:
+        found = [[r for r in rows if r["robot"] == robot and r["case"] == _name(impulse, on)] for on in (True, False)]
+        cells = [count(mine, fresh) for mine in found for fresh in (False, True)]
+        lines.append(f"| {robot} | {impulse} N s | " + " | ".join(cells) + " |")
+        if all(found):
+            shares = [100.0 * sum(r["completed"] == "True" for r in mine) / len(mine) for mine in found]
+            bars.append((f"{robot}\n{impulse} N s", shares))
+    write_table(FOLDER / "push.md", [*lines, "", origin(BENCHMARK)])
+    figure, axis = new_figure(6.0, 3.2)
+    for i, (name, colour) in enumerate((("on", COLOURS["left"]), ("off", COLOURS["right"]))):
+        places = [k + 0.4 * (i - 0.5) for k in range(len(bars))]
+        axis.bar(places, [shares[i] for _, shares in bars], 0.38, color=colour, label=f"feedback {name}")
+    axis.set_xticks(range(len(bars)), [name for name, _ in bars], fontsize=8)
+    axis.set_ylabel("completed, all seeds [%]")
+    axis.legend(fontsize=8)
+    save_figure(figure, FOLDER / "push.png")
+
+
+BENCHMARK = Benchmark(FOLDER / "push.csv", COLUMNS, _cases(), figures)
+
+if __name__ == "__main__":
+    report()
