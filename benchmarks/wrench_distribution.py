@@ -1,4 +1,4 @@
-"""Run time of the wrench-distribution program: `gait.wrench_distribution` beside other ways to solve it.
+"""Run time of the wrench-distribution program: `gait.balance.wrench_distribution` beside other ways to solve it.
 
 python benchmarks/wrench_distribution.py        (writes benchmarks/wrench_distribution.md)
 """
@@ -14,9 +14,10 @@ import qpsolvers
 import quadprog
 from scipy.optimize import minimize
 
-from gait.wrench_cone import FootContact, Rectangle
-from gait.wrench_distribution import WrenchDistribution
+from gait.balance.wrench_distribution import WrenchDistribution
 from plantar.atomic import write_text
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.wrench_cone import Rectangle
 
 WEIGHT = 640.0
 SOLE = Rectangle(-0.114, 0.144, -0.080, 0.080)
@@ -38,13 +39,21 @@ def requests(rng, count, *, moving):
         turn = heading(rng.uniform(-3.0, 3.0)) if moving else np.eye(3)
         place = rng.uniform(-5.0, 5.0, 3) if moving else np.zeros(3)
         sole = Rectangle(*(np.array(SOLE) * rng.uniform(0.4, 1.0))) if moving else SOLE
-        feet = [FootContact(place + turn @ [x, y, 0.0], turn, sole) for x, y in ((0.2, 0.105), (0.0, -0.105))]
+        places = {"left": (0.2, 0.105), "right": (0.0, -0.105)}
+        feet = {side: Contact(place + turn @ [x, y, 0.0], turn, sole) for side, (x, y) in places.items()}
         share = 0.5 - 0.5 * math.cos(2.0 * math.pi * k / 100.0)
         zmp = np.array([0.2 * share, 0.21 * share - 0.105, 0.0]) + rng.normal(0.0, 0.01, 3) * [1, 1, 0]
         com = np.array([0.1, 0.0, 0.87])
         force = WEIGHT * np.array([*rng.normal(0.0, 0.03, 2), rng.uniform(0.95, 1.05)])
         moment = np.cross(zmp - com, force)
-        out.append((feet, np.concatenate([turn @ force, turn @ moment]), place + turn @ com, share))
+        out.append(
+            (
+                feet,
+                np.concatenate([turn @ force, turn @ moment]),
+                place + turn @ com,
+                {"left": share, "right": 1.0 - share},
+            )
+        )
     return out
 
 
@@ -98,7 +107,11 @@ def main() -> None:
     programs = [ours.program(*r) for r in loop[:2000]]
     exact = [quadprog.solve_qp(p.hessian, -p.gradient, -p.constraints.T, -p.upper)[0] * p.unit for p in programs]
     rows = [
-        ("`WrenchDistribution.solve`, feet stand (a control loop)", lambda r: ours.solve(*r).wrenches.ravel(), loop),
+        (
+            "`WrenchDistribution.solve`, feet stand (a control loop)",
+            lambda r: np.concatenate(list(ours.solve(*r).wrenches.values())),
+            loop,
+        ),
         ("`WrenchDistribution.solve`, feet and contacts new at each call", lambda r: ours.solve(*r).wrenches, moving),
         *alternatives(programs),
     ]

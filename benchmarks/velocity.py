@@ -1,0 +1,67 @@
+"""Count walks at commanded velocities: `python benchmarks/velocity.py [MINUTES]`, then `... velocity.py report`.
+
+Both robots walk for 60 s at velocities that the seed draws anew every 6 s, with sensor noise, and are told to stop.
+Rows go to velocity.csv, one a run; stopped, it goes on where it was.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from resumable import Benchmark, Case, add_row, commit, count, latest, rows_of, show, wanted, write_table
+
+FOLDER = Path(__file__).parent
+COLUMNS = ("speed_ratio", "turn_ratio", "walked_m", "turned_deg", "steps", "steps_after_stop", "tilt_deg", "wall_s")
+CASES = [Case("wander", "wander", robot, (), 20) for robot in ("h1", "hrp2kai")]
+
+
+def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    told = out["velocity"]
+    return {
+        **{name: told[name] for name in ("speed_ratio", "turn_ratio", "walked_m", "turned_deg", "steps_after_stop")},
+        "steps": len(out["landings_s"]),
+        "tilt_deg": out["tilt_max_deg"],
+        "wall_s": out["wall_time_s"],
+    }
+
+
+BENCHMARK = Benchmark(FOLDER / "velocity.csv", COLUMNS, CASES, figures)
+
+
+def report() -> None:
+    """Write the table between its markers in velocity.md."""
+    rows = latest(rows_of(BENCHMARK.path))
+    lines = [
+        "| robot | completed | on fresh seeds | speed / command | turn / command | steps after the stop | tilt [deg] |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for case in CASES:
+        mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
+        if not mine:
+            continue
+        ranges = [_range([float(r[name]) for r in mine]) for name in ("speed_ratio", "turn_ratio")]
+        most, tilt = max(int(r["steps_after_stop"]) for r in mine), max(float(r["tilt_deg"]) for r in mine)
+        lines.append(
+            f"| {case.robot} | {count(mine, False)} | {count(mine, True)} | {ranges[0]} | {ranges[1]} "
+            f"| at most {most} | at most {tilt:.2f} |"
+        )
+    write_table(FOLDER / "velocity.md", lines)
+
+
+def _range(values: list[float]) -> str:
+    return f"{median(values):.3f} ({min(values):.3f} to {max(values):.3f})"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] != ["report"]:
+        end, made = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6), commit()
+        for _, case, seed in sorted(wanted(BENCHMARK), key=lambda job: job[0]):
+            if time.monotonic() > end:
+                break
+            show(add_row(BENCHMARK, case, seed, made))
+    report()
