@@ -1,9 +1,10 @@
-"""Who may import whom: the layers of docs/architecture.md, and one place for each heavy library."""
+"""Who may import whom: the layers and rooms of docs/architecture.md, and one place for each heavy library."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,43 @@ ALLOWED = {
     "cli": {"cli", "sim", "gait", "wholebody", "shoes", "plantar"},
 }
 """What each part of the distribution may import of the distribution."""
+
+ROOMS: dict[str, tuple[str, ...]] = {
+    "plantar": (
+        *("errors", "sides", "kernels", "arguments", "arrays", "plane_points", "lazy", "atomic", "console"),
+        *(
+            "input_file",
+            "structured_text",
+            "zip_archive",
+            "xml_file",
+            "model_files",
+            "optional_library",
+            "confined",
+            "settings",
+            "mechanics",
+            "layouts",
+            "plotting",
+        ),
+        *("geometry", "sensing", "percepts", "recordings", "formats", "bench"),
+    ),
+    "gait": (
+        *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "controller"),
+        "controller_tables",
+    ),
+    "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
+    "sim": ("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "run", "sweep"),
+    "shoes": (
+        *("units", "materials", "parameters", "cad_kernel", "geometry", "foot", "fit", "plan", "solid", "build"),
+        *("checks", "papers"),
+    ),
+}
+"""The rooms of a package (folders, and files beside them) in their order: a room imports only those before it."""
+
+ALONE = {"gait.analysis"}
+"""Rooms that import no other room of their package, and that none imports."""
+
+NOT_YET = {("gait.contact.ground_map", "gait.feet.compliance_gains")}
+"""Imports that run against the order and are still there."""
 
 PLACE_OF_LIBRARY = {
     "cadquery": "shoes",
@@ -83,6 +121,102 @@ def test_every_import_keeps_the_layers():
     assert violations(ROOT) == []
 
 
+def sources(root: Path) -> Iterator[tuple[str, Path]]:
+    """Name and file of every module of the packages below a folder."""
+    for path in sorted(p for part in ALLOWED for p in (root / part).rglob("*.py")):
+        yield ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"), path
+
+
+def imports_of(module: str, path: Path) -> Iterator[tuple[int, str]]:
+    """Line and name of every module that a file imports."""
+    return imported_modules(path.read_text(encoding="utf-8"), module, path.name == "__init__.py")
+
+
+def room_of(name: str, house: str) -> str | None:
+    """The room of a module in a package; None for the package itself and for what is outside."""
+    inside = name.removeprefix(f"{house}.")
+    return inside.partition(".")[0] if inside != name else None
+
+
+def arrows_up(root: Path) -> list[str]:
+    """Every import from one room of a package into a later one, as file, line and reason."""
+    found = []
+    for module, path in sources(root):
+        for house, rooms in ROOMS.items():
+            own = room_of(module, house)
+            if own is None:
+                continue
+            where = path.relative_to(root)
+            if own not in rooms:
+                found.append(f"{where}: '{own}' of {house} has no place in ROOMS of {Path(__file__).name}")
+                continue
+            for line, name in imports_of(module, path):
+                other = room_of(name, house)
+                if other in (None, own) or {(module, name), (module, name.rpartition(".")[0])} & NOT_YET:
+                    continue
+                if other not in rooms[: rooms.index(own)] or ALONE & {f"{house}.{own}", f"{house}.{other}"}:
+                    found.append(f"{where}:{line}: {own} imports {name}, which is no earlier room of {house}")
+    return found
+
+
+def circle(root: Path) -> list[str]:
+    """Modules that import each other in a circle; empty where there is none."""
+    modules = dict(sources(root))
+    needs: dict[str, set[str]] = {}
+    for module, path in modules.items():
+        names = {name for _, name in imports_of(module, path)}
+        # `from a import b` names both a and a.b; where the latter is a module, the former is no more than its place.
+        places = {name.rpartition(".")[0] for name in names if name in modules}
+        needs[module] = {name for name in names - places if name in modules}
+    try:
+        TopologicalSorter(needs).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+def test_no_room_imports_a_later_one():
+    assert arrows_up(ROOT) == []
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    assert circle(ROOT) == []
+
+
+@pytest.mark.parametrize(("module", "name"), sorted(NOT_YET))
+def test_what_runs_against_the_order_is_still_there(module, name):
+    path = ROOT / Path(*module.split(".")).with_suffix(".py")
+    assert name in {found for _, found in imports_of(module, path)}, "gone: take it out of NOT_YET"
+
+
+@pytest.mark.parametrize(
+    ("file", "source", "reason"),
+    [
+        ("gait/plan/phases.py", "from gait.feet import swing", "plan imports gait.feet"),
+        ("gait/analysis/compare.py", "import gait.plan.phases", "analysis imports gait.plan.phases"),
+        ("gait/controller.py", "from gait.analysis.events import Contact", "controller imports gait.analysis"),
+        ("gait/analysis/steps/events.py", "from gait.analysis.pages import page", "steps imports gait.analysis.pages"),
+        ("sim/sensing/sensors.py", "def f():\n    from sim.run.scene import Scene", "sensing imports sim.run.scene"),
+        ("shoes/build.py", "from shoes.checks import check", "build imports shoes.checks"),
+        ("plantar/layouts/layout.py", "from ..percepts import feet", "layouts imports plantar.percepts"),
+        ("plantar/helpers.py", "", "'helpers' of plantar has no place"),
+    ],
+)
+def test_a_planted_arrow_up_is_found(tmp_path, file, source, reason):
+    path = tmp_path / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source)
+    assert any(reason in line for line in arrows_up(tmp_path)), arrows_up(tmp_path)
+
+
+def test_a_planted_circle_is_found(tmp_path):
+    (tmp_path / "sim").mkdir()
+    (tmp_path / "sim" / "a.py").write_text("from sim import b")
+    (tmp_path / "sim" / "b.py").write_text("def f():\n    import sim.c")
+    (tmp_path / "sim" / "c.py").write_text("from sim.a import x")
+    assert set(circle(tmp_path)) == {"sim.a", "sim.b", "sim.c"}
+
+
 def test_every_part_is_looked_at():
     parts = {p.parent.name for p in ROOT.glob("*/__init__.py")} - {"tests"}
     assert parts <= set(ALLOWED)
@@ -98,21 +232,29 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
 @pytest.mark.parametrize(
     ("file", "source", "reason"),
     [
-        ("plantar/force.py", "import gait", "plantar imports gait"),
-        ("plantar/force.py", "from sim.skin import Skin", "plantar imports sim.skin"),
-        ("plantar/formats/pedar.py", "def read():\n    import shoes.export", "plantar imports shoes.export"),
-        ("gait/lip.py", "if True:\n    from sim import world", "gait imports sim"),
-        ("gait/lip.py", "import shoes", "gait imports shoes"),
-        ("shoes/tray.py", "from gait import lip", "shoes imports gait"),
-        ("shoes/tray.py", "import sim.robots.robot as r", "shoes imports sim.robots.robot"),
-        ("sim/runner.py", "from importlib import import_module\nimport_module('shoes.tray')", "sim imports shoes.tray"),
-        ("sim/runner.py", "import cli", "sim imports cli"),
-        ("wholebody/tasks.py", "from gait import lip", "wholebody imports gait"),
-        ("sim/runner.py", "import trimesh", "trimesh is imported outside shoes"),
+        ("plantar/sensing/force.py", "import gait", "plantar imports gait"),
+        ("plantar/sensing/force.py", "from sim.sensing.skin import Skin", "plantar imports sim.sensing.skin"),
+        (
+            "plantar/formats/pedar.py",
+            "def read():\n    import shoes.papers.export",
+            "plantar imports shoes.papers.export",
+        ),
+        ("gait/plan/phases.py", "if True:\n    from sim import world", "gait imports sim"),
+        ("gait/plan/phases.py", "import shoes", "gait imports shoes"),
+        ("shoes/solid/tray.py", "from gait.plan import phases", "shoes imports gait"),
+        ("shoes/solid/tray.py", "import sim.robots.robot as r", "shoes imports sim.robots.robot"),
+        (
+            "sim/run/runner.py",
+            "from importlib import import_module\nimport_module('shoes.solid.tray')",
+            "sim imports shoes.solid.tray",
+        ),
+        ("sim/run/runner.py", "import cli", "sim imports cli"),
+        ("wholebody/tasks.py", "from gait.plan import phases", "wholebody imports gait"),
+        ("sim/run/runner.py", "import trimesh", "trimesh is imported outside shoes"),
         ("cli.py", "def shoe():\n    import cadquery as cq", "cadquery is imported outside shoes"),
-        ("gait/lip.py", "from mujoco import MjModel", "mujoco is imported outside sim"),
+        ("gait/plan/phases.py", "from mujoco import MjModel", "mujoco is imported outside sim"),
         ("gait/plot.py", "from matplotlib.figure import Figure", "matplotlib is imported outside plantar.plotting"),
-        ("sim/inverse_kinematics.py", "import mink", "mink is imported outside tests"),
+        ("sim/model/inverse_kinematics.py", "import mink", "mink is imported outside tests"),
         ("stray.py", "", "no layer"),
     ],
 )
@@ -127,9 +269,12 @@ def test_a_planted_violation_is_found(tmp_path, file, source, reason):
 @pytest.mark.parametrize(
     ("file", "source"),
     [
-        ("sim/runner.py", "import mujoco\nfrom gait import lip\nfrom plantar.layout import SoleLayout"),
+        (
+            "sim/run/runner.py",
+            "import mujoco\nfrom gait.plan import phases\nfrom plantar.layouts.layout import SoleLayout",
+        ),
         ("sim/robots/robot.py", "from ..world import World\nfrom . import biped"),
-        ("shoes/tray.py", "def build():\n    import cadquery\n    import trimesh"),
+        ("shoes/solid/tray.py", "def build():\n    import cadquery\n    import trimesh"),
         ("plantar/plotting.py", "def f():\n    from matplotlib.figure import Figure"),
         ("plantar/__init__.py", "from .force import wrench_at"),
         ("cli.py", "import shoes, sim, gait.analysis"),
