@@ -1,0 +1,113 @@
+"""A user's typed script, checked by mypy against the two ways to install Plantar."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# One line a package; the comment says what mypy has to find where there is one.
+SCRIPT = """
+import numpy as np
+
+from plantar.mechanics.lip import pendulum_frequency
+from plantar.geometry import polygon
+from plantar import Percept, Reading, SoleLayout, hex_layout, inscribed_circle
+from shoes.units import to_m
+from sim.run.scene import Scene, load_scene
+
+layout: SoleLayout = hex_layout([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]])
+percept = Percept(layout, Reading(time=0.0, force=np.zeros(len(layout))))
+area: float = percept.contact_area
+hull = polygon.convex_hull(percept.support_polygon_in_sole)
+circle = inscribed_circle(hull)
+radius: float = 0.0 if circle is None else circle.radius
+omega: float = pendulum_frequency(0.8)
+scene: Scene = load_scene("flat")
+length: float = to_m(250.0)
+"""
+WRONG = """
+import plantar.nothing  # import-not-found
+import numpy as np
+
+from plantar.mechanics.lip import pendulum_frequency
+from plantar import Percept, Reading, hex_layout, no_such_name  # attr-defined
+from shoes.units import to_m
+from sim.run.scene import load_scene
+
+layout = hex_layout([[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]])
+percept = Percept(layout, Reading(time=0.0, force="none"))  # arg-type
+area: str = percept.contact_area  # assignment
+radius = percept.inscribed_circle_in_sole.radius  # union-attr
+omega = pendulum_frequency("0.8")  # arg-type
+scene: int = load_scene("flat")  # assignment
+length = to_m("250")  # call-overload
+"""
+
+
+@pytest.fixture(scope="module")
+def editable(tmp_path_factory) -> Path:
+    """The interpreter of an environment with an editable install, as `tools/make-venv` makes one, of a copy of the
+    checkout; without Cython, so that nothing is compiled. The libraries come from this environment by a path file."""
+    folder = tmp_path_factory.mktemp("editable")
+    source = folder / "source"
+    left_out = shutil.ignore_patterns("__pycache__", "*.so", "*.pyd", "*.egg-info")
+    for part in ("plantar", "shoes", "gait", "sim"):
+        shutil.copytree(ROOT / part, source / part, ignore=left_out)
+    for name in ("cli.py", "setup.py", "pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source)
+    (folder / "blocked").mkdir()
+    (folder / "blocked" / "Cython.py").write_text("raise ImportError")
+    venv.create(folder / "venv", with_pip=False, symlinks=os.name != "nt")
+    python = folder / "venv" / ("Scripts" if os.name == "nt" else "bin") / "python"
+    here = sysconfig.get_paths(vars={"base": str(folder / "venv"), "platbase": str(folder / "venv")})["purelib"]
+    (Path(here) / "libraries.pth").write_text(sysconfig.get_paths()["purelib"] + "\n")
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV", "PLANTAR"))}
+    pip = f"-m pip --python {python} --disable-pip-version-check install --quiet --no-deps --no-index"
+    flags = "--no-build-isolation --ignore-installed --editable"
+    done = subprocess.run(
+        [sys.executable, *pip.split(), *flags.split(), str(source)],
+        env=environment | {"PYTHONPATH": str(folder / "blocked")},
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return python
+
+
+def checked(python: Path, script: str, folder: Path) -> dict[int, str]:
+    """What mypy finds in a script of a user, strictly: the code of the error on each line. No cache is kept and no
+    configuration read."""
+    (folder / "script.py").write_text(script)
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "MYPY"))}
+    flags = "--strict --config-file= --cache-dir=/dev/null --no-color-output --python-executable"
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", *flags.split(), str(python), "script.py"],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode in (0, 1), done.stderr
+    return {
+        int(line): code for line, code in re.findall(r"^script\.py:(\d+): error: .*\[([a-z-]+)\]$", done.stdout, re.M)
+    }
+
+
+def expected(script: str) -> dict[int, str]:
+    return {i: m[1] for i, line in enumerate(script.splitlines(), 1) if (m := re.search(r"  # ([a-z-]+)$", line))}
+
+
+def test_a_right_script_passes_and_every_wrong_line_is_found(editable, tmp_path):
+    assert checked(editable, SCRIPT, tmp_path) == {}
+    assert checked(editable, WRONG, tmp_path) == expected(WRONG)
