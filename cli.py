@@ -4,30 +4,49 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
-from collections.abc import Callable, Iterator
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
+from plantar import __version__
 from plantar.atomic import write_text
-from plantar.errors import DependencyError, InputError, PlantarError, RobotError
+from plantar.console import BAD_INPUT, Terminated, run
+from plantar.errors import InputError, RobotError
+
+if TYPE_CHECKING:
+    from plantar.settings.schema import Setting
 
 app = typer.Typer(
     name="plantar",
-    help="Plantar skin and gait: build a tactile shoe, walk a robot on plantar feedback, analyse recordings.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
 
+_SIM = ("mujoco", "scipy", "daqp")
+"""What every module of the simulator imports of its extra."""
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"plantar {__version__}")
+        raise typer.Exit
+
 
 @app.callback()
-def _commands() -> None:
-    """Keeps `plantar <command>` a command of its own even where there is only one."""
+def _commands(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Plantar skin and gait: build a tactile shoe, walk a robot on plantar feedback, analyse recordings."""
 
 
 @app.command()
@@ -185,9 +204,9 @@ def _foot_of_file(
     """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
     from dataclasses import replace
 
-    from shoes.foot_mesh import foot_from_mesh, foot_from_triangles
-    from shoes.outline_file import OUTLINE_FORMATS, foot_from_drawing
-    from shoes.robot_model import MODEL_FORMATS, read_foot_body
+    from shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
+    from shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
+    from shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
 
     kind = path.suffix.lower()
     if kind in OUTLINE_FORMATS:
@@ -209,9 +228,9 @@ def _foot_of_file(
 
 def _robot_foot(name: str) -> tuple[Any, int | None]:
     """The left foot of a built-in robot and the number of taxels its robot file asks for."""
-    import tomllib
     from importlib.util import find_spec
 
+    from plantar.structured_text import read_toml
     from shoes import foot_from_dimensions
 
     spec = find_spec("sim")
@@ -220,7 +239,7 @@ def _robot_foot(name: str) -> tuple[Any, int | None]:
     if name not in files:
         raise InputError(f"unknown robot '{name}'; allowed: {', '.join(sorted(files))}")
     try:
-        source = tomllib.loads(files[name].read_text(encoding="utf-8"))
+        source = read_toml(files[name], RobotError, f"robot file {files[name]}")
         facts = source["foot"]
         shape = foot_from_dimensions(
             name,
@@ -231,7 +250,7 @@ def _robot_foot(name: str) -> tuple[Any, int | None]:
             mass=_robot_mass(source),
         )
         taxels = facts.get("taxels")
-    except (OSError, ValueError, LookupError, TypeError) as error:
+    except (ValueError, LookupError, TypeError) as error:
         raise RobotError(f"{files[name]}: table [foot] cannot be used ({error!r})") from None
     return shape, None if taxels is None else int(taxels)
 
@@ -377,31 +396,34 @@ def sim(
 
     Example: plantar sim push --seed 3 --set feedback=false --json
     """
-    from tempfile import TemporaryDirectory
-
     if seed < 0:
         raise InputError(f"--seed is {seed}; allowed: 0 or more")
     if record is not None and record.suffix != ".mcap":
         raise InputError(f"--record {record} needs a name that ends in .mcap")
+    if video is not None and video.suffix != ".mp4":
+        raise InputError(f"--video {video} needs a name that ends in .mp4")
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
-    _need("mujoco", "sim")
-    from plantar.atomic import output_folder
-    from sim.figures import plot_run
-    from sim.runner import run_scene
-    from sim.scene import load_scene
+    _need("sim", *_SIM)
+    from plantar.atomic import output_folder, parent_folder
+    from sim.figures.run_figure import plot_run
+    from sim.run.runner import run_scene
+    from sim.run.scene import load_scene
 
     loaded = load_scene(scene, settings or [], robot)
     with ExitStack() as stack:
         folder = None if plot is None else stack.enter_context(output_folder(plot))
-        kept = record
-        if kept is None and folder is not None:
-            kept = Path(stack.enter_context(TemporaryDirectory())) / "run.mcap"
+        for file in (record, video):
+            if file is not None:
+                stack.enter_context(parent_folder(file))
+        kept = folder / "run.mcap" if record is None and folder is not None else record
         with _progress() as tell:
             summary = run_scene(loaded, seed, record=kept, video=video, progress=tell)
         if folder is not None and kept is not None:
             figures = [str(cast(Path, plot) / f.name) for f in plot_run(kept, folder)]
             summary["figures"] = figures
+            if record is None:
+                kept.unlink()
     if as_json:
         print(json.dumps(summary))
     else:
@@ -417,6 +439,8 @@ def _print_run(summary: dict[str, Any]) -> None:
         f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']} of "
         f"{summary['steps_planned']} steps in {summary['sim_time_s']:.1f} s"
     )
+    for reason in summary["reasons"]:
+        print(f"  not completed, {reason['criterion'].replace('_', ' ')}: {reason['text']}")
     margin = summary["zmp_margin_min_m"]
     print(
         f"  largest tilt {summary['tilt_max_deg']:.2f} deg, smallest true ZMP margin "
@@ -427,9 +451,22 @@ def _print_run(summary: dict[str, Any]) -> None:
         print(f"  landing impact: median {impacts[len(impacts) // 2]:.0f} N, largest {impacts[-1]:.0f} N")
     final = summary["final"]
     print(
-        f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan; "
+        f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan, "
+        f"tilted by {final['tilt_deg']:.2f} deg, CoM at {final['height_m']:.3f} m; "
         f"estimated CoM off by at most {1e3 * max(summary['estimate']['com_error_max_m']):.1f} mm"
     )
+    held = summary["torque_limit"]
+    most = sorted(held["joints"].items(), key=lambda joint: -joint[1])[:3]
+    joints = ", ".join(f"{name} {100 * share:.1f} %" for name, share in most)
+    print(
+        f"  a standing foot slipped by at most {1e3 * summary['slip_max_m']:.1f} mm; joints at their torque limit in "
+        f"{100 * held['share_of_ticks']:.1f} % of the ticks{f' ({joints})' if joints else ''}"
+    )
+    speed = summary["joint_speed"]
+    if speed is None:
+        print("  joint speeds are not limited: the robot's file gives no [servo] velocity_limits")
+    else:
+        print(f"  fastest joint: {speed['joint']}, {speed['share_of_limit']:.2f} of its speed limit")
     late = summary["out_of_reach_since_s"]
     if late is not None:
         print(
@@ -463,7 +500,10 @@ def sweep(
     grid: Annotated[
         list[str] | None, typer.Option(metavar="KEY=A,B,C", help="Values to try of one setting; repeatable.")
     ] = None,
-    seeds: Annotated[int, typer.Option(help="Seeds of each grid point, from 0.")] = 1,
+    seeds: Annotated[int, typer.Option(help="Seeds of each grid point.")] = 1,
+    first_seed: Annotated[
+        int, typer.Option(help="The first of them; for figures on seeds that nothing was tuned on.")
+    ] = 0,
     robot: Annotated[str | None, typer.Option(help="Robot to use instead of the scene's.")] = None,
     settings: Annotated[
         list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="A setting of all runs; repeatable.")
@@ -475,27 +515,49 @@ def sweep(
 ) -> None:
     """Run a scene over a grid of settings and seeds, and count what was completed.
 
-    Writes results.csv (a row a run, as it ends) and a figure. A sweep that was stopped goes on where it was when the
-    same command is given again.
+    Writes results.csv (a row a run, as it ends) and a figure. A sweep that was stopped, by Ctrl-C or because its
+    workers went away (exit code 1), goes on where it was when the same command is given again; seeds and values of the
+    grid may be added.
 
     Example: plantar sweep push --grid impulse=20,30 --grid feedback=true,false --seeds 20 -o out/push
-    """
-    _need("mujoco", "sim")
-    from sim.sweep import Sweep, run_sweep
 
-    wanted = Sweep.from_texts(scene, grid or [], seeds, robot, settings or [])
-    with _progress() as tell:
-        result = run_sweep(wanted, output, workers=workers or os.cpu_count() or 1, scheduler=scheduler, progress=tell)
+    Example: plantar sweep stones --seeds 10 --first-seed 1000 -o out/stones
+    """
+    os.environ.setdefault(
+        "MUJOCO_GL", "disable"
+    )  # MuJoCo starts a process to look for a display; nothing is drawn here
+    _need("sim", *_SIM)
+    from sim.sweep import Sweep, SweepStopped, run_sweep
+
+    wanted = Sweep.from_texts(scene, grid or [], seeds, robot, settings or [], first_seed)
+    try:
+        with _progress() as tell, _no_second_interrupt():
+            count = workers or os.cpu_count() or 1
+            result = run_sweep(wanted, output, workers=count, scheduler=scheduler, progress=tell)
+    except SweepStopped as stop:
+        raise Terminated(stop.number, str(stop)) from None
     if as_json:
         print(json.dumps(result))
         return
     for point in result["points"]:
         name = " ".join(f"{k}={v}" for k, v in point["settings"].items()) or scene
-        print(f"{name}: {point['completed']} of {point['runs']} completed")
+        why = ", ".join(f"{criterion.replace('_', ' ')} {count}" for criterion, count in point["reasons"].items())
+        print(f"{name}: {point['completed']} of {point['runs']} completed{f'; failed by: {why}' if why else ''}")
         for error in dict.fromkeys(point["errors"]):
             print(f"plantar: {name}: {point['errors'].count(error)} run(s) could not be: {error}", file=sys.stderr)
     for name in result["files"]:
         print(f"  {name}")
+
+
+@contextmanager
+def _no_second_interrupt() -> Iterator[None]:
+    """Ignore further signals after the one that stopped something: its line is still to be printed."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        raise
 
 
 @app.command()
@@ -511,15 +573,14 @@ def demo(
 
     Example: plantar demo -o out
     """
-    _need("cadquery", "shoes")
-    _need("mujoco", "sim")
+    _need("sim", *_SIM)
     from gait.analysis.analyse import analyse_recording
     from plantar.atomic import output_folder
-    from plantar.layout_file import read_layout
+    from plantar.layouts.layout_file import read_layout
     from shoes import ShoeParameters, build_shoe, export_shoe
-    from sim.figures import plot_run
-    from sim.runner import run_scene
-    from sim.scene import load_scene
+    from sim.figures.run_figure import plot_run
+    from sim.run.runner import run_scene
+    from sim.run.scene import load_scene
 
     with output_folder(output) as folder, _progress() as tell:
         for name in ("shoe", "walk", "analysis"):
@@ -569,23 +630,41 @@ def demo(
         raise typer.Exit(1)
 
 
-def _need(library: str, extra: str) -> None:
-    """Raise a clear error where an optional library is missing."""
-    from importlib.util import find_spec
+def _need(extra: str, *libraries: str) -> None:
+    """Raise a clear error where an optional library is missing or cannot be loaded."""
+    from importlib import import_module
 
-    if find_spec(library) is None:
-        raise DependencyError(library, extra)
+    from plantar.optional_library import optional_library
+
+    for library in libraries:
+        with optional_library(library, extra):
+            import_module(library)
 
 
 @app.command(name="list")
 def list_(
-    what: Annotated[str, typer.Argument(help="robots, scenes or formats.")],
+    what: Annotated[str, typer.Argument(help="robots, scenes, formats or settings.")],
+    name: Annotated[
+        str | None, typer.Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain.")
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")] = False,
 ) -> None:
-    """List what there is: robots to walk, scenes to run, recording formats to analyse.
+    """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
+
+    Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name.
 
     Example: plantar list formats
+
+    Example: plantar list settings estimator
     """
+    if name is not None and what != "settings":
+        raise InputError(f"'list {what}' takes no name, got '{name}'; allowed: plantar list settings NAME")
+    if what == "settings":
+        _need("mujoco", "sim")
+        from sim.run.setting_list import settings_listed
+
+        _print_settings(settings_listed(name), as_json)
+        return
     if what == "formats":
         from plantar.formats import formats
 
@@ -595,7 +674,7 @@ def list_(
     elif what == "scenes":
         found = _described("scenes/*.toml", lambda path: path.stem)
     else:
-        raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats")
+        raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats, settings")
     if as_json:
         print(json.dumps({what: [{"name": name, "description": text} for name, text in found.items()]}))
         return
@@ -604,18 +683,31 @@ def list_(
         print(f"{name:{width}}  {text}".rstrip())
 
 
+def _print_settings(found: Mapping[str, Setting], as_json: bool) -> None:
+    """Print settings, a line each and what they mean below, or as one JSON object."""
+    if as_json:
+        print(json.dumps({"settings": [{**told._asdict(), "name": full} for full, told in found.items()]}))
+        return
+    for full, told in found.items():
+        unit = f" {told.unit}" if told.unit not in ("", "1") else ""
+        print(f"{full} = {told.default}{unit}  ({told.allowed})")
+        for line in textwrap.wrap(told.meaning, 100):
+            print(f"    {line}")
+
+
 def _described(pattern: str, name: Callable[[Path], str]) -> dict[str, str]:
     """Names of the simulator's TOML files and the "title" or "description" each gives; the simulator is not loaded."""
-    import tomllib
     from importlib.util import find_spec
+
+    from plantar.structured_text import read_toml
 
     spec = find_spec("sim")
     found: dict[str, str] = {}
     for folder in (spec.submodule_search_locations or []) if spec else []:
         for path in sorted(Path(folder).glob(pattern)):
             try:
-                facts = tomllib.loads(path.read_text(encoding="utf-8"))
-            except (OSError, ValueError):
+                facts = read_toml(path, InputError, f"file {path}")
+            except InputError:
                 facts = {}
             text = next((str(facts[k]) for k in ("title", "description", "about") if k in facts), "")
             found[name(path)] = text.strip().split("\n")[0]
@@ -687,8 +779,7 @@ def _bench_kernels(folder: Path, tell: Callable[[float, str], None]) -> dict[str
     """Compare the perception's kernels with other routes; gives results, targets and the names of the files."""
     from plantar.bench.report import compare_kernels, targets, write_kernel_report
 
-    _need("scipy", "sim")
-    _need("cv2", "sim")
+    _need("sim", "scipy", "cv2")
     results = compare_kernels(progress=tell)
     return {
         "results": [r.as_dict() for r in results],
@@ -717,7 +808,7 @@ def _print_kernels(result: dict[str, Any]) -> None:
 
 def _bench_stress(readings: int, seed: int, as_json: bool) -> None:
     """Run the stress run, print what it saw, and exit with 1 if something failed."""
-    from plantar.bench.stress import stress
+    from plantar.bench.stress.stress_run import stress
 
     with _progress() as tell:
         result = stress(readings, seed, progress=tell)
@@ -738,6 +829,7 @@ def _bench_stress(readings: int, seed: int, as_json: bool) -> None:
 
 def _bench_contact(folder: Path, layout: Path | None, tell: Callable[[float, str], None]) -> dict[str, Any]:
     """Compare contact models; gives the rows, the parameters and the names of the files."""
+    _need("sim", *_SIM)
     from plantar import hex_layout, read_layout
     from sim.contact_models import compare_contact_models, holds, study_contact_parameters, write_contact_report
 
@@ -780,13 +872,30 @@ def _progress() -> Iterator[Callable[[float, str], None]]:
         yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
 
 
+def _run_app() -> int:
+    """Run the command that the arguments name; a wrong argument is an error of one line."""
+    usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no name of its own
+    command = typer.main.get_command(app)
+    try:  # typer's own way to run it would print several lines, and end with 1 where nobody reads stdout
+        with command.make_context("plantar", sys.argv[1:]) as context:
+            command.invoke(context)
+        return 0
+    except typer.Exit as end:
+        return int(end.exit_code)
+    except typer.Abort:
+        raise KeyboardInterrupt from None
+    except usage_error as error:
+        text = cast(Any, error).format_message()
+        if "\n" in text:  # `plantar` alone: the help
+            print(text, file=sys.stderr)
+            return BAD_INPUT
+        place = getattr(getattr(error, "ctx", None), "command_path", "plantar")
+        raise InputError(f"{text.rstrip('.')}; see {place} --help") from None
+
+
 def main() -> None:
-    """Entry point of the console script: errors become one line and exit code 2."""
-    try:
-        app()
-    except PlantarError as error:
-        print(f"plantar: {error}", file=sys.stderr)
-        sys.exit(2)
+    """Entry point of the console script."""
+    sys.exit(run(_run_app))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
+import signal
+import time
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +16,46 @@ from hypothesis import settings
 
 from plantar import SoleLayout, hex_layout
 
+# Started in the background of a shell, Ctrl-C is ignored, here and in all that is started from here; tests send it.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
 # A slow or busy machine is no failure, and the same examples come each time. To search for new ones:
 # pytest --hypothesis-profile=search
 settings.register_profile("same", deadline=None, max_examples=100, derandomize=True)
 settings.register_profile("search", deadline=None, max_examples=2000, print_blob=True)
 settings.load_profile("same")
+
+
+@pytest.fixture
+def within() -> Callable[..., AbstractContextManager[None]]:
+    """A limit of memory and time: `with within(megabytes=300, seconds=5.0): ...`.
+
+    The memory is what the process comes to hold beyond what it held before; the time is the processor's. Whoever asks
+    for gigabytes gets a MemoryError.
+    """
+    if not Path("/proc/self/clear_refs").exists():
+        pytest.skip("the memory that a process has held is known on Linux only")
+    import resource
+
+    def held(what: str) -> float:
+        status = Path("/proc/self/status").read_text()
+        return float(re.search(rf"{what}:\s*(\d+) kB", status)[1]) / 1e3  # type: ignore[index]
+
+    @contextmanager
+    def limit(megabytes: float = 400.0, seconds: float = 5.0) -> Iterator[None]:
+        Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
+        before, start = held("VmRSS"), time.process_time()
+        soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (int((held("VmSize") + 4000) * 1e6), hard))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+        assert time.process_time() - start < seconds
+        assert held("VmHWM") - before < megabytes
+
+    return limit
 
 
 @pytest.fixture(scope="session")

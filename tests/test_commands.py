@@ -71,6 +71,19 @@ def test_bad_input_is_one_line_exit_2_and_nothing_left(
     assert list(tmp_path.iterdir()) == []
 
 
+def test_the_folders_of_a_runs_files_are_made(tmp_path: Path) -> None:
+    run = plantar("sim", "flat", *SHORT, "--record", "a/b/run.mcap", "--plot", "c/d", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    assert (tmp_path / "a" / "b" / "run.mcap").stat().st_size > 0
+    assert "run.mcap" not in [p.name for p in (tmp_path / "c" / "d").iterdir()]
+
+
+def test_a_run_that_does_not_begin_leaves_no_folder(tmp_path: Path) -> None:
+    run = plantar("sim", "flat", "--robot", "r2d2", "--record", "a/run.mcap", "--plot", "b", cwd=tmp_path)
+    assert run.returncode == 2
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.long
 def test_demo_makes_all_three_and_names_them(tmp_path: Path) -> None:
     run = plantar("demo", "-o", "out", "--json", cwd=tmp_path)
@@ -80,4 +93,4 @@ def test_demo_makes_all_three_and_names_them(tmp_path: Path) -> None:
     files = {str(Path(f).relative_to("out")) for f in made["files"]}
     assert {"shoe/shoe_left.stl", "walk/run.mcap", "analysis/report.html"} <= files
     assert all((tmp_path / "out" / f).stat().st_size > 0 for f in files)
-    assert made["analysis"]["feet"]["left"]["steps"] == 9
+    assert made["analysis"]["feet"]["left"]["steps"] == 24
