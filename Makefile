@@ -5,7 +5,8 @@ PYTHON_IN_VENV := $(VENV)/bin/python
 PLANTAR := $(VENV)/bin/plantar
 INSTALLED := $(VENV)/.installed
 OUT ?= out
-PYTEST_OPTIONS ?=
+# All cores; a file stays on one of them, since some of its tests share what is slow to make.
+PYTEST_OPTIONS ?= -n logical --dist loadfile
 
 .DEFAULT_GOAL := help
 KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*.pxd)
