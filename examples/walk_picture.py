@@ -15,10 +15,10 @@ import numpy as np
 
 from plantar import Percept, Reading
 from plantar.plotting import COLOURS, new_figure, save_figure
-from plantar.recording import read_mcap
-from sim.render import Camera
-from sim.runner import Simulation
-from sim.scene import load_scene
+from plantar.recordings.recording import read_mcap
+from sim.figures.render import Camera, View
+from sim.run.runner import Simulation
+from sim.run.scene import load_scene
 
 SCENES = {  # settings, seed, moment in s at which both feet are loaded, viewing direction
     "flat": (["steps=8"], 0, 6.88, 140.0),
@@ -30,7 +30,7 @@ def main(path: str, scene: str = "flat") -> None:
     """Walk, stop the clock at one moment, and draw."""
     settings, seed, moment, azimuth = SCENES[scene]
     simulation = Simulation(load_scene(scene, settings), seed=seed)
-    camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, distance=2.9, azimuth=azimuth)
+    camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, View(distance=2.9, azimuth=azimuth))
     pictures = []
     look = simulation.judge.look
 
@@ -95,7 +95,7 @@ def main(path: str, scene: str = "flat") -> None:
             ring = row.reshape(-1, 2)[np.isfinite(row.reshape(-1, 2)).all(axis=1)]
             plane.fill(*ring[:, turn].T, color=COLOURS["edge"], alpha=0.04, lw=0.0)
             if n == 0:
-                plane.fill([], [], color=COLOURS["edge"], alpha=0.4, label="support felt")
+                plane.fill([], [], color=COLOURS["edge"], alpha=0.4, label="support found")
     low, high = com[:, turn].min(axis=0) - 0.25, com[:, turn].max(axis=0) + 0.25
     plane.set_xlim(low[0], high[0])
     plane.set_ylim(*((low[1], high[1]) if turn == [0, 1] else (high[1], low[1])))
