@@ -60,7 +60,7 @@ def confined(
                 [sys.executable, "-P", "-c", _CODE, *arguments],
                 capture_output=True,
                 stdin=subprocess.DEVNULL,
-                env={**os.environ, **threads, "TMPDIR": folder},
+                env=_environment(folder),
                 timeout=2.0 * seconds + 10.0,
                 check=False,
             )
