@@ -5,10 +5,12 @@ closes the feet, so that the plan always ends at rest. Of steps of duration T, w
 
     forward      each step leads the other foot by v_x T;
     sideways     the foot on that side opens by 2 v_y T, and the other one closes up to it;
-    turning      the foot on that side turns out by 2 w_z T about the middle between the feet, and stands so much wider
-                 that its heel keeps its distance; the other one follows,
+    turning      each step turns its foot by w_z T against the other one, about the middle between the feet, and stands
+                 so much wider that heels, or toes where the feet turn in, keep their distance; what the foot that turns
+                 in may not do (`Stride.turn_in`) the other one does, too,
 
-so that no foot comes nearer to the other one than they stand at rest: legs do not cross, and toes do not turn in.
+so that legs do not cross. The heading is the mean of the feet's: it follows a command by half a step whichever foot is
+next, where a foot that only turns out would leave it by a whole step every other time.
 """
 
 from __future__ import annotations
@@ -92,11 +94,13 @@ class Stride(Settings):
         lead: By how much a foot leads the other one, as a share of the CoM's height.
         opening: By how much a foot opens to its side, as a share of the CoM's height.
         turn: Angle by which a foot turns out against the other one, which the two hips share.
+        turn_in: Angle by which a foot turns in against the other one.
     """
 
     lead: float = number(0.25, "1", 0.01, 0.6)
     opening: float = number(0.22, "1", 0.01, 0.6)
     turn: float = number(0.5, "rad", 0.01, 1.2)
+    turn_in: float = number(0.2, "rad", 0, 0.5)
 
 
 @dataclass(frozen=True)
@@ -106,25 +110,29 @@ class Legs:
     Attributes:
         width: Distance of the sole frames' origins when the feet stand side by side.
         com_height: Height of the CoM.
-        heel: How far the sole reaches behind its frame's origin, and from there to its inner edge.
+        heel: How far the sole reaches behind its frame's origin.
+        toe: How far it reaches ahead of it.
+        inner: How far it reaches from there to its inner edge.
     """
 
     width: float
     com_height: float
-    heel: tuple[float, float] = (0.1, 0.07)
+    heel: float = 0.1
+    toe: float = 0.14
+    inner: float = 0.07
 
-    def room(self, turn: float) -> float:
-        """How much wider a foot has to stand that is turned out by an angle in rad, for its heel to keep the distance
-        from the middle between the feet that its inner edge has at rest.
+    def room(self, out: float) -> float:
+        """How much wider a foot has to stand that is turned out, or in, by an angle in rad, for its heel or toe to keep
+        the distance from the middle between the feet that its inner edge has at rest.
 
         Example:
-            >>> legs = Legs(0.17, 0.8, (0.09, 0.06))
-            >>> legs.room(0.0), round(legs.room(0.3), 4)
-            (0.0, 0.029)
+            >>> legs = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
+            >>> legs.room(0.0), round(legs.room(0.3), 4), round(legs.room(-0.3), 4)
+            (0.0, 0.029, 0.0414)
         """
-        rear, inner = self.heel
-        gap = 0.5 * self.width - inner
-        return (gap + rear * math.sin(abs(turn))) / math.cos(turn) - gap
+        reach = self.heel if out > 0.0 else self.toe
+        gap = 0.5 * self.width - self.inner
+        return (gap + reach * math.sin(abs(out))) / math.cos(out) - gap
 
 
 def next_step(
@@ -161,12 +169,15 @@ def next_step(
 
     ahead = within(velocity.forward * duration, stride.lead * legs.com_height)
     across = opening(2.0 * velocity.left * duration, stride.opening * legs.com_height)
-    turn = opening(2.0 * velocity.turn * duration, stride.turn)
+    turned_in = within(velocity.turn * duration, stride.turn_in)
+    turn = turned_in
+    if velocity.turn * outward > 0.0:
+        turn = within(2.0 * velocity.turn * duration - turned_in, stride.turn)
     # The middle between the feet, as the stance foot has it, moves along the mean heading; the foot stands off it.
-    before = math.remainder(stance.yaw - other.yaw, 2.0 * math.pi)
-    x, y = _moved(stance.x, stance.y, stance.yaw, 0.0, outward * (half + legs.room(before)))
+    before = math.remainder(other.yaw - stance.yaw, 2.0 * math.pi)
+    x, y = _moved(stance.x, stance.y, stance.yaw, 0.0, outward * (half + legs.room(outward * before)))
     x, y = _moved(x, y, stance.yaw + 0.5 * turn, ahead, across)
-    x, y = _moved(x, y, stance.yaw + turn, 0.0, outward * (half + legs.room(turn)))
+    x, y = _moved(x, y, stance.yaw + turn, 0.0, outward * (half + legs.room(outward * turn)))
     return Footstep(other.side, x, y, stance.yaw + turn, stance.z)
 
 

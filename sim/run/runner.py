@@ -127,8 +127,9 @@ class Simulation:
         if self.velocities is None:
             return ()
         width = self.scene.walk.stance_width or self.robot.stance_width
-        rear, inner = (-self.robot.layouts["left"].outline.min(axis=0)).tolist()
-        return (VelocityCommand(self.velocities, Legs(width, self.settings.com_height, (rear, inner))),)
+        outline = self.robot.layouts["left"].outline
+        (rear, inner), toe = (-outline.min(axis=0)).tolist(), float(outline[:, 0].max())
+        return (VelocityCommand(self.velocities, Legs(width, self.settings.com_height, rear, toe, inner)),)
 
     @property
     def end(self) -> float:

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from shapely import Polygon
 
 from gait.plan.footsteps import Footstep, straight_plan
 from gait.plan.phases import PhaseKind, Timing
@@ -27,7 +28,7 @@ from gait.propose.velocity_command import (
 from plantar.errors import InputError
 
 NOWHERE = np.empty((0, 2))
-LEGS = Legs(0.17, 0.8, (0.09, 0.06))
+LEGS = Legs(0.17, 0.8, heel=0.09, toe=0.13, inner=0.06)
 T = 1.2  # s from step to step of the default timing
 
 
@@ -76,14 +77,30 @@ def test_sideways_the_foot_on_that_side_opens_and_the_other_one_closes(
 def test_turning_on_the_spot_goes_round_the_middle_between_the_feet(tick_at: Callable[..., Tick], turn: float) -> None:
     _, steps = walked(command([1.0, 0.0, 0.0, turn]), tick_at, 60.0)
     assert steps[20].yaw - steps[0].yaw == pytest.approx(20 * turn * T)
-    closed = [(a, b) for a, b in pairwise(steps) if a.yaw == b.yaw]
-    assert len(closed) > 10
-    middles = np.array([[0.5 * (a.x + b.x), 0.5 * (a.y + b.y)] for a, b in closed])
-    assert np.hypot(*middles.T).max() <= 0.5 * LEGS.room(2.0 * turn * T) + 1e-9  # the one foot stands that much wider
+    turns = [math.copysign(1.0, turn) * math.remainder(b.yaw - a.yaw, 2.0 * math.pi) for a, b in pairwise(steps[:20])]
+    assert turns == pytest.approx([abs(turn) * T] * 19)  # one foot out, the other one in by as much
+    middles = np.array([[0.5 * (a.x + b.x), 0.5 * (a.y + b.y)] for a, b in pairwise(steps)])
+    rooms = [LEGS.room(turn * T), LEGS.room(-turn * T)]
+    assert np.hypot(*middles.T).max() <= sum(rooms) + 0.5 * LEGS.width * (1.0 - math.cos(turn * T)) + 1e-9
+
+
+def test_a_fast_turn_is_left_to_the_foot_that_turns_out(tick_at: Callable[..., Tick]) -> None:
+    _, steps = walked(command([1.0, 0.0, 0.0, 0.25]), tick_at, 30.0)
+    turns = {a.side: math.remainder(a.yaw - b.yaw, 2.0 * math.pi) for b, a in pairwise(steps[:12])}
+    assert turns == pytest.approx({"right": Stride().turn_in, "left": 2.0 * 0.25 * T - Stride().turn_in})
+
+
+def test_a_turn_begins_with_the_next_step_whichever_foot_it_is(tick_at: Callable[..., Tick]) -> None:
+    """Heading, as the mean of the feet's: half a step behind the command, by either foot."""
+    for begin in (4.0, 4.0 + T):
+        _, steps = walked(command([1.0, 0.0, 0.0, 0.0], [begin, 0.0, 0.0, 0.1]), tick_at, 20.0)
+        k = next(i for i, step in enumerate(steps) if step.yaw != 0.0)
+        heading = [0.5 * (a.yaw + b.yaw) for a, b in pairwise(steps)]
+        assert np.diff(heading[k - 2 : k + 3]) == pytest.approx([0.05 * T, *[0.1 * T] * 3])
 
 
 def test_feet_never_come_nearer_than_at_rest_whatever_is_commanded(tick_at: Callable[..., Tick]) -> None:
-    """Soles as rectangles: their distance across the mean heading, heels and toes."""
+    """Soles as rectangles, from one step to the next: their distance, heels and toes."""
     rng = np.random.default_rng(3)
     rows = [[1.0 + 3.0 * k, *rng.uniform([-0.3, -0.2, -0.6], [0.3, 0.2, 0.6]).tolist()] for k in range(40)]
     _, steps = walked(command(*rows), tick_at, 120.0)
@@ -91,13 +108,12 @@ def test_feet_never_come_nearer_than_at_rest_whatever_is_commanded(tick_at: Call
     for a, b in pairwise(steps):
         left, right = (a, b) if a.side == "left" else (b, a)
         here, there = (
-            (f.rotation_sole_to_world[:2, :2] @ (corners * [1.0, s]).T).T + f.position[:2]
+            Polygon((f.rotation_sole_to_world[:2, :2] @ (corners * [1.0, s]).T).T + f.position[:2])
             for f, s in ((left, 1.0), (right, -1.0))
         )
-        across = (b if b.side != a.side and abs(b.yaw) < abs(a.yaw) else a).rotation_sole_to_world[:2, 1]
-        assert (here @ across).min() - (there @ across).max() > 0.0
-        assert abs(math.remainder(left.yaw - right.yaw, 2 * math.pi)) <= Stride().turn + 1e-9
-        assert left.yaw >= right.yaw - 1e-9  # toes never turn in
+        assert here.distance(there) >= LEGS.width - 2.0 * LEGS.inner - 2e-3
+        apart = math.remainder(left.yaw - right.yaw, 2.0 * math.pi)
+        assert -Stride().turn_in - 1e-9 <= apart <= Stride().turn + 1e-9
 
 
 def test_a_command_that_asks_for_too_much_is_walked_slower() -> None:
