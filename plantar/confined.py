@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.console import one_line
+from plantar.console.ending import one_line
 from plantar.errors import PlantarError
 
 __all__ = ["confined"]

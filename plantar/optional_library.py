@@ -6,11 +6,12 @@ import signal
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from types import FrameType
 
 from plantar.errors import DependencyError
 
-__all__ = ["optional_library"]
+__all__ = ["need_libraries", "optional_library"]
 
 _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
@@ -47,6 +48,26 @@ def optional_library(library: str, extra: str) -> Iterator[None]:
             raise DependencyError(library, extra, reason) from None
         except Exception as error:  # while loading, a library that is broken raises whatever it meets
             raise DependencyError(library, extra, f"{type(error).__name__}: {error}") from None
+
+
+def need_libraries(extra: str, *libraries: str) -> None:
+    """Refuse to go on where an optional library is missing or cannot be loaded.
+
+    Args:
+        extra: Name of the Plantar extra that brings them.
+        libraries: Names of the modules as they are imported.
+
+    Raises:
+        DependencyError: If one is not installed or cannot be loaded.
+
+    Example:
+        >>> need_libraries("sim", "json", "no_such_library")
+        Traceback (most recent call last):
+        plantar.errors.DependencyError: no_such_library is not installed; install it with: pip install 'plantar[sim]'
+    """
+    for library in libraries:
+        with optional_library(library, extra):
+            import_module(library)
 
 
 @contextmanager

@@ -6,12 +6,15 @@ import json
 import os
 import re
 import tomllib
+from collections.abc import Iterable
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
-from plantar.errors import PlantarError
+from plantar.errors import InputError, PlantarError
 from plantar.input_file import read_input
 
-__all__ = ["JSON_MOST", "TOML_MOST", "parse_toml", "read_json", "read_toml"]
+__all__ = ["JSON_MOST", "TOML_MOST", "described_files", "packaged_files", "parse_toml", "read_json", "read_toml"]
 
 TOML_MOST = 250_000
 """Largest TOML file in bytes."""
@@ -114,6 +117,51 @@ def read_json(path: str | os.PathLike[str], error: type[PlantarError], where: st
         raise error(f"{where} is not {kind} (nested too deep)") from None
     except ValueError as problem:
         raise error(f"{where} is not {kind} ({problem})") from None
+
+
+def packaged_files(package: str, pattern: str) -> list[Path]:
+    """Data files that lie in a package, which is not loaded: another one may read a robot's file without MuJoCo.
+
+    Args:
+        package: Name of the package; where it is not installed, there are none.
+        pattern: Which files, with wildcards, below its folder.
+
+    Returns:
+        Their paths, sorted.
+
+    Example:
+        >>> [path.name for path in packaged_files("sim", "scenes/beam*.toml")]
+        ['beam-forward.toml', 'beam-yaw.toml', 'beam.toml']
+        >>> packaged_files("no_such_package", "*")
+        []
+    """
+    spec = find_spec(package)
+    folders = (spec.submodule_search_locations or []) if spec else []
+    return [path for folder in folders for path in sorted(Path(folder).glob(pattern))]
+
+
+def described_files(paths: Iterable[Path]) -> dict[Path, str]:
+    """The first line of the "title" or "description" that each TOML file gives.
+
+    Args:
+        paths: The files.
+
+    Returns:
+        The lines by path; empty where a file gives none or cannot be read.
+
+    Example:
+        >>> [*described_files(packaged_files("sim", "scenes/beam.toml")).values()][0][:14]
+        '50 side steps '
+    """
+    found = {}
+    for path in paths:
+        try:
+            facts = read_toml(path, InputError, f"file {path}")
+        except InputError:
+            facts = {}
+        text = next((str(facts[k]) for k in ("title", "description", "about") if k in facts), "")
+        found[path] = text.strip().split("\n")[0]
+    return found
 
 
 def _text(data: bytes) -> str:

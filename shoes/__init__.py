@@ -2,16 +2,25 @@
 
 A `Foot` is read from a mesh or given by its dimensions; `build_shoe` fits the taxels and builds the solid;
 `export_shoe` writes the files and checks what it wrote. Lengths inside this package are in mm; the layout is in m.
+
+The names below are loaded at first use (PEP 562), so that the command line's help, which needs only `shoes.order`, does
+not load numpy and shapely.
 """
 
-from shoes.build import Shoe, ShoeBuild, build_shoe
-from shoes.checks.check import ShoeCheck
-from shoes.fit.taxels import TaxelFit, fit_taxels
-from shoes.foot.foot import Foot, foot_from_dimensions, foot_from_outline
-from shoes.foot.foot_mesh import foot_from_mesh
-from shoes.papers.export import ShoeReport, export_shoe
-from shoes.parameters import ShoeParameters, read_parameters
-from shoes.plan.shoe_plan import ShoePlan
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from shoes.build import Shoe, ShoeBuild, build_shoe
+    from shoes.checks.check import ShoeCheck
+    from shoes.fit.taxels import TaxelFit, fit_taxels
+    from shoes.foot.foot import Foot, foot_from_dimensions, foot_from_outline
+    from shoes.foot.foot_mesh import foot_from_mesh
+    from shoes.papers.export import ShoeReport, export_shoe
+    from shoes.parameters import ShoeParameters, read_parameters
+    from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = [
     "Foot",
@@ -30,3 +39,34 @@ __all__ = [
     "foot_from_outline",
     "read_parameters",
 ]
+
+_MODULE_OF_NAME = {
+    "Foot": "foot.foot",
+    "Shoe": "build",
+    "ShoeBuild": "build",
+    "ShoeCheck": "checks.check",
+    "ShoeParameters": "parameters",
+    "ShoePlan": "plan.shoe_plan",
+    "ShoeReport": "papers.export",
+    "TaxelFit": "fit.taxels",
+    "build_shoe": "build",
+    "export_shoe": "papers.export",
+    "fit_taxels": "fit.taxels",
+    "foot_from_dimensions": "foot.foot",
+    "foot_from_mesh": "foot.foot_mesh",
+    "foot_from_outline": "foot.foot",
+    "read_parameters": "parameters",
+}
+
+if not TYPE_CHECKING:  # a type checker reads the imports above, and reports a name that does not exist
+
+    def __getattr__(name: str) -> object:
+        """Load a public name at first use."""
+        if name not in _MODULE_OF_NAME:
+            raise AttributeError(f"module 'shoes' has no attribute {name!r}")
+        value = globals()[name] = getattr(import_module(f"shoes.{_MODULE_OF_NAME[name]}"), name)
+        return value
+
+    def __dir__() -> list[str]:
+        """The public names, loaded or not, and what else the module holds."""
+        return sorted({*globals(), *__all__})

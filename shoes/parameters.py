@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -192,6 +192,33 @@ class ShoeParameters:
         for name in values:
             cls._metadata(name)
         return cls(**values)
+
+    def changed(self, settings: Iterable[str]) -> ShoeParameters:
+        """These parameters with some replaced, as `--set` gives them.
+
+        Args:
+            settings: Texts NAME=VALUE.
+
+        Returns:
+            The parameters.
+
+        Raises:
+            InputError: If a text is not of that form, a name is unknown, or a value is not allowed.
+
+        Example:
+            >>> ShoeParameters().changed(["rim_height=16", "material=PETG"]).rim_height
+            16.0
+        """
+        values: dict[str, float | str] = self.as_dict()
+        for setting in settings:
+            name, sign, text = (part.strip() for part in setting.partition("="))
+            if not sign or not text:
+                raise InputError(f"--set '{setting}' is not NAME=VALUE, for example --set rim_height=16")
+            try:
+                values[name] = float(text)
+            except ValueError:
+                values[name] = text
+        return ShoeParameters.from_mapping(values)
 
 
 def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:

@@ -90,25 +90,24 @@ def test_a_public_definition_is_exported(name):
     assert defined - set(getattr(importlib.import_module(name), "__all__", ())) == set()
 
 
-def test_the_names_of_plantar_are_those_of_their_modules():
-    """The three lists in plantar/__init__.py, for the type checker, the loader and `import *`, say the same."""
-    import plantar
-
-    tree = ast.parse((ROOT / "plantar" / "__init__.py").read_text(encoding="utf-8"))
+@pytest.mark.parametrize(("package", "others"), [("plantar", {"__version__"}), ("shoes", set())])
+def test_the_names_of_a_lazy_package_are_those_of_its_modules(package, others):
+    """The three lists in its __init__.py, for the type checker, the loader and `import *`, say the same."""
+    loaded = importlib.import_module(package)
+    tree = ast.parse((ROOT / package / "__init__.py").read_text(encoding="utf-8"))
     typed = {
         (alias.name, node.module)
         for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("plantar.")
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith(f"{package}.")
         for alias in node.names
     }
-    assert {n for n, _ in typed} | {"__version__"} == set(plantar.__all__)
+    assert {n for n, _ in typed} | others == set(loaded.__all__)
     for name, module in typed:
-        assert getattr(plantar, name) is getattr(importlib.import_module(module), name)
-        loaded_from = plantar._MODULE_OF_NAME.get(name, "errors")
-        assert f"plantar.{loaded_from}" == module
-    assert set(plantar.__all__) <= set(dir(plantar))
+        assert getattr(loaded, name) is getattr(importlib.import_module(module), name)
+        assert f"{package}.{loaded._MODULE_OF_NAME.get(name, 'errors')}" == module
+    assert set(loaded.__all__) <= set(dir(loaded))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        plantar.nothing  # noqa: B018
+        loaded.nothing  # noqa: B018
 
 
 def test_the_checks_of_this_file_find_what_they_look_for(tmp_path):

@@ -46,7 +46,19 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
     "sim": ("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "run", "sweep"),
     "shoes": (
-        *("units", "materials", "parameters", "cad_kernel", "geometry", "foot", "fit", "plan", "solid", "build"),
+        *(
+            "units",
+            "order",
+            "materials",
+            "parameters",
+            "cad_kernel",
+            "geometry",
+            "foot",
+            "fit",
+            "plan",
+            "solid",
+            "build",
+        ),
         *("checks", "papers"),
     ),
 }

@@ -21,7 +21,7 @@ from plantar.bench.soles import SIZES
 from plantar.kernels import compiled
 from plantar.plotting import COLOURS, new_figure, save_figure
 
-__all__ = ["Target", "compare_kernels", "copy_share", "targets", "write_kernel_report"]
+__all__ = ["Target", "compare_kernels", "copy_share", "measure_kernels", "targets", "write_kernel_report"]
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,24 @@ def compare_kernels(
             if progress is not None:
                 progress(min(1.0, done / total), f"{name}, {found[0].size}")
     return results
+
+
+def measure_kernels(folder: Path, progress: Callable[[float, str], None]) -> dict[str, Any]:
+    """Run the whole comparison and write its report.
+
+    Args:
+        folder: Where to write; must exist.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        Results and targets as plain JSON values, and the names of the files.
+    """
+    results = compare_kernels(progress=progress)
+    return {
+        "results": [r.as_dict() for r in results],
+        "targets": [t.as_dict() for t in targets(results)],
+        "files": write_kernel_report(folder, results),
+    }
 
 
 def _of(results: Sequence[Result], kernel: str, route: str = "plantar") -> list[Result]:

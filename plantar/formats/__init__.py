@@ -7,7 +7,7 @@ from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
-from plantar.console import one_line
+from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import doubts

@@ -8,7 +8,7 @@ from sim.contact_models.candidate import CANDIDATES, Candidate
 from sim.contact_models.comparison import ContactRow, compare_contact_models
 from sim.contact_models.page import holds
 from sim.contact_models.parameters import ParameterRow, study_contact_parameters
-from sim.contact_models.report import write_contact_report
+from sim.contact_models.report import measure_contact, write_contact_report
 from sim.contact_models.sole import build_sole
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "build_sole",
     "compare_contact_models",
     "holds",
+    "measure_contact",
     "study_contact_parameters",
     "write_contact_report",
 ]

@@ -4,21 +4,52 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from plantar.atomic import write_text
 from plantar.layouts.layout import SoleLayout
+from plantar.layouts.layout_file import read_layout
+from plantar.layouts.tiling import hex_layout
 from plantar.plotting import COLOURS, new_figure, save_figure
-from sim.contact_models.comparison import ContactRow
-from sim.contact_models.page import COP_LIMIT_MM, EDGE_LIMIT_MM, contact_page
-from sim.contact_models.parameters import ParameterRow
+from sim.contact_models.comparison import ContactRow, compare_contact_models
+from sim.contact_models.page import COP_LIMIT_MM, EDGE_LIMIT_MM, contact_page, holds
+from sim.contact_models.parameters import ParameterRow, study_contact_parameters
 
-__all__ = ["write_contact_report"]
+__all__ = ["measure_contact", "write_contact_report"]
+
+_SOLE = ((-0.125, -0.0775), (0.125, -0.0775), (0.125, 0.0775), (-0.125, 0.0775))
+"""The sole that is measured where none is given: 250 x 155 mm, in m."""
 
 _LEAST, _MOST = 1e-2, 150.0
 """Errors in mm that are drawn: smaller and larger ones stand there."""
+
+
+def measure_contact(folder: Path, layout: Path | None, progress: Callable[[float, str], None]) -> dict[str, Any]:
+    """Compare the contact models on a sole, study the contact parameters, and write the report.
+
+    Args:
+        folder: Where to write; must exist.
+        layout: Layout file of the sole; None for one of 250 x 155 mm with taxels of 691 mm^2.
+        progress: Called with the fraction done and a text.
+
+    Returns:
+        Name of the chosen model, whether it holds what is required, rows of models and parameters, names of the files.
+
+    Raises:
+        LayoutError: If the layout file cannot be used.
+    """
+    sole = hex_layout(_SOLE) if layout is None else read_layout(layout)
+    rows = compare_contact_models(sole, progress=lambda share, text: progress(0.9 * share, text))
+    parameters = study_contact_parameters(sole, progress=lambda share, text: progress(0.9 + 0.1 * share, text))
+    return {
+        "chosen": rows[0].name,
+        "holds": holds(rows[0]),
+        "models": [r.as_dict() for r in rows],
+        "parameters": [p.as_dict() for p in parameters],
+        "files": write_contact_report(folder, sole, rows, parameters),
+    }
 
 
 def write_contact_report(

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import DependencyError
-from plantar.optional_library import optional_library
+from plantar.optional_library import need_libraries, optional_library
 
 Load = Callable[[str], None]
 
@@ -106,3 +106,10 @@ def test_the_error_crosses_processes() -> None:
 
     copy = pickle.loads(pickle.dumps(DependencyError("cadquery", "shoes", "no libGL")))
     assert (str(copy), copy.reason) == (str(DependencyError("cadquery", "shoes", "no libGL")), "no libGL")
+
+
+def test_the_first_library_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    need_libraries("sim", "json", "math")
+    monkeypatch.setitem(sys.modules, "json", None)  # as if it were not installed
+    with pytest.raises(DependencyError, match=r"json is not installed.*plantar\[sim\]"):
+        need_libraries("sim", "math", "json", "no_such_library")

@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 from pathlib import Path
 
 import pytest
 
 from plantar.errors import InputError
-from plantar.structured_text import JSON_MOST, TOML_MOST, parse_toml, read_json, read_toml
+from plantar.structured_text import (
+    JSON_MOST,
+    TOML_MOST,
+    described_files,
+    packaged_files,
+    parse_toml,
+    read_json,
+    read_toml,
+)
 
 LARGE = {
     "deep array": "a = " + TOML_MOST * "[",
@@ -83,3 +93,21 @@ def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
     assert read_toml(path, InputError, "x") == {"a": 1}
     path.write_bytes(b"\xef\xbb\xbf[1]")
     assert read_json(path, InputError, "x") == [1]
+
+
+def test_the_files_of_a_package_are_found_without_loading_it():
+    code = (
+        "import sys\nfrom plantar.structured_text import packaged_files\n"
+        "found = [p.name for p in packaged_files('sim', 'scenes/*.toml')]\n"
+        "assert found == sorted(found) and 'beam.toml' in found\nassert 'sim' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+    assert packaged_files("sim", "no_such/*") == []
+
+
+def test_a_file_without_a_title_or_that_is_broken_is_still_named(tmp_path):
+    texts = {"a": 'title = "One\\nTwo"', "b": "x = 1", "c": "x = ", "d": 'description = " D "'}
+    for name, text in texts.items():
+        (tmp_path / f"{name}.toml").write_text(text)
+    told = described_files(sorted(tmp_path.glob("*.toml")))
+    assert {path.stem: text for path, text in told.items()} == {"a": "One", "b": "", "c": "", "d": "D"}

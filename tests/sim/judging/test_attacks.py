@@ -10,10 +10,10 @@ import mujoco
 import numpy as np
 import pytest
 
-from cli import _print_run
 from gait.controller import Command, Sensors, Start, WalkingController
 from gait.plan.footsteps import straight_plan
 from gait.plan.plan_change import MovedStep, PlanChange
+from sim.run.run_text import run_text
 from sim.run.runner import Simulation, run_scene
 from sim.run.scene import load_scene
 
@@ -41,9 +41,7 @@ def test_an_honest_walk_has_no_reasons() -> None:
     assert 0.7 < summary["joint_speed"]["share_of_limit"] < 1.0
 
 
-def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count() -> None:
     simulation = Simulation(load_scene("feasibility-1", ["settle=0.3"]))
     assert simulation.controller.guard is not None
     simulation.controller.guard.rules = replace(simulation.controller.guard.rules, area_ratio=1.5)
@@ -52,8 +50,7 @@ def test_a_rule_that_can_never_hold_stops_the_robot_and_the_run_does_not_count(
     assert summary["emergency_stop"]
     assert summary["steps_taken"] == 5
     assert len(summary["landings_s"]) == 8  # which counted as 8 of 8 steps
-    _print_run(summary)
-    shown = capsys.readouterr().out
+    shown = run_text(summary)
     assert "NOT COMPLETED, 5 of 8 steps" in shown
     for reason in summary["reasons"]:
         assert reason["text"] in shown

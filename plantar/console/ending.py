@@ -21,7 +21,7 @@ from types import FrameType
 
 from plantar.errors import PlantarError, WorkerError
 
-__all__ = ["BAD_INPUT", "FAILED", "INTERRUPTED", "Terminated", "one_line", "run"]
+__all__ = ["BAD_INPUT", "FAILED", "INTERRUPTED", "Terminated", "ignore_further_interrupts", "one_line", "run"]
 
 FAILED = 1
 """Exit code where what was asked for is fine and could not be done."""
@@ -106,6 +106,26 @@ def run(command: Callable[[], int | None]) -> int:
             _drop_output()
             return _told(f"{where}: {error.strerror or error}", BAD_INPUT)
     return _told("interrupted", code) if code == INTERRUPTED else code
+
+
+@contextmanager
+def ignore_further_interrupts() -> Iterator[None]:
+    """Ignore signals that follow the one which interrupted the block: its line is still to be printed.
+
+    Yields:
+        Nothing.
+
+    Example:
+        >>> with ignore_further_interrupts():
+        ...     "work that Ctrl-C ends"
+        'work that Ctrl-C ends'
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        raise
 
 
 def _told(text: object, code: int) -> int:

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from plantar.atomic import output_folder
-from plantar.console import Terminated, one_line, run
+from plantar.console.ending import Terminated, one_line, run
 from plantar.errors import InputError
 
 

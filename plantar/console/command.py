@@ -1,0 +1,107 @@
+"""What all commands share: running the one that is named, the options of its output, and telling what it found."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Annotated, Any, cast
+
+import typer
+
+from plantar.console.ending import BAD_INPUT
+from plantar.errors import InputError
+
+__all__ = ["Json", "Output", "end_command", "file_lines", "run_command"]
+
+Output = Annotated[Path, typer.Option("-o", "--output", help="Folder for the files.")]
+"""The option for where a command writes."""
+
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
+"""The option for what a program reads."""
+
+
+def run_command(app: typer.Typer) -> int:
+    """Run the command that the process's arguments name.
+
+    Typer's own way to run it would print several lines for a wrong argument, and end with 1 where nobody reads stdout.
+
+    Args:
+        app: The commands.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        InputError: If an argument is wrong; the message says which help tells more.
+        KeyboardInterrupt: If the user stopped it.
+
+    Example:
+        >>> app = typer.Typer()
+        >>> @app.command()
+        ... def nothing() -> None: ...
+        >>> arguments, sys.argv = sys.argv, ["plantar"]
+        >>> run_command(app)
+        0
+        >>> sys.argv = arguments
+    """
+    usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no name of its own
+    command = typer.main.get_command(app)
+    try:
+        with command.make_context("plantar", sys.argv[1:]) as context:
+            command.invoke(context)
+        return 0
+    except typer.Exit as end:
+        return int(end.exit_code)
+    except typer.Abort:
+        raise KeyboardInterrupt from None
+    except usage_error as error:
+        text = cast(Any, error).format_message()
+        if "\n" in text:  # `plantar` alone: the help
+            print(text, file=sys.stderr)
+            return BAD_INPUT
+        place = getattr(getattr(error, "ctx", None), "command_path", "plantar")
+        raise InputError(f"{text.rstrip('.')}; see {place} --help") from None
+
+
+def end_command(
+    result: Mapping[str, Any], as_json: bool, text: str, failures: Iterable[str] = (), failed: bool = False
+) -> None:
+    """Tell what a command found: one JSON object or words on stdout, what failed on stderr.
+
+    Args:
+        result: What was found.
+        as_json: Whether a program reads it.
+        text: The same for people.
+        failures: What failed, a line each.
+        failed: Whether the command failed as a whole.
+
+    Raises:
+        typer.Exit: With exit code 1, if it failed.
+
+    Example:
+        >>> end_command({"steps": 4}, True, "4 steps")
+        {"steps": 4}
+    """
+    print(json.dumps(result) if as_json else text)
+    for line in failures:
+        print(f"plantar: {line}", file=sys.stderr)
+    if failed:
+        raise typer.Exit(1)
+
+
+def file_lines(names: Iterable[str]) -> str:
+    """Names of files, each in a line of its own below what was found.
+
+    Args:
+        names: The names.
+
+    Returns:
+        The lines, with a line end before each.
+
+    Example:
+        >>> "made:" + file_lines(["a.csv"])
+        'made:\\n  a.csv'
+    """
+    return "".join(f"\n  {name}" for name in names)

@@ -1,0 +1,52 @@
+"""The progress of a command, as a bar on stderr."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+__all__ = ["Progress", "part_of", "progress_bar"]
+
+Progress = Callable[[float, str], None]
+"""Receives the fraction done, 0..1, and what is being done."""
+
+
+@contextmanager
+def progress_bar() -> Iterator[Progress]:
+    """Show a progress bar on stderr; silent where stderr is no terminal.
+
+    Yields:
+        What moves the bar: takes the fraction done, 0..1, and what is being done.
+
+    Example:
+        >>> with progress_bar() as tell:
+        ...     tell(0.5, "half of it")
+    """
+    from rich.console import Console  # 0.1 s, which `plantar --help` need not wait for
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    columns = (BarColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    console = Console(stderr=True)
+    with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
+
+
+def part_of(whole: Progress, start: float, share: float, name: str = "") -> Progress:
+    """The progress of one part of some work.
+
+    Args:
+        whole: Progress of the whole.
+        start: Fraction of the whole that is done when the part begins.
+        share: Fraction of the whole that the part is.
+        name: What stands before the part's texts.
+
+    Returns:
+        Progress of the part.
+
+    Example:
+        >>> part_of(lambda fraction, text: print(fraction, text), 0.5, 0.25, "walk: ")(0.5, "step 3")
+        0.625 walk: step 3
+    """
+    return lambda fraction, text: whole(start + share * fraction, f"{name}{text}")

@@ -1,0 +1,101 @@
+"""A run's summary in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+__all__ = ["run_text"]
+
+Summary = Mapping[str, Any]
+
+
+def run_text(summary: Summary) -> str:
+    """A run's figures for people.
+
+    Args:
+        summary: What `run_scene` gave.
+
+    Returns:
+        Lines.
+    """
+    tick = summary["control_us"]
+    speed = (
+        f"  {summary['real_time_factor']:.1f} x real time; control tick {tick['p50']:.0f} us (median), "
+        f"{tick['p99']:.0f} us (99 %)"
+    )
+    files = [f"  {name}" for name in summary.get("figures", [])]
+    return "\n".join([*_outcome(summary), *_body(summary), *_joints(summary), *_balance(summary), speed, *files])
+
+
+def _outcome(summary: Summary) -> list[str]:
+    """How it ended, and every criterion that failed."""
+    end = "completed" if summary["completed"] else ("FELL" if summary["fell"] else "NOT COMPLETED")
+    return [
+        f"{summary['scene']} with {summary['robot']}, seed {summary['seed']}: {end}, {summary['steps_taken']} of "
+        f"{summary['steps_planned']} steps in {summary['sim_time_s']:.1f} s",
+        *(
+            f"  not completed, {reason['criterion'].replace('_', ' ')}: {reason['text']}"
+            for reason in summary["reasons"]
+        ),
+    ]
+
+
+def _body(summary: Summary) -> list[str]:
+    """Tilt, ZMP margin, landings, and where the robot stood at the end."""
+    margin = summary["zmp_margin_min_m"]
+    lines = [
+        f"  largest tilt {summary['tilt_max_deg']:.2f} deg, smallest true ZMP margin "
+        f"{'-' if margin is None else f'{1e3 * margin:.1f} mm'}"
+    ]
+    if summary["impacts_N"]:
+        impacts = sorted(summary["impacts_N"])
+        lines.append(f"  landing impact: median {impacts[len(impacts) // 2]:.0f} N, largest {impacts[-1]:.0f} N")
+    final = summary["final"]
+    lines.append(
+        f"  at the end {1e3 * final['position_error_m']:.1f} mm and {final['heading_error_deg']:.2f} deg off the plan, "
+        f"tilted by {final['tilt_deg']:.2f} deg, CoM at {final['height_m']:.3f} m; "
+        f"estimated CoM off by at most {1e3 * max(summary['estimate']['com_error_max_m']):.1f} mm"
+    )
+    return lines
+
+
+def _joints(summary: Summary) -> list[str]:
+    """Slip, torques, speeds and reach of the legs."""
+    held = summary["torque_limit"]
+    most = sorted(held["joints"].items(), key=lambda joint: -joint[1])[:3]
+    joints = ", ".join(f"{name} {100 * share:.1f} %" for name, share in most)
+    lines = [
+        f"  a standing foot slipped by at most {1e3 * summary['slip_max_m']:.1f} mm; joints at their torque limit in "
+        f"{100 * held['share_of_ticks']:.1f} % of the ticks{f' ({joints})' if joints else ''}"
+    ]
+    speed = summary["joint_speed"]
+    if speed is None:
+        lines.append("  joint speeds are not limited: the robot's file gives no [servo] velocity_limits")
+    else:
+        lines.append(f"  fastest joint: {speed['joint']}, {speed['share_of_limit']:.2f} of its speed limit")
+    late = summary["out_of_reach_since_s"]
+    if late is not None:
+        lines.append(
+            f"  from {late:.2f} s on the legs did not reach what was asked of them: walk lower (--set crouch=0.05) or "
+            "take shorter steps"
+        )
+    return lines
+
+
+def _balance(summary: Summary) -> list[str]:
+    """Pushes that were recovered from, and the skin's ZMP beside that of the ankles, where the scene has them."""
+    balance = summary.get("balance", {})
+    lines = []
+    if balance.get("pushes"):
+        lines.append(
+            f"  recovered from {balance['recovered']} of {len(balance['pushes'])} pushes, which moved the true ZMP by "
+            f"up to {1e3 * balance['zmp_off_max_m']:.0f} mm"
+        )
+    zmps = balance.get("skin_against_force_torque", {})
+    if zmps.get("rms_m") is not None:
+        lines.append(
+            f"  ZMP of the skin against that of the ankles: {1e3 * zmps['rms_m']:.2f} mm RMS, "
+            f"{1e3 * zmps['max_m']:.1f} mm at most"
+        )
+    return lines

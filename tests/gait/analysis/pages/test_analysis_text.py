@@ -1,0 +1,40 @@
+"""An analysis in words."""
+
+from __future__ import annotations
+
+from gait.analysis.pages.analysis_text import analysis_text
+
+WALK = {
+    "format": "mcap",
+    "frames": 100,
+    "rate_hz": 50.0,
+    "feet": {
+        "left": {"steps": 3, "measures": {"contact_time_s": {"mean": 0.61}}},
+        "right": {"steps": 0, "measures": {"contact_time_s": {"mean": None}}},
+    },
+    "gait": {"cadence_steps_per_min": 55.0},
+    "warnings": ["told apart"],
+}
+
+
+def test_a_walk_tells_steps_contact_and_cadence():
+    assert analysis_text(WALK).splitlines() == [
+        "mcap: 100 frame(s) at 50 Hz",
+        "  left: 3 complete steps, contact 0.610 s",
+        "  right: 0 complete steps",
+        "  cadence 55.0 steps/min",
+    ]
+    assert analysis_text(WALK, "A").startswith("A: mcap")
+
+
+def test_a_footprint_tells_what_was_measured_of_it():
+    feet = {
+        "left": {"footprint": {"length_m": 0.25, "arch_index": 0.231}},
+        "right": {"footprint": {"length_m": None, "arch_index": None}},
+    }
+    image = {"format": "png", "frames": 1, "rate_hz": None, "feet": feet, "gait": {}, "warnings": []}
+    assert analysis_text(image).splitlines() == [
+        "png: 1 frame(s)",
+        "  left footprint: 250 mm long, arch index 0.231",
+        "  right footprint: arch index -",
+    ]

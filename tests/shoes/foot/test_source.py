@@ -1,0 +1,48 @@
+"""Where a foot comes from: one source at a time, and options that its kind knows."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from plantar.errors import InputError
+from shoes.foot.source import foot_of_robot, read_foot
+from shoes.order import FootSource
+
+SOURCES = {"file": Path("foot.stl"), "robot": "h1", "dimensions": "240x95"}
+
+
+def read(**source):
+    return read_foot(FootSource(**source), sole_band=5.0, patch_gap=60.0)
+
+
+def test_none_or_more_than_one_source_is_refused():
+    for count in (0, 2, 3):
+        for names in combinations(SOURCES, count):
+            with pytest.raises(InputError, match="give one of"):
+                read(**{name: SOURCES[name] for name in names})
+
+
+@pytest.mark.parametrize("option", ["mesh_side", "unit", "up", "forward"])
+@pytest.mark.parametrize("source", ["robot", "dimensions"])
+def test_a_word_that_an_option_does_not_know_is_refused_whatever_the_source(option, source):
+    with pytest.raises(InputError, match=f"--{option.replace('_', '-')} is 'sideways'; allowed: "):
+        read(**{source: SOURCES[source], option: "sideways"})
+
+
+def test_a_box_has_the_size_that_is_written():
+    foot, taxels = read(dimensions="240x95X10")
+    low_x, low_y, high_x, high_y = foot.sole.bounds
+    assert taxels is None
+    assert (high_x - low_x, high_y - low_y) == pytest.approx((240.0, 95.0))
+    assert foot.sole.area == pytest.approx(240 * 95 - (4 - 3.14159) * 10**2, rel=1e-3)
+
+
+def test_a_robots_foot_is_the_same_by_either_way():
+    foot, taxels = foot_of_robot("h1")
+    again, same = read(robot="h1")
+    assert taxels == same == 42
+    assert again.sole.equals(foot.sole)
+    assert (again.name, again.mass, again.notes) == (foot.name, foot.mass, foot.notes)

@@ -1,0 +1,31 @@
+"""A sweep's result in words."""
+
+from __future__ import annotations
+
+from sim.sweep.sweep_text import sweep_errors, sweep_text
+
+RESULT = {
+    "points": [
+        {"settings": {"impulse": 20}, "runs": 3, "completed": 3, "reasons": {}, "errors": []},
+        {"settings": {"impulse": 30}, "runs": 4, "completed": 1, "reasons": {"torque_limit": 2}, "errors": ["x", "x"]},
+    ],
+    "files": ["results.csv"],
+}
+
+
+def test_each_point_says_what_was_completed_and_why_not():
+    assert sweep_text(RESULT, "push").splitlines() == [
+        "impulse=20: 3 of 3 completed",
+        "impulse=30: 1 of 4 completed; failed by: torque limit 2",
+        "  results.csv",
+    ]
+
+
+def test_an_error_is_told_once_with_its_count():
+    assert sweep_errors(RESULT, "push") == ["impulse=30: 2 run(s) could not be: x"]
+
+
+def test_a_sweep_without_a_grid_is_called_by_its_scene():
+    one = {"points": [RESULT["points"][0] | {"settings": {}, "errors": ["y"]}], "files": []}
+    assert sweep_text(one, "push") == "push: 3 of 3 completed"
+    assert sweep_errors(one, "push") == ["push: 1 run(s) could not be: y"]
