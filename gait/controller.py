@@ -16,7 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance.balance_laws import balance_law
-from gait.balance.dcm_balance import BalanceGains, BalanceState, FootAction, FootState
+from gait.balance.dcm_balance import BalanceGains
+from gait.balance.law import Feet, FootAction, FootState
+from gait.balance.open_loop import OpenLoop
 from gait.command import Command, FootTarget, Sensors
 from gait.contact.foot_contacts import FootContacts, middle_of_sole
 from gait.contact.stance_contact import ContactSettings
@@ -41,7 +43,6 @@ from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, Timing, WalkSchedule
 from gait.plan.plan_change import AppliedChange
-from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.decide import decide
 from gait.propose.feasibility import FeasibilityRules
@@ -55,7 +56,7 @@ from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
-from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
+from plantar.mechanics.lip import divergent_component, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
@@ -67,6 +68,7 @@ if TYPE_CHECKING:
 __all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
+_ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
 _PROBING = 20.0  # N on a foot that probes the ground from which its centre of pressure turns it
 
 
@@ -144,15 +146,6 @@ class _Sensed(NamedTuple):
     soles: Mapping[Side, SoleLoad]
 
 
-class _Balanced(NamedTuple):
-    """What shall be done for balance, world frame."""
-
-    com: NDArray[np.float64]
-    zmp: NDArray[np.float64]
-    acceleration: NDArray[np.float64]
-    feet: Mapping[Side, FootAction]
-
-
 class WalkingController:
     """Walks a footstep plan on plantar feedback.
 
@@ -178,6 +171,7 @@ class WalkingController:
         middles = {side: middle_of_sole(layouts[side]) for side in SIDES}
         self.plan = WalkPlan(feet, start.steps, settings.timing, middles, self.omega, start.time)
         self.balance = balance_law(settings.gains, self.omega, settings.mass, period)
+        self._open_loop = OpenLoop(settings.mass)
         self._rectangle_of: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
         self._contact_of: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
         self.estimator = FloatingBaseEstimator(
@@ -212,7 +206,7 @@ class WalkingController:
         guard = None if s.feasibility is None else StepGuard(s.feasibility, self.layouts)
         conformity = None
         if s.conformity is not None:
-            turns_stance = not self.balance.wants_feet
+            turns_stance = not self.balance.wants_contacts
             conformity = GroundConformity(s.conformity, self.layouts, middles, s.period, turns_stance)
         return guard, conformity
 
@@ -272,11 +266,13 @@ class WalkingController:
             feet = self._take_over(applied)
         phase, reference = self.schedule.at(time), self.plan.at(time)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
-        balanced = self._balance(phase, reference, xi, state, sensed.soles, feet) if feedback else _open_loop(reference)
+        law = self.balance if feedback else self._open_loop
+        balanced = law.update(reference, xi, state.zmp, self._zmp_region(phase, feet) if feedback else _ANYWHERE)
         if feedback:
-            self._conform(phase, balanced.zmp, state, sensed)
+            self._conform(phase, balanced.zmp_desired, state, sensed)
         com, torso, posture = self._body(phase, balanced.com)
-        targets = self._targets(phase, balanced)
+        stand = self._feet(phase, sensed.soles, law.wants_contacts)
+        targets = self._targets(stand, law.act(balanced, stand))
         if feedback:
             self._compensate(targets, phase, com, torso, posture, state)
         return Command(
@@ -285,7 +281,7 @@ class WalkingController:
             feet=targets,
             phase=phase,
             reference=reference,
-            zmp_desired=balanced.zmp,
+            zmp_desired=balanced.zmp_desired,
             state=state,
             dcm=xi,
             percepts=sensed.percepts,
@@ -406,20 +402,6 @@ class WalkingController:
             self.motion.aim(phase, applied.time, self.plan.view.foothold(phase.step), self._frame)
         return self.motion.view
 
-    def _balance(
-        self,
-        phase: Phase,
-        reference: LipReference,
-        dcm: NDArray[np.float64],
-        state: BaseState,
-        soles: Mapping[Side, SoleLoad],
-        feet: FeetView,
-    ) -> _Balanced:
-        """What the balance law wants."""
-        standing = self._foot_states(phase, soles) if self.balance.wants_feet else {}
-        wanted: BalanceState = self.balance.update(reference, dcm, state.zmp, self._zmp_region(phase, feet), standing)
-        return _Balanced(wanted.com, wanted.zmp_desired, wanted.com_acceleration, wanted.feet)
-
     def _conform(self, phase: Phase, zmp: NDArray[np.float64], state: BaseState, sensed: _Sensed) -> None:
         """Turn the soles that stand to the ground's shape."""
         if self.conformity is None:
@@ -444,11 +426,33 @@ class WalkingController:
         torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
         return target, torso, self._posture(target, torso)
 
-    def _targets(self, phase: Phase, balanced: _Balanced) -> dict[Side, FootTarget]:
-        """Pose and load of each sole."""
-        if balanced.feet:
-            return self._shared_targets(balanced.feet)
-        return self._foot_targets(phase, self._frame.to_command(balanced.zmp), balanced.acceleration)
+    def _feet(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool) -> Feet:
+        """The feet as a balance law sees them, with contacts and wrenches of those that stand if it wants them."""
+        states: dict[Side, FootState] = {}
+        for side in SIDES:
+            level = rotation = self.motion.rotation(side)
+            x, y = self._damping[side].turn.tolist()
+            if x or y:
+                rotation = level.dot(rotation_from_vector(np.array([x, y, 0.0])))
+            foot = FootState(self.motion.footholds[side][0], level, rotation, self.contacts.center(side))
+            if contacts and (phase.swing != side or self.motion.landed):
+                foot = foot._replace(contact=self._contact(side), wrench=soles[side].wrench_in_sole)
+            states[side] = foot
+        return Feet(states, phase.stance, self._frame)
+
+    def _targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
+        """Pose and load of each sole: turned about its centre and shifted as the balance law has it give way."""
+        targets: dict[Side, FootTarget] = {}
+        for side, action in actions.items():
+            position, level, rotation, center = feet.states[side][:4]
+            if action.roll or action.pitch or action.shift:
+                x, y = self._damping[side].turn.tolist()
+                rotation = level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
+                # About the centre: it stays at its height, to first order.
+                rise = action.shift + action.pitch * center[0] - action.roll * center[1]
+                position = position + np.array([0.0, 0.0, rise])
+            targets[side] = FootTarget(position, rotation, action.force, action.center_of_pressure)
+        return targets
 
     def _compensate(
         self,
@@ -504,15 +508,6 @@ class WalkingController:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._frame.follow(position, state.positions_sole[side], turn)
 
-    def _foot_states(self, phase: Phase, soles: Mapping[Side, SoleLoad]) -> dict[Side, FootState]:
-        """The feet that stand, for a balance law that shares the ground's wrench between them."""
-        states: dict[Side, FootState] = {}
-        for side in SIDES:
-            if phase.swing == side and not self.motion.landed:
-                continue
-            states[side] = FootState(self._contact(side), soles[side].wrench_in_sole)
-        return states
-
     def _contact(self, side: Side) -> Contact:
         """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
         polygon = self.contacts.polygon(side)
@@ -535,61 +530,8 @@ class WalkingController:
             known = self._contact_of[side] = (position, place, contact)
         return known[2]
 
-    def _shared_targets(self, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
-        """Feet as a balance law wants them: turned about their centres, shifted, each with a wrench of its own."""
-        targets: dict[Side, FootTarget] = {}
-        for side, action in actions.items():
-            position = self.motion.footholds[side][0]
-            level = rotation = self.motion.rotation(side)
-            center, (x, y) = self.contacts.center(side), self._damping[side].turn.tolist()
-            if action.roll or action.pitch or action.shift or x or y:
-                rotation = level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
-                # About the centre: it stays at its height, to first order.
-                rise = action.shift + action.pitch * center[0] - action.roll * center[1]
-                position = position + np.array([0.0, 0.0, rise])
-            fx, fy, fz, tx, ty, _ = action.wrench.tolist()
-            cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else center
-            place = self.motion.footholds[side][0][:2] + level[:2, :2].dot(cop)
-            targets[side] = FootTarget(position, rotation, level.dot(np.array([fx, fy, fz])), place)
-        return targets
-
     def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: float(self.motion.footholds[side][0][2]) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
         return self._ground.follow(target) + self.settings.com_height
-
-    def _foot_targets(
-        self, phase: Phase, zmp: NDArray[np.float64], acceleration: NDArray[np.float64]
-    ) -> dict[Side, FootTarget]:
-        """Pose of each sole, and the share of the pendulum's force that it shall carry at which point."""
-        s = self.settings
-        force = s.mass * np.array([acceleration[0], acceleration[1], GRAVITY])
-        centers: dict[Side, NDArray[np.float64]] = {}
-        rotations: dict[Side, NDArray[np.float64]] = {}
-        for side in SIDES:
-            position = self.motion.footholds[side][0]
-            x, y = self._damping[side].turn.tolist()
-            rotation = self.motion.rotation(side)
-            if x or y:
-                rotation = rotation.dot(rotation_from_vector(np.array([x, y, 0.0])))
-            rotations[side] = rotation
-            centers[side] = position[:2] + rotations[side][:2, :2].dot(self.contacts.center(side))
-        if phase.stance is not None:
-            share = {phase.stance: 1.0, other_side(phase.stance): 0.0}
-        else:
-            line = centers["left"] - centers["right"]
-            left = float((zmp - centers["right"]) @ line / (line @ line))
-            left = min(1.0, max(0.0, left))
-            share = {"left": left, "right": 1.0 - left}
-        # What is left of the desired ZMP after sharing is realised by each foot's own centre of pressure.
-        rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
-        return {
-            side: FootTarget(self.motion.footholds[side][0], rotations[side], share[side] * force, centers[side] + rest)
-            for side in SIDES
-        }
-
-
-def _open_loop(reference: LipReference) -> _Balanced:
-    """The plan as it is, without feedback."""
-    return _Balanced(reference.com, reference.vrp, reference.com_acceleration, {})

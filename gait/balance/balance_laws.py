@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from gait.balance.dcm_balance import BalanceGains, BalanceLaw, DcmBalance
+from gait.balance.dcm_balance import BalanceGains, DcmBalance
+from gait.balance.law import BalanceLaw
 from plantar.errors import InputError
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def balance_law(gains: LawGains, omega: float, mass: float, period: float) -> Ba
         The law, at its beginning.
     """
     if isinstance(gains, BalanceGains):
-        return DcmBalance(gains, omega, period)
+        return DcmBalance(gains, omega, mass, period)
     from gait.balance.wrench_balance import WrenchBalance
 
     return WrenchBalance(gains, omega, mass, period)

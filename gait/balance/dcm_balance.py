@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance.com_admittance import ComAdmittance
+from gait.balance.law import BalanceState, Feet, FootAction
+from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
 from plantar.geometry.polygon import closest_point
-from plantar.layouts.layout import Side
-from plantar.mechanics.contact import Contact
 from plantar.settings.schema import Settings, number
+from plantar.sides import Side
 
-__all__ = ["BalanceGains", "BalanceLaw", "BalanceState", "DcmBalance", "FootAction", "FootState"]
+__all__ = ["BalanceGains", "DcmBalance"]
 
 
 @dataclass(frozen=True)
@@ -39,104 +39,22 @@ class BalanceGains(Settings):
     zmp_offset: float = number(0.015, "m", 0, 0.1)
 
 
-@dataclass(frozen=True)
-class FootState:
-    """A foot that stands, as a balance law sees it.
-
-    Attributes:
-        contact: Its sole frame in the world, the part of the sole that may be loaded, and where the plan likes its
-            centre of pressure.
-        wrench: Measured wrench (6,) in the sole frame about its origin, by the world on the robot.
-    """
-
-    contact: Contact
-    wrench: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class FootAction:
-    """What a balance law wants of a foot.
-
-    Attributes:
-        wrench: Wrench (6,) in the sole frame about its origin that the ground shall exert on it.
-        roll: Turn in rad of the commanded sole about its x axis.
-        pitch: Turn in rad about its y axis.
-        shift: Shift in m of the commanded sole upwards.
-    """
-
-    wrench: NDArray[np.float64]
-    roll: float
-    pitch: float
-    shift: float
-
-
-@dataclass(frozen=True)
-class BalanceState:
-    """What the balance law decided at one tick, world frame.
-
-    Attributes:
-        zmp_desired: Desired ZMP p_d (2,) in m, inside the support polygon.
-        com: CoM reference (2,) in m after admittance.
-        com_velocity: Its rate (2,) in m/s.
-        com_acceleration: Acceleration (2,) in m/s^2 that the desired ZMP asks for.
-        feet: What each foot shall do; empty for a law that leaves the feet as the plan has them.
-    """
-
-    zmp_desired: NDArray[np.float64]
-    com: NDArray[np.float64]
-    com_velocity: NDArray[np.float64]
-    com_acceleration: NDArray[np.float64]
-    feet: Mapping[Side, FootAction] = field(default_factory=dict)
-
-
-class BalanceLaw(Protocol):
-    """What the walking controller asks of a balance law.
-
-    Attributes:
-        wants_feet: Whether it looks at the feet; if not, `update` gets none.
-        states: How often it ended in which of its named states, for the run's summary; empty for a law without states.
-    """
-
-    wants_feet: bool
-    states: Counter[str]
-
-    def update(
-        self,
-        reference: LipReference,
-        dcm: NDArray[np.float64],
-        zmp: NDArray[np.float64] | None,
-        region: NDArray[np.float64],
-        feet: Mapping[Side, FootState],
-    ) -> BalanceState:
-        """One control tick.
-
-        Args:
-            reference: The plan now.
-            dcm: Measured DCM (2,) in m.
-            zmp: Measured ZMP (2,) in m, or None where no foot carries load.
-            region: Convex polygon (k, 2) in which the desired ZMP has to lie.
-            feet: The feet that stand.
-
-        Returns:
-            What body and feet shall do.
-        """
-        ...
-
-
 class DcmBalance:
     """DCM feedback with CoM admittance.
 
     Args:
         gains: The gains.
         omega: Pendulum frequency in rad/s.
+        mass: Robot mass in kg.
         period: Control period in s.
     """
 
-    wants_feet = False
+    wants_contacts = False
 
-    def __init__(self, gains: BalanceGains, omega: float, period: float) -> None:
+    def __init__(self, gains: BalanceGains, omega: float, mass: float, period: float) -> None:
         self.gains = gains
         self.omega = omega
+        self.mass = mass
         self.period = period
         self.states: Counter[str] = Counter()
         self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period)
@@ -165,16 +83,14 @@ class DcmBalance:
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
-        feet: Mapping[Side, FootState] | None = None,
     ) -> BalanceState:
-        """One control tick.
+        """Decide on CoM and ZMP (see `gait.balance.law.BalanceLaw`).
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot carries load.
             region: Where the desired ZMP has to lie (see `desired_zmp`).
-            feet: The feet that stand; this law does not need them.
 
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
@@ -188,3 +104,15 @@ class DcmBalance:
             com_velocity=reference.com_velocity + self._admittance.rate,
             com_acceleration=self.omega**2 * (com - desired),
         )
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Load transfer by the plan; the feet do not give way.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            What each foot shall carry.
+        """
+        return transferred(balanced, self.mass, feet)

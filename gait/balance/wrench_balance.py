@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance.com_admittance import ComAdmittance
-from gait.balance.dcm_balance import BalanceState, FootAction, FootState
-from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
+from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance, FootCorrection
+from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.balance.wrench_distribution import DistributionWeights, WrenchDistribution
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
@@ -105,7 +105,7 @@ class WrenchBalance:
         weights: Weights of the distribution.
     """
 
-    wants_feet = True
+    wants_contacts = True
 
     def __init__(
         self,
@@ -131,23 +131,20 @@ class WrenchBalance:
         dcm: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         region: NDArray[np.float64],
-        feet: Mapping[Side, FootState],
     ) -> BalanceState:
-        """One control tick (see `gait.balance.dcm_balance.BalanceLaw`).
+        """Decide on CoM and ZMP (see `gait.balance.law.BalanceLaw`).
 
         Args:
             reference: The plan now.
             dcm: Measured DCM (2,) in m.
             zmp: Measured ZMP (2,) in m, or None where no foot carries load.
             region: Convex polygon (k, 2) in which the desired ZMP has to lie; empty leaves it free.
-            feet: The feet that stand.
 
         Returns:
-            Desired ZMP, CoM reference, and what each standing foot shall carry and how it gives way.
+            Desired ZMP and CoM reference.
         """
         desired = self._desired_zmp(reference, dcm, region)
         acceleration = self.omega**2 * (reference.com + self._admittance.offset - desired)
-        actions = self._act(desired, acceleration, feet)
         if self.gains.zmp_gain > 0.0:
             self._admittance.update(np.zeros(2) if zmp is None else zmp - desired)
         return BalanceState(
@@ -155,8 +152,25 @@ class WrenchBalance:
             com=reference.com + self._admittance.offset,
             com_velocity=reference.com_velocity + self._admittance.rate,
             com_acceleration=acceleration,
-            feet=actions,
         )
+
+    def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
+        """Share the pendulum's wrench between the feet that stand, and let them give way.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            What each foot shall carry and how it gives way.
+        """
+        wanted = self.distributed(balanced, feet)
+        measured = {side: foot.wrench for side, foot in feet.states.items() if foot.wrench is not None}
+        corrections = self.feet.update(wanted, measured)
+        return {
+            side: _action(wanted.get(side, _NO_WRENCH), feet.states[side], correction)
+            for side, correction in corrections.items()
+        }
 
     def _desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
@@ -173,13 +187,21 @@ class WrenchBalance:
             self._integral = np.minimum(np.maximum(moved, -g.largest_integral), g.largest_integral)
         return nearest
 
-    def _act(
-        self, desired: NDArray[np.float64], acceleration: NDArray[np.float64], feet: Mapping[Side, FootState]
-    ) -> dict[Side, FootAction]:
-        """Share the pendulum's wrench between the feet, and let them give way."""
-        contacts: dict[str, Contact] = {side: foot.contact for side, foot in feet.items()}
-        ax, ay = acceleration.tolist()
-        x, y = desired.tolist()
+    def distributed(self, balanced: BalanceState, feet: Feet) -> dict[Side, NDArray[np.float64]]:
+        """Distribute the pendulum's wrench over the feet that stand.
+
+        Args:
+            balanced: What `update` decided.
+            feet: The feet.
+
+        Returns:
+            Wrench (6,) in its sole frame about its origin that each foot that stands shall feel, by the world on it.
+        """
+        contacts: dict[str, Contact] = {
+            side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
+        }
+        ax, ay = balanced.com_acceleration.tolist()
+        x, y = balanced.zmp_desired.tolist()
         shares: dict[str, float] | None = None
         ground = 0.0
         if contacts:
@@ -192,11 +214,17 @@ class WrenchBalance:
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
         share = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
         self.states[share.state.value] += 1
-        wanted = {side: share.wrenches[side] for side in feet}
-        corrections = self.feet.update(wanted, {side: foot.wrench for side, foot in feet.items()})
-        return {
-            side: FootAction(wanted.get(side, _NO_WRENCH), c.roll, c.pitch, c.shift) for side, c in corrections.items()
-        }
+        return {side: share.wrenches[side] for side in feet.states if side in contacts}
+
+
+def _action(wrench: NDArray[np.float64], foot: FootState, correction: FootCorrection) -> FootAction:
+    """A wrench in the sole frame as a force at its centre of pressure, and how the foot gives way."""
+    fx, fy, fz, tx, ty, _ = wrench.tolist()
+    cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else foot.center
+    place = foot.position[:2] + foot.level[:2, :2].dot(cop)
+    return FootAction(
+        foot.level.dot(np.array([fx, fy, fz])), place, correction.roll, correction.pitch, correction.shift
+    )
 
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:

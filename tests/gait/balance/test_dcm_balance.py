@@ -7,13 +7,13 @@ from gait.balance.dcm_balance import BalanceGains, DcmBalance
 from gait.plan.vrp_plan import VrpPlan
 from plantar.errors import InputError
 
-OMEGA, PERIOD = 3.5, 0.005
+OMEGA, MASS, PERIOD = 3.5, 95.0, 0.005
 BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
 STILL = VrpPlan([0.0, 1.0], [[0.0, 0.0], [0.0, 0.0]], OMEGA).at(0.5)
 
 
 def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> None:
-    balance = DcmBalance(BalanceGains(dcm_gain=3.0), OMEGA, PERIOD)
+    balance = DcmBalance(BalanceGains(dcm_gain=3.0), OMEGA, MASS, PERIOD)
     xi = np.array([0.01, -0.02])
     assert np.allclose(balance.desired_zmp(STILL, xi, BOX), (1 + 3.0 / OMEGA) * xi)
     assert np.allclose(balance.desired_zmp(STILL, np.array([1.0, 0.0]), BOX), [0.1, 0.0])
@@ -23,7 +23,7 @@ def test_desired_zmp_is_equation_4_28_inside_and_its_nearest_point_outside() -> 
 
 def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> None:
     gain = 3.0
-    balance = DcmBalance(BalanceGains(dcm_gain=gain), OMEGA, PERIOD)
+    balance = DcmBalance(BalanceGains(dcm_gain=gain), OMEGA, MASS, PERIOD)
     xi, dt = np.array([0.03, 0.0]), 1e-4
     for _ in range(5000):
         xi = xi + dt * OMEGA * (xi - balance.desired_zmp(STILL, xi, np.empty((0, 2))))
@@ -31,7 +31,7 @@ def test_a_pendulum_under_the_desired_zmp_recovers_as_equation_4_17_says() -> No
 
 
 def test_the_com_yields_to_a_push_and_returns() -> None:
-    balance = DcmBalance(BalanceGains(), OMEGA, PERIOD)
+    balance = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD)
     pushed = balance.update(STILL, np.zeros(2), np.array([0.05, 0.0]), BOX)
     for _ in range(40):
         pushed = balance.update(STILL, np.zeros(2), np.array([0.05, 0.0]), BOX)
@@ -43,7 +43,7 @@ def test_the_com_yields_to_a_push_and_returns() -> None:
 
 
 def test_no_zmp_is_no_error() -> None:
-    state = DcmBalance(BalanceGains(), OMEGA, PERIOD).update(STILL, np.zeros(2), None, BOX)
+    state = DcmBalance(BalanceGains(), OMEGA, MASS, PERIOD).update(STILL, np.zeros(2), None, BOX)
     assert np.array_equal(state.com, STILL.com)
 
 

@@ -1,17 +1,20 @@
 import math
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
 
 from gait.balance.balance_laws import balance_gains, balance_law
-from gait.balance.dcm_balance import BalanceGains, DcmBalance, FootState
+from gait.balance.dcm_balance import BalanceGains, DcmBalance
+from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
 from gait.balance.wrench_distribution import DistributionState
+from gait.estimate.command_frame import CommandFrame
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError
-from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
+from plantar.sides import SIDES, Side
 
 PERIOD, OMEGA, MASS = 0.005, 3.36, 65.0
 SOLE = Rectangle(-0.1, 0.13, -0.07, 0.07)
@@ -20,40 +23,47 @@ MIDDLE = np.array([0.015, 0.0])
 STILL = LipReference(MIDDLE, MIDDLE, np.zeros(2), MIDDLE, np.zeros(2), np.zeros(2))
 
 
-def standing(*sides: Side, fz: float = 300.0) -> dict[Side, FootState]:
-    feet: dict[Side, FootState] = {}
-    for side in sides:
+def standing(*sides: Side, fz: float = 300.0, moment: float = -0.015 * 300.0) -> Feet:
+    """Both feet beside each other, of which some stand."""
+    states: dict[Side, FootState] = {}
+    for side in SIDES:
         place = np.array([0.0, 0.105 if side == "left" else -0.105, 0.0])
-        measured = np.array([0.0, 0.0, fz, 0.0, -0.015 * fz, 0.0])
-        feet[side] = FootState(Contact(place, np.eye(3), SOLE), measured)
-    return feet
+        foot = FootState(place, np.eye(3), np.eye(3), np.zeros(2))
+        if side in sides:
+            measured = np.array([0.0, 0.0, fz, 0.0, moment, 0.0])
+            foot = foot._replace(contact=Contact(place, np.eye(3), SOLE), wrench=measured)
+        states[side] = foot
+    return Feet(states, None, CommandFrame(np.zeros(3), PERIOD, 0.3))
+
+
+def tick(
+    balance: WrenchBalance, dcm: np.ndarray, zmp: np.ndarray | None, region: np.ndarray, feet: Feet
+) -> tuple[BalanceState, Mapping[Side, FootAction]]:
+    """What a law decides and wants of the feet."""
+    state = balance.update(STILL, dcm, zmp, region)
+    return state, balance.act(state, feet)
 
 
 def law(**gains: float) -> WrenchBalance:
     return WrenchBalance(WrenchBalanceGains(**gains), OMEGA, MASS, PERIOD)
 
 
-def zmp_of(actions: dict, feet: dict[Side, FootState]) -> np.ndarray:
+def zmp_of(actions: Mapping[Side, FootAction]) -> np.ndarray:
     """ZMP (2,) of what the feet shall carry, by moments on the ground."""
-    total, moment = 0.0, np.zeros(2)
-    for side, foot in feet.items():
-        _, _, fz, tx, ty, _ = actions[side].wrench
-        x, y = foot.contact.position[:2]
-        moment += [x * fz - ty, y * fz + tx]
-        total += fz
-    return moment / total
+    total = sum(action.force[2] for action in actions.values())
+    return sum(action.force[2] * action.center_of_pressure for action in actions.values()) / total
 
 
 def test_the_feet_shall_carry_the_desired_zmp_of_t_4_18() -> None:
     feet = standing("left", "right")
     dcm = MIDDLE + np.array([0.01, -0.02])
-    state = law(dcm_gain=3.0).update(STILL, dcm, MIDDLE, BOX, feet)
+    state, actions = tick(law(dcm_gain=3.0), dcm, MIDDLE, BOX, feet)
     wanted = MIDDLE + (1.0 + 3.0 / OMEGA) * np.array([0.01, -0.02])
     assert state.zmp_desired == pytest.approx(wanted)
-    assert zmp_of(dict(state.feet), feet) == pytest.approx(wanted, abs=2e-4)
-    assert sum(state.feet[s].wrench[2] for s in feet) == pytest.approx(MASS * 9.81, rel=1e-3)
+    assert zmp_of(actions) == pytest.approx(wanted, abs=2e-4)
+    assert sum(action.force[2] for action in actions.values()) == pytest.approx(MASS * 9.81, rel=1e-3)
     # The pendulum's horizontal force goes with it.
-    assert sum(state.feet[s].wrench[0] for s in feet) == pytest.approx(MASS * OMEGA**2 * (MIDDLE - wanted)[0], rel=0.02)
+    assert sum(a.force[0] for a in actions.values()) == pytest.approx(MASS * OMEGA**2 * (MIDDLE - wanted)[0], rel=0.02)
 
 
 def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm() -> None:
@@ -62,52 +72,53 @@ def test_wanted_wrenches_stay_in_the_cones_whatever_the_dcm() -> None:
     for _ in range(200):
         sides: tuple[Side, ...] = ("left", "right") if rng.random() < 0.5 else ("left",)
         feet = standing(*sides)
-        state = balance.update(STILL, rng.normal(0.0, 1.0, 2), rng.normal(0.0, 0.1, 2), BOX, feet)
+        state, actions = tick(balance, rng.normal(0.0, 1.0, 2), rng.normal(0.0, 0.1, 2), BOX, feet)
+        wrenches = balance.distributed(state, feet)
+        assert set(wrenches) == set(sides)
         for side in sides:
-            assert (wrench_cone(SOLE, 0.6) @ state.feet[side].wrench).max() < 1e-6
-        assert set(state.feet) == {"left", "right"}
+            assert (wrench_cone(SOLE, 0.6) @ wrenches[side]).max() < 1e-6
+        assert set(actions) == {"left", "right"}
 
 
 def test_a_foot_in_the_air_shall_carry_nothing_and_no_foot_is_no_error() -> None:
     balance = law()
-    state = balance.update(STILL, MIDDLE, None, BOX, standing("left"))
-    assert not state.feet["right"].wrench.any()
-    state = balance.update(STILL, MIDDLE, None, np.empty((0, 2)), {})
+    _, actions = tick(balance, MIDDLE, None, BOX, standing("left"))
+    assert not actions["right"].force.any()
+    state, actions = tick(balance, MIDDLE, None, np.empty((0, 2)), standing())
     assert balance.states[DistributionState.AIRBORNE] == 1
-    assert not any(a.wrench.any() for a in state.feet.values())
+    assert not any(a.force.any() for a in actions.values())
     assert np.isfinite(state.com).all()
 
 
 def test_numbers_that_are_not_finite_end_in_a_named_state() -> None:
     balance = law()
-    state = balance.update(STILL, np.array([math.nan, 0.0]), MIDDLE, np.empty((0, 2)), standing("left", "right"))
+    feet = standing("left", "right")
+    _, actions = tick(balance, np.array([math.nan, 0.0]), MIDDLE, np.empty((0, 2)), feet)
     assert balance.states == {"invalid": 1}
-    assert all(np.isfinite(a.wrench).all() for a in state.feet.values())
+    for action in actions.values():
+        assert np.isfinite([*action.force, *action.center_of_pressure, *action[2:]]).all()
 
 
 def test_soles_that_feel_too_much_pressure_in_front_turn_their_toes_up() -> None:
     balance = law()
-    feet = {
-        side: FootState(foot.contact, np.array([0.0, 0.0, 319.0, 0.0, -0.06 * 319.0, 0.0]))
-        for side, foot in standing("left", "right").items()
-    }
+    feet = standing("left", "right", fz=319.0, moment=-0.06 * 319.0)
     for _ in range(20):
-        state = balance.update(STILL, MIDDLE, MIDDLE, BOX, feet)
+        _, actions = tick(balance, MIDDLE, MIDDLE, BOX, feet)
     # A turn about y by a positive angle puts the toes down.
-    assert state.feet["left"].pitch < 0.0
-    assert state.feet["right"].pitch < 0.0
-    assert abs(state.feet["left"].roll) < 1e-4
+    assert actions["left"].pitch < 0.0
+    assert actions["right"].pitch < 0.0
+    assert abs(actions["left"].roll) < 1e-4
 
 
 def test_the_integral_grows_to_its_limit_and_forgets() -> None:
     balance = law(dcm_integral=1.0, largest_integral=0.01, dcm_forgetting=0.5)
     dcm = MIDDLE + np.array([0.01, 0.0])
-    first = balance.update(STILL, dcm, MIDDLE, BOX, standing("left", "right")).zmp_desired
+    first = balance.update(STILL, dcm, MIDDLE, BOX).zmp_desired
     for _ in range(2000):
-        last = balance.update(STILL, dcm, MIDDLE, BOX, standing("left", "right")).zmp_desired
+        last = balance.update(STILL, dcm, MIDDLE, BOX).zmp_desired
     assert last[0] - first[0] == pytest.approx(0.01, rel=0.01)
     for _ in range(2000):
-        back = balance.update(STILL, MIDDLE, MIDDLE, BOX, standing("left", "right")).zmp_desired
+        back = balance.update(STILL, MIDDLE, MIDDLE, BOX).zmp_desired
     assert back == pytest.approx(MIDDLE, abs=2e-4)
 
 
