@@ -60,6 +60,7 @@ from plantar.mechanics.lip import divergent_component, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
+from plantar.settings.schema import Settings, choice, number, switch
 from plantar.sides import SIDES, Side, other_side
 
 if TYPE_CHECKING:
@@ -72,8 +73,7 @@ _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
 _PROBING = 20.0  # N on a foot that probes the ground from which its centre of pressure turns it
 
 
-@dataclass(frozen=True)
-class ControllerSettings:
+class ControllerSettings(Settings):
     """Settings of a walk.
 
     Attributes:
@@ -101,23 +101,29 @@ class ControllerSettings:
 
     com_height: float
     mass: float
-    period: float = 0.005
+    period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
-    swing_height: float = 0.05
+    swing_height: float = number(0.05, "m", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
-    trunk_lean: float = 0.0
-    lean_reach: float = 0.053
-    alignment_time: float = 0.3
+    trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
+    lean_reach: float = number(0.053, "m", 0.0, 1.0)
+    alignment_time: float = number(0.3, "s", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
-    feedback: bool = True
-    zmp_source: str = "skin"
+    feedback: bool = switch(True)
+    zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
-    footholds: str = "off"
+    footholds: str = choice("off", "force", "skin")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("com_height", "mass"):
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise InputError(f"setting '{name}' is {getattr(self, name)!r}; allowed: a finite number above 0")
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,11 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # One line a package; the comment says what mypy has to find where there is one.
 SCRIPT = """
+from dataclasses import replace
+
 import numpy as np
 
+from plantar.settings.schema import Settings, choice, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar.geometry import polygon
 from plantar import Percept, Reading, SoleLayout, hex_layout, inscribed_circle
@@ -34,11 +37,21 @@ radius: float = 0.0 if circle is None else circle.radius
 omega: float = pendulum_frequency(0.8)
 scene: Scene = load_scene("flat")
 length: float = to_m(250.0)
+
+
+class Spring(Settings):
+    stiffness: float = number(100.0, "N/m", 1.0)
+    metal: str = choice("steel", "brass")
+
+
+spring: Spring = replace(Spring(20.0, metal="brass"), stiffness=3.0)
+stiff: float = spring.stiffness
 """
 WRONG = """
 import plantar.nothing  # import-not-found
 import numpy as np
 
+from plantar.settings.schema import Settings, number
 from plantar.mechanics.lip import pendulum_frequency
 from plantar import Percept, Reading, hex_layout, no_such_name  # attr-defined
 from shoes.units import to_m
@@ -51,6 +64,15 @@ radius = percept.inscribed_circle_in_sole.radius  # union-attr
 omega = pendulum_frequency("0.8")  # arg-type
 scene: int = load_scene("flat")  # assignment
 length = to_m("250")  # call-overload
+
+
+class Spring(Settings):
+    stiffness: float = number(100.0, "N/m", 1.0)
+
+
+Spring().stiffness = 3.0  # misc
+Spring(stifness=3.0)  # call-arg
+Spring("stiff")  # arg-type
 """
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +19,6 @@ from plantar.sides import Side
 __all__ = ["BalanceGains", "DcmBalance"]
 
 
-@dataclass(frozen=True)
 class BalanceGains(Settings):
     """Gains of the DCM feedback with CoM admittance.
 

@@ -21,7 +21,6 @@ __all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
 _SIDES: tuple[Side, Side] = ("left", "right")
 
 
-@dataclass(frozen=True)
 class AdmittanceGains(Settings):
     """Gains of the feet's admittance.
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, Self
 
 import numpy as np
@@ -34,7 +34,6 @@ __all__ = ["WrenchBalance", "WrenchBalanceGains"]
 _NO_WRENCH = np.zeros(6)
 
 
-@dataclass(frozen=True)
 class WrenchBalanceGains(Settings):
     """Gains of the law.
 

@@ -9,7 +9,6 @@ and is refined while more load comes on.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +23,6 @@ from plantar.settings.schema import Settings, number, switch, whole
 __all__ = ["ContactSettings", "StanceContact"]
 
 
-@dataclass(frozen=True)
 class ContactSettings(Settings):
     """How a foothold is found from the taxels.
 

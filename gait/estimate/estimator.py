@@ -81,7 +81,6 @@ class LegKinematics(Protocol):
         ...
 
 
-@dataclass(frozen=True)
 class EstimatorGains(Settings):
     """Gains of the estimator.
 

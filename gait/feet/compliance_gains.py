@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plantar.settings.schema import Settings, choice, number, whole
 
 __all__ = ["ComplianceGains"]
 
 
-@dataclass(frozen=True)
 class ComplianceGains(Settings):
     """Settings of preemptive foot compliance.
 

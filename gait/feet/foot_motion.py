@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -42,7 +41,6 @@ class SoleSense(NamedTuple):
     rotation: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
 class Landing(Settings):
     """How a foot lands.
 

@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -37,7 +36,6 @@ __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
 _ORIGIN = np.zeros(2)
 
 
-@dataclass(frozen=True)
 class ConformityGains(Settings):
     """Gains of feet that take the ground's shape.
 

@@ -24,7 +24,6 @@ class PhaseKind(IntEnum):
     SINGLE_SUPPORT = 2
 
 
-@dataclass(frozen=True)
 class Timing(Settings):
     """Durations of a walk in s.
 

@@ -26,7 +26,6 @@ from plantar.settings.schema import Settings, choice, number, whole
 __all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
 
-@dataclass(frozen=True)
 class FeasibilityRules(Settings):
     """Rules of step feasibility.
 

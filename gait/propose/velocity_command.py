@@ -86,7 +86,6 @@ class VelocityTable:
         return self.commands[k] if k >= 0 else STOP
 
 
-@dataclass(frozen=True)
 class Stride(Settings):
     """How far a step goes at most; a command that asks for more is walked slower.
 

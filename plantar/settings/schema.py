@@ -1,8 +1,9 @@
 """The schema of settings: a frozen dataclass whose fields say their default, unit, range or choices, and are checked.
 
-A class of settings derives from `Settings` and makes its fields with `number`, `whole`, `choice`, `switch`, `text` or
-`tables`; what each means stands under "Attributes" in its docstring. An instance checks itself when it is made, so a
-wrong value is refused wherever it comes from: code, a robot file, a scene, `--set` or a sweep.
+A class of settings derives from `Settings`, which makes it a frozen dataclass, and makes its fields with `number`,
+`whole`, `choice`, `switch`, `text` or `tables`; what each means stands under "Attributes" in its docstring. An instance
+checks itself when it is made, so a wrong value is refused wherever it comes from: code, a robot file, a scene, `--set`
+or a sweep.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ import inspect
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import MISSING, Field, dataclass, field, fields
-from typing import Any, NamedTuple, Self
+from dataclasses import Field, dataclass, field, fields
+from typing import Any, NamedTuple, Self, dataclass_transform
 
 from plantar.errors import InputError, PlantarError
 from plantar.settings.unknown_keys import refuse_unknown_keys
@@ -96,16 +97,19 @@ class Setting(NamedTuple):
     meaning: str
 
 
+@dataclass_transform(frozen_default=True, field_specifiers=(field,))
 @dataclass(frozen=True)
 class Settings:
-    """Base of a dataclass of settings; fields made by the functions of this module are checked when it is made.
+    """Base of a class of settings; fields made by the functions of this module are checked when it is made.
+
+    Deriving from it makes a frozen dataclass, so that no class of settings can forget to be frozen, or to be checked. A
+    decorator of its own, which could undo that, is a TypeError.
 
     Raises:
         InputError: If a value is not allowed; the message names it and says what is.
 
     Example:
-        >>> @dataclass(frozen=True)
-        ... class Spring(Settings):
+        >>> class Spring(Settings):
         ...     stiffness: float = number(100.0, "N/m", 1.0, 1e6)
         >>> Spring(stiffness=50).stiffness
         50.0
@@ -114,10 +118,13 @@ class Settings:
         plantar.errors.InputError: setting 'stiffness' is -3; allowed: a number 1 to 1e+06
     """
 
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        dataclass(frozen=True)(cls)
+
     def __post_init__(self) -> None:
-        for item in fields(self):
-            if "unit" in item.metadata:
-                object.__setattr__(self, item.name, _checked(item, getattr(self, item.name)))
+        for item in _settings(type(self)):
+            object.__setattr__(self, item.name, _checked(item, getattr(self, item.name)))
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
@@ -160,7 +167,7 @@ class Settings:
 
 
 def _settings(kind: type[Settings]) -> tuple[Field[Any], ...]:
-    return tuple(f for f in fields(kind) if "unit" in f.metadata and f.default is not MISSING)
+    return tuple(f for f in fields(kind) if "unit" in f.metadata)
 
 
 def _checked(item: Field[Any], value: Any) -> Any:

@@ -41,7 +41,6 @@ __all__ = [
 _FOLDER = Path(__file__).parent.parent / "scenes"
 
 
-@dataclass(frozen=True)
 class Walk(Settings):
     """Gait of a scene. Lengths in m, times in s.
 
@@ -126,7 +125,6 @@ class Walk(Settings):
         return table
 
 
-@dataclass(frozen=True)
 class Push(Settings):
     """Pushes on the base: one in a step, or several while the robot stands.
 
@@ -153,7 +151,6 @@ class Push(Settings):
     height: float = number(0.0, "m", -1, 1)
 
 
-@dataclass(frozen=True)
 class Control(Settings):
     """How the scene is controlled and computed.
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from plantar.settings.schema import Settings, number, switch, whole
 
 __all__ = ["Sensing"]
 
 
-@dataclass(frozen=True)
 class Sensing(Settings):
     """What the sensors do to the truth. Standard deviations (1 sigma) of white noise; SI.
 

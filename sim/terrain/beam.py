@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,7 +15,6 @@ __all__ = ["Beam"]
 _THICK = 0.1  # m, half height of beam and platforms
 
 
-@dataclass(frozen=True)
 class Beam(Terrain):
     """A beam between two platforms, along the walk.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +14,6 @@ from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Te
 __all__ = ["Block"]
 
 
-@dataclass(frozen=True)
 class Block(Terrain):
     """Something that lies on level ground under one step.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,6 @@ __all__ = ["Course"]
 _SHAPES = {"box": 3, "sphere": 1, "ellipsoid": 3, "cylinder": 2}
 
 
-@dataclass(frozen=True)
 class Course(Terrain):
     """Solids on a floor, as `[[terrain.solid]]` tables give them.
 

@@ -239,7 +239,6 @@ class Ground:
             )
 
 
-@dataclass(frozen=True)
 class Terrain(Settings):
     """What every kind of ground has.
 
@@ -269,7 +268,6 @@ class Terrain(Settings):
         raise NotImplementedError
 
 
-@dataclass(frozen=True)
 class Flat(Terrain):
     """An endless level plane."""
 

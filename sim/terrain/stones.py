@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,6 @@ _GAP = 0.002  # m between the stones of two lanes
 _PARTS = ("rear", "front", "inner", "outer")
 
 
-@dataclass(frozen=True)
 class Partial(Terrain):
     """Stones of which one carries only a part of the sole.
 
@@ -50,7 +49,6 @@ class Partial(Terrain):
         return Ground(tuple(solids), self.height - self.depth, self.friction)
 
 
-@dataclass(frozen=True)
 class Stones(Terrain):
     """Stones that each carry a random part of the sole; the first and the last two carry all of it.
 
@@ -79,7 +77,6 @@ class Stones(Terrain):
         return Ground(tuple(solids), self.height - self.depth, self.friction)
 
 
-@dataclass(frozen=True)
 class Uneven(Terrain):
     """Stones whose height under each step is up to chance; where steps are taken in place, the stone moves in the air.
 
@@ -121,7 +118,6 @@ class Uneven(Terrain):
         return Ground((*solids["left"], *solids["right"]), self.height - self.depth, self.friction)
 
 
-@dataclass(frozen=True)
 class Pebbles(Terrain):
     """Sloping stones with bumps on them; the standing feet and the last two steps have level ones.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -10,6 +11,7 @@ from gait.balance.dcm_balance import BalanceGains
 from gait.balance.foot_admittance import AdmittanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
 from gait.contact.stance_contact import ContactSettings
+from gait.controller import ControllerSettings
 from gait.estimate.estimator import EstimatorGains
 from gait.feet.compliance_gains import ComplianceGains
 from gait.feet.foot_motion import Landing
@@ -48,3 +50,11 @@ def test_no_setting_takes_what_is_not_allowed(kind: type[Settings]) -> None:
         for value in (math.nan, math.inf, -math.inf, None, "none of these", [1.0]):
             with pytest.raises(InputError, match=f"'{name}' is "):
                 owner(**{name: value})
+
+
+@pytest.mark.parametrize("name", ["com_height", "mass"])
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_controller_needs_a_height_and_a_mass(name: str, value: float) -> None:
+    good = ControllerSettings(com_height=0.8, mass=60.0)
+    with pytest.raises(InputError, match=f"'{name}' is .*; allowed: a finite number above 0"):
+        replace(good, **{name: value})

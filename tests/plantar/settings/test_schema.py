@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+import copy
+import pickle
+from dataclasses import MISSING, FrozenInstanceError, asdict, dataclass, field, fields, replace
 from typing import Any
 
 import pytest
@@ -11,7 +13,6 @@ from plantar.errors import InputError, SceneError
 from plantar.settings.schema import Settings, choice, number, switch, text, whole
 
 
-@dataclass(frozen=True)
 class Spring(Settings):
     """A spring.
 
@@ -90,10 +91,86 @@ def test_each_setting_says_all_that_there_is_to_say() -> None:
 
 
 def test_no_upper_bound_is_said_in_words() -> None:
-    @dataclass(frozen=True)
     class Open(Settings):
         size: float = number(1.0, "m")
 
     with pytest.raises(InputError, match="a finite number, 0 or more"):
         Open(size=float("inf"))
     assert Open(size=1e300).size == 1e300
+
+
+def test_deriving_makes_a_frozen_dataclass_of_keyword_and_positional_fields() -> None:
+    spring = Spring(7.0, 2)
+    assert [f.name for f in fields(Spring)] == ["stiffness", "coils", "metal", "loaded", "label", "place"]
+    assert (spring.stiffness, spring.coils, spring == Spring(coils=2, stiffness=7)) == (7.0, 2, True)
+    assert hash(spring) == hash(Spring(7.0, 2))
+    for name in ("stiffness", "anything"):
+        with pytest.raises(FrozenInstanceError):
+            setattr(spring, name, 3.0)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s)), replace])
+def test_a_copy_is_equal_and_frozen(again: Any) -> None:
+    spring = Spring(stiffness=3.0, metal="brass", place=(1.0, 2.0))
+    other = again(spring)
+    assert other == spring
+    assert asdict(other) == asdict(spring)
+    with pytest.raises(FrozenInstanceError):
+        other.coils = 3
+
+
+def test_a_class_between_inherits_settings_and_may_check_more() -> None:
+    class Damped(Spring):
+        """A spring with a damper.
+
+        Attributes:
+            damping: Force for each metre a second.
+        """
+
+        damping: float = number(1.0, "N s/m", 0.0, 10.0)
+
+        def __post_init__(self) -> None:
+            super().__post_init__()
+            if self.damping > self.stiffness:
+                raise InputError("it creeps")
+
+    assert Damped.names() == (*Spring.names(), "damping")
+    assert Damped.described()[-1].meaning == "Force for each metre a second."
+    for wrong in ({"damping": 11.0}, {"stiffness": -1.0}, {"damping": 3.0, "stiffness": 2.0}):
+        with pytest.raises(InputError):
+            Damped(**wrong)
+    assert Spring.names()[-1] == "label"
+
+
+@pytest.mark.parametrize("options", [{}, {"frozen": True}, {"frozen": True, "slots": True}])
+def test_a_decorator_that_could_undo_it_is_refused(options: dict[str, bool]) -> None:
+    class Decorated(Settings):
+        size: float = number(1.0, "m", 0.0, 2.0)
+
+    with pytest.raises(TypeError):
+        dataclass(**options)(Decorated)
+
+
+def test_every_class_of_settings_in_the_repository_checks_its_settings() -> None:
+    import gait.controller
+    import sim.run.scene
+
+    assert gait.controller
+    assert sim.run.scene
+    kinds = [kind for kind in _derived(Settings) if kind.__module__.partition(".")[0] in ("gait", "sim", "plantar")]
+    assert len(kinds) > 12
+    for kind in kinds:
+        for item in fields(kind):
+            if "unit" in item.metadata:
+                wrong = 3 if isinstance(item.default, str | tuple) else "wrong"
+                with pytest.raises(InputError, match=item.name):
+                    replace(_instance(kind), **{item.name: wrong})
+
+
+def _derived(kind: type[Settings]) -> list[type[Settings]]:
+    return [found for below in kind.__subclasses__() for found in (below, *_derived(below))]
+
+
+def _instance(kind: type[Settings]) -> Settings:
+    """One with defaults; what has none is 1."""
+    return kind(**{f.name: 1.0 for f in fields(kind) if f.default is MISSING and f.default_factory is MISSING})
