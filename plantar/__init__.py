@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from plantar.percepts.feet import FeetPercept
     from plantar.percepts.foot_tick import FootTick, walking_tick
     from plantar.percepts.percept import Percept
+    from plantar.percepts.percept_options import PerceptOptions
     from plantar.percepts.sole_pose import SolePose, wrench_of_feet, zmp_of_soles
     from plantar.percepts.support import feet_support_polygon
     from plantar.sensing.activation import TaxelActivation, active_taxels, hysteresis
@@ -98,6 +99,7 @@ __all__ = [
     "LayoutError",
     "Outline",
     "Percept",
+    "PerceptOptions",
     "PlantarError",
     "Reading",
     "ReadingError",
@@ -180,6 +182,7 @@ _MODULE_OF_NAME = {
     "HexLattice": "layouts.hex_lattice",
     "Outline": "geometry.outline",
     "Percept": "percepts.percept",
+    "PerceptOptions": "percepts.percept_options",
     "Reading": "sensing.reading",
     "SoleLayout": "layouts.layout",
     "SolePose": "percepts.sole_pose",

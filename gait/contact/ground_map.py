@@ -19,7 +19,7 @@ from gait.feet.compliance_gains import ComplianceGains
 from plantar.kernels.highest_ground import highest_plane
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
-from plantar.percepts.percept_virtual import PROXIMITY_GAIN
+from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 
 __all__ = ["GroundMap", "GroundView"]

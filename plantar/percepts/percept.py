@@ -9,20 +9,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, number
 from plantar.arrays import read_only
-from plantar.errors import InputError, ReadingError
+from plantar.errors import ReadingError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
 from plantar.mechanics.zmp import zero_moment_wrench
+from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.percept_shapes import ShapeMembers
-from plantar.percepts.percept_virtual import CONTOUR_HEIGHTS, PROXIMITY_GAIN, VirtualMembers
+from plantar.percepts.percept_virtual import VirtualMembers
 from plantar.sensing.activation import active_taxels
 from plantar.sensing.health import TaxelHealth, fill_from_neighbours
 from plantar.sensing.pressure_wrench import scaled_by_area
-from plantar.sensing.proximity import contour_levels
 from plantar.sensing.reading import Reading
 
 __all__ = ["Percept"]
+
+_USUAL = PerceptOptions()
 
 
 class Percept(ShapeMembers, VirtualMembers):
@@ -39,10 +41,7 @@ class Percept(ShapeMembers, VirtualMembers):
         active: Mask (n,) of taxels to take as active, of a `TaxelActivation` with hysteresis; those above the threshold
             where None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none where None.
-        fill: Let faulty taxels take the pressure of their sound neighbours, instead of leaving them out.
-        proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
-        contour_heights: Heights of the contours of the ground in m (T 4.2.7).
-        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell where None.
+        options: What else may be told.
 
     Raises:
         ReadingError: If the reading or a mask has another number of taxels than the layout.
@@ -64,10 +63,7 @@ class Percept(ShapeMembers, VirtualMembers):
         *,
         active: ArrayLike | None = None,
         stuck: ArrayLike | None = None,
-        fill: bool = False,
-        proximity_gain: float = PROXIMITY_GAIN,
-        contour_heights: tuple[float, ...] = CONTOUR_HEIGHTS,
-        reference_area: float | None = None,
+        options: PerceptOptions = _USUAL,
     ) -> None:
         instance(layout, SoleLayout, "layout")
         instance(reading, Reading, "reading")
@@ -78,16 +74,7 @@ class Percept(ShapeMembers, VirtualMembers):
         self.force_threshold = (
             layout.force_threshold if force_threshold is None else number(force_threshold, "force threshold")
         )
-        self.fill = fill
-        self.proximity_gain = number(proximity_gain, "proximity gain", finite=True)
-        self.contour_heights = (
-            CONTOUR_HEIGHTS if contour_heights is CONTOUR_HEIGHTS else contour_levels(contour_heights)
-        )
-        self.reference_area = (
-            layout.cell_area if reference_area is None else number(reference_area, "reference area", finite=True)
-        )
-        if not self.reference_area > 0.0:
-            raise InputError(f"reference area is {self.reference_area} m^2; allowed: above 0")
+        self.options = options if options is _USUAL else instance(options, PerceptOptions, "options")
         self._given_active = None if active is None else taxel_mask(layout, active, "mask 'active'").copy()
         self._stuck = None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy()
 
@@ -109,14 +96,16 @@ class Percept(ShapeMembers, VirtualMembers):
     def sound_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) in N; a faulty taxel holds NaN or, with `fill`, what its neighbours' pressure makes it."""
         faulty = self.health.faulty
-        if self.fill:
+        if self.options.fill:
             return fill_from_neighbours(self.layout, self.reading.force, faulty, per_area=True)
         return np.where(faulty, np.nan, self.reading.force)
 
     @lazy
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
-        plain = self._stuck is None and not self.fill  # what the comparison leaves out without a look at each fault
+        plain = (
+            self._stuck is None and not self.options.fill
+        )  # what the comparison leaves out without a look at each fault
         force = self.reading.force if plain else self.sound_force
         if self._given_active is None:
             mask: NDArray[np.bool_] = self.layout.kernel.active(force, self.force_threshold, self.layout.force_limit)
@@ -126,13 +115,13 @@ class Percept(ShapeMembers, VirtualMembers):
     @lazy
     def active_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
-        return np.where(self.active, self.sound_force if self.fill else self.reading.force, 0.0)
+        return np.where(self.active, self.sound_force if self.options.fill else self.reading.force, 0.0)
 
     def _loads(self) -> NDArray[np.float64]:
         """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
         loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
         if loads is None:
-            force = self.sound_force if self.fill else self.reading.force
+            force = self.sound_force if self.options.fill else self.reading.force
             loads = self.__dict__["_loads_summed"] = read_only(self.layout.kernel.loads(force, self.active))
         return loads
 
@@ -165,7 +154,8 @@ class Percept(ShapeMembers, VirtualMembers):
     @lazy
     def pressure_driven_wrench_in_sole(self) -> NDArray[np.float64]:
         """The wrench (6,) amplified on a small contact area, in N and N m (T 3.26-3.27)."""
-        return scaled_by_area(self.wrench_in_sole, self.contact_area, self.reference_area)
+        xi = self.options.reference_area
+        return scaled_by_area(self.wrench_in_sole, self.contact_area, self.layout.cell_area if xi is None else xi)
 
     def _hull(self) -> tuple[NDArray[np.float64], float, float, float]:
         """Support polygon, its area and its centroid, found together when the first of them is asked for."""

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
+from plantar.percepts.percept_options import PerceptOptions
 from plantar.sensing import ground_plane as _ground
 from plantar.sensing import proximity as _proximity
 from plantar.sensing import temperature as _temperature
@@ -14,13 +15,7 @@ from plantar.sensing import virtual_wrench as _virtual
 from plantar.sensing.proximity import HeightContour
 from plantar.sensing.reading import Reading
 
-__all__ = ["CONTOUR_HEIGHTS", "PROXIMITY_GAIN", "VirtualMembers"]
-
-PROXIMITY_GAIN = 50.0
-"""Repulsion k_p of a taxel in N/m (T 4.26): 42 taxels with a range of 50 mm push with up to 105 N."""
-
-CONTOUR_HEIGHTS: tuple[float, ...] = (0.01, 0.02, 0.03, 0.04, 0.05)
-"""Heights in m of the contours of the ground (T 4.2.7)."""
+__all__ = ["VirtualMembers"]
 
 
 class VirtualMembers:
@@ -36,8 +31,7 @@ class VirtualMembers:
 
     layout: SoleLayout
     reading: Reading
-    proximity_gain: float
-    contour_heights: tuple[float, ...]
+    options: PerceptOptions
 
     @lazy
     def near(self) -> NDArray[np.bool_] | None:
@@ -56,14 +50,14 @@ class VirtualMembers:
         """Stack of contours of the ground, lowest first (T 4.2.7 corrected, Fig. 39-b)."""
         if self.reading.proximity is None:
             return None
-        return _proximity.height_contours(self.layout, self.reading.proximity, self.contour_heights)
+        return _proximity.height_contours(self.layout, self.reading.proximity, self.options.contour_heights)
 
     @lazy
     def virtual_wrench_in_sole(self) -> NDArray[np.float64] | None:
         """Virtual ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.26)."""
         if self.reading.proximity is None:
             return None
-        return _virtual.virtual_ground_reaction_wrench(self.layout, self.reading.proximity, self.proximity_gain)
+        return _virtual.virtual_ground_reaction_wrench(self.layout, self.reading.proximity, self.options.proximity_gain)
 
     @lazy
     def ground_plane_in_sole(self) -> _ground.GroundPlane | None:

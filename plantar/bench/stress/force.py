@@ -19,6 +19,7 @@ from plantar.percepts import batch, sole_pose
 from plantar.percepts.feet import FeetPercept
 from plantar.percepts.foot_tick import walking_tick
 from plantar.percepts.percept import Percept
+from plantar.percepts.percept_options import PerceptOptions
 from plantar.percepts.sole_pose import SolePose
 from plantar.sensing import activation, force, health, pressure_wrench
 
@@ -128,7 +129,8 @@ def _percept_faults(block: Block, tally: Tally) -> None:
     ]
     wrong = differing(one, list(filled[::25]), equal_nan=True)
     tally.add("fill_from_neighbours: batch as scalar", block, wrong, 0.0, len(wrong))
-    sums = np.array([Percept(layout, reading, fill=True).wrench_in_sole for reading in block.readings])
+    options = PerceptOptions(fill=True)
+    sums = np.array([Percept(layout, reading, options=options).wrench_in_sole for reading in block.readings])
     tally.add("Percept(fill=True).wrench_in_sole", block, np.where(np.isfinite(sums), 0.0, np.nan).max(axis=1))
 
 

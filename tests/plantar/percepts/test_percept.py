@@ -8,7 +8,16 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import Percept, PlantarError, Reading, ReadingError, center_of_pressure, ground_reaction_wrench, kernels
+from plantar import (
+    Percept,
+    PerceptOptions,
+    PlantarError,
+    Reading,
+    ReadingError,
+    center_of_pressure,
+    ground_reaction_wrench,
+    kernels,
+)
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import signed_margin
 from plantar.sensing.ground_plane import fit_ground_plane
@@ -189,11 +198,11 @@ def test_faulty_taxels_can_take_their_neighbours_pressure(sole):
     force = 2e4 * sole.areas
     broken = force.copy()
     broken[[2, 30]] = np.nan, 785.0
-    percept = Percept(sole, Reading(0.0, broken), fill=True)
+    percept = Percept(sole, Reading(0.0, broken), options=PerceptOptions(fill=True))
     assert percept.active_force == pytest.approx(force)
     assert percept.wrench_in_sole == pytest.approx(ground_reaction_wrench(sole, force))
     assert percept.health.faulty.sum() == 2
-    assert not Percept(sole, Reading(0.0, np.full(len(sole), np.nan)), fill=True).active.any()
+    assert not Percept(sole, Reading(0.0, np.full(len(sole), np.nan)), options=PerceptOptions(fill=True)).active.any()
 
 
 def test_activation_can_come_from_a_switch_with_hysteresis(sole):
@@ -220,7 +229,9 @@ def test_members_of_the_other_modalities_are_those_of_their_functions(sole):
     reading = Reading(
         0.0, np.full(n, 5.0), rng.uniform(0, 0.06, n), rng.uniform(20, 50, n), acceleration=rng.normal(0, 9, (n, 3))
     )
-    percept = Percept(sole, reading, proximity_gain=80.0, contour_heights=(0.01, 0.03), reference_area=2e-3)
+    percept = Percept(
+        sole, reading, options=PerceptOptions(proximity_gain=80.0, contour_heights=(0.01, 0.03), reference_area=2e-3)
+    )
     near = reading.proximity < 0.05
     assert percept.near.tolist() == near.tolist()
     assert percept.preemptive_polygon_in_sole.tolist() == preemptive_polygon(sole, reading.proximity, 0.05).tolist()
@@ -262,7 +273,9 @@ def test_no_reading_makes_a_member_raise_or_give_nan(sole, seed, fill):
     wild = WILD if rng.random() < 0.5 else WILD[:4] + [30.0] * 4
     n = len(sole)
     reading = Reading(0.0, rng.choice(wild, n), rng.choice(wild, n), rng.choice(wild, n), rng.choice(wild, (n, 3)))
-    percept = Percept(sole, reading, stuck=rng.random(n) < 0.1, active=rng.random(n) < 0.7, fill=fill)
+    percept = Percept(
+        sole, reading, stuck=rng.random(n) < 0.1, active=rng.random(n) < 0.7, options=PerceptOptions(fill=fill)
+    )
     for name in MEMBERS:
         numbers = numbers_in(getattr(percept, name))
         if name not in ("sound_force", "acceleration_in_sole"):  # where NaN stands for a dead taxel itself
@@ -321,10 +334,7 @@ def test_no_member_is_a_way_to_the_sums_that_others_are_made_of(sole, name):
         ("reading", np.zeros(3), "reading is an array of shape .3,.; expected a Reading"),
         ("force_threshold", "1", "force threshold is '1'"),
         ("force_threshold", np.nan, "force threshold is NaN"),
-        ("proximity_gain", np.inf, "proximity gain is inf"),
-        ("contour_heights", 0.01, r"heights of contours have shape \(\)"),
-        ("contour_heights", ["low"], "heights of contours are not numeric"),
-        ("reference_area", 0.0, "allowed: above 0"),
+        ("options", {"fill": True}, "options are .*; expected a PerceptOptions"),
         ("active", "all", "mask 'active' holds"),
         ("stuck", [0, 4], "mask 'stuck' holds"),
     ],
@@ -333,3 +343,18 @@ def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
     given = {"layout": sole, "reading": Reading(0.0, np.zeros(len(sole))), argument: value}
     with pytest.raises(PlantarError, match=text):
         Percept(**given)
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "text"),
+    [
+        ("fill", 1, "'fill' is 1; allowed: True or False"),
+        ("proximity_gain", np.inf, "proximity gain is inf"),
+        ("contour_heights", 0.01, r"heights of contours have shape \(\)"),
+        ("contour_heights", ["low"], "heights of contours are not numeric"),
+        ("reference_area", 0.0, "allowed: above 0"),
+    ],
+)
+def test_wrong_options_are_refused_by_name(option, value, text):
+    with pytest.raises(PlantarError, match=text):
+        PerceptOptions(**{option: value})

@@ -1,0 +1,52 @@
+"""What a percept may be told beside its layout and reading."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from plantar.arguments import number
+from plantar.errors import InputError
+from plantar.sensing.proximity import contour_levels
+
+__all__ = ["CONTOUR_HEIGHTS", "PROXIMITY_GAIN", "PerceptOptions"]
+
+PROXIMITY_GAIN = 50.0
+"""Repulsion k_p of a taxel in N/m (T 4.26): 42 taxels with a range of 50 mm push with up to 105 N."""
+
+CONTOUR_HEIGHTS: tuple[float, ...] = (0.01, 0.02, 0.03, 0.04, 0.05)
+"""Heights in m of the contours of the ground (T 4.2.7)."""
+
+
+@dataclass(frozen=True)
+class PerceptOptions:
+    """Options of a percept, checked when they are made; share one object between the percepts of a recording.
+
+    Attributes:
+        fill: Let faulty taxels take the pressure of their sound neighbours, instead of leaving them out.
+        proximity_gain: Repulsion k_p of a taxel in N/m (T 4.26).
+        contour_heights: Heights of the contours of the ground in m (T 4.2.7), kept lowest first.
+        reference_area: Area xi in m^2 of the pressure-driven wrench (T 3.27); that of one cell where None.
+
+    Raises:
+        InputError: If one is not what it should be.
+
+    Example:
+        >>> PerceptOptions(contour_heights=(0.03, 0.01)).contour_heights
+        (0.01, 0.03)
+    """
+
+    fill: bool = False
+    proximity_gain: float = PROXIMITY_GAIN
+    contour_heights: tuple[float, ...] = CONTOUR_HEIGHTS
+    reference_area: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.fill, bool):
+            raise InputError(f"option 'fill' is {self.fill!r}; allowed: True or False")
+        object.__setattr__(self, "proximity_gain", number(self.proximity_gain, "proximity gain", finite=True))
+        object.__setattr__(self, "contour_heights", contour_levels(self.contour_heights))
+        if self.reference_area is not None:
+            area = number(self.reference_area, "reference area", finite=True)
+            if not area > 0.0:
+                raise InputError(f"reference area is {area} m^2; allowed: above 0")
+            object.__setattr__(self, "reference_area", area)
