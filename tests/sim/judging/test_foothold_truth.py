@@ -29,6 +29,24 @@ def test_without_looking_at_footholds_nothing_is_replanned() -> None:
     assert blind["fell"]
 
 
+SHORT_BEAM = ["steps=14", "terrain.length=0.2", "terrain.width=0.08"]
+
+
+def test_a_short_beam_is_crossed() -> None:
+    """From platform to platform over a third of the sole, which the seed puts 41 mm off its middle."""
+    run = run_scene(load_scene("beam", SHORT_BEAM), 0)
+    assert run["reasons"] == []
+    assert run["completed"]
+    assert run["steps_taken"] == 14
+    assert min(run["contact_area_ratio"]) < 0.4
+
+
+def test_the_same_beam_throws_a_robot_that_does_not_feel_it() -> None:
+    run = run_scene(load_scene("beam", [*SHORT_BEAM, "footholds=off"]), 0)
+    assert run["fell"]
+    assert not run["completed"]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 @pytest.mark.parametrize("seed", [0, 3])
