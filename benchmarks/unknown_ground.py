@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
 
+from plantar.mechanics.lip import GRAVITY
+
 FOLDER = Path(__file__).parent
 COLUMNS = ("fell", "steps", "impact_mean", "impact_max", "here", "angle_deg", "feasible", "area_ratio")
 COLUMNS += ("moment_Nm", "tilt_deg", "time_s", "rays_skipped")
@@ -59,7 +61,7 @@ CASES = [
 
 def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
     """The columns of one run."""
-    weight = simulation.legs.mass * 9.81
+    weight = simulation.legs.mass * GRAVITY
     impact = np.array(out["impacts_N"] or [np.nan]) / weight
     swings = [p for p in simulation.controller.schedule.phases if p.swing is not None]
     here = None

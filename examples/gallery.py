@@ -32,7 +32,7 @@ LAYOUTS = {
 STONE = np.array([[-0.015, 0.035], [0.03, -0.045], [0.09, -0.05], [0.118, 0.005], [0.085, 0.06], [0.03, 0.075]])
 
 
-def felt(side, patch, load, cop, distance):
+def percept_of(side, patch, load, cop, distance):
     """Percept of a sole that carries a load on a patch and measures distances, both with noise."""
     layout, rng = LAYOUTS[side], np.random.default_rng(0)
     force = SolePressure(layout).spread([tuple(p) for p in patch], load, cop) if len(patch) else np.zeros(len(layout))
@@ -58,7 +58,7 @@ def on_stone(side="left"):
     xy = LAYOUTS[side].positions[:, :2]
     stone = STONE if side == "left" else STONE[::-1] * [1.0, -1.0]
     distance = np.minimum(0.7 * distance_to_polygon(xy, stone), 0.04)
-    return felt(side, stone, 420.0, tuple(stone.mean(axis=0)), distance), stone
+    return percept_of(side, stone, 420.0, tuple(stone.mean(axis=0)), distance), stone
 
 
 def top(points):
@@ -180,7 +180,7 @@ def height_contours_of_an_obstacle(path):
         bump = 0.034 * np.exp(-(((x - 0.06) / 0.05) ** 2) - ((y - 0.02) / 0.045) ** 2)
         return -0.044 + 0.06 * x + bump
 
-    percept = felt("left", [], 0.0, (0.0, 0.0), -ground(*xy.T))
+    percept = percept_of("left", [], 0.0, (0.0, 0.0), -ground(*xy.T))
     figure, (side, above) = new_figure(11.0, 4.8, 1, 2, width_ratios=[1.25, 1.0])
     x = np.linspace(-0.12, 0.17, 300)
     row = np.abs(xy[:, 1] - 0.02) < 0.012
@@ -234,12 +234,12 @@ def height_contours_of_an_obstacle(path):
 def from_raw_data_to_the_picture(path):
     """Fig. 40: raw data of both soles, CoPs, and the final representation; the right foot lands on its heel."""
     left = LAYOUTS["left"]
-    flat = felt("left", left.outline[::4], 560.0, (0.03, 0.0), np.zeros(len(left)))
+    flat = percept_of("left", left.outline[::4], 560.0, (0.03, 0.0), np.zeros(len(left)))
     right = LAYOUTS["right"]
     heel = right.positions[:, 0] < -0.05
     lifted = np.tan(np.radians(9.0)) * (right.positions[:, 0] + 0.05)
     patch = right.outline[right.outline[:, 0] < -0.05]
-    landing = felt("right", patch, 240.0, (-0.07, 0.0), np.where(heel, 0.0, np.maximum(lifted, 0.0)))
+    landing = percept_of("right", patch, 240.0, (-0.07, 0.0), np.where(heel, 0.0, np.maximum(lifted, 0.0)))
     poses = [SolePose.flat(0.0, 0.1), SolePose.flat(0.16, -0.1)]
     feet = FeetPercept([flat, landing], poses)
     figure, axes = new_figure(12.0, 5.0, 1, 3)

@@ -32,14 +32,14 @@ def main(path: str, scene: str = "flat") -> None:
     simulation = Simulation(load_scene(scene, settings), seed=seed)
     camera = Camera(simulation.world.model, simulation.world.torso, 800, 1000, View(distance=2.9, azimuth=azimuth))
     pictures = []
-    look = simulation.judge.look
+    update = simulation.judge.update
 
-    def look_and_picture(*arguments):  # the judge is called at every control tick
+    def update_and_picture(*arguments):  # the judge is called at every control tick
         if not pictures and simulation.world.data.time >= moment:
             pictures.append(camera.picture(simulation.world.data).copy())
-        return look(*arguments)
+        return update(*arguments)
 
-    simulation.judge.look = look_and_picture
+    simulation.judge.update = update_and_picture
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder) / "run.mcap"
         simulation.run(record=recording)
@@ -90,8 +90,8 @@ def main(path: str, scene: str = "flat") -> None:
     )
     plane.plot(*com[:, turn].T, color=COLOURS["polygon"], lw=1.6, label="CoM (true)")
     if "/foothold" in run.topics:
-        felt = run.topics["/foothold"]
-        for n, row in enumerate(felt.fields["polygon"]):
+        found = run.topics["/foothold"]
+        for n, row in enumerate(found.fields["polygon"]):
             ring = row.reshape(-1, 2)[np.isfinite(row.reshape(-1, 2)).all(axis=1)]
             plane.fill(*ring[:, turn].T, color=COLOURS["edge"], alpha=0.04, lw=0.0)
             if n == 0:

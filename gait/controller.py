@@ -264,7 +264,7 @@ class WalkingController:
         if feedback:
             self._align(state)
         feet, inward = self._swing(sensed, state)
-        tick = self._look(sensed, state, feet, inward, feedback)
+        tick = self._perceive(sensed, state, feet, inward, feedback)
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
@@ -356,7 +356,7 @@ class WalkingController:
             return self.guard.press
         return None if self.conformity is None or not self.settings.feedback else self.conformity.gains.press
 
-    def _look(self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, feedback: bool) -> Tick:
+    def _perceive(self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, feedback: bool) -> Tick:
         """What the feet stand on, and all else that who proposes gets to know."""
         time, percepts, phase = sensed.time, sensed.percepts, self.schedule.at(sensed.time)
         looks = feedback and self.settings.footholds != "off"
@@ -371,7 +371,7 @@ class WalkingController:
             loads=state.loads,
             moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
             found=self.contacts.find(phase, time, feet, state, percepts) if looks else (),
-            seen=self.contacts.see(phase, time, feet, state, percepts) if looks else None,
+            seen=self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None,
             inward=inward,
         )
 
@@ -512,7 +512,7 @@ class WalkingController:
             return
         position, yaw = self.motion.footholds[side]
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
-        self._frame.follow(position, state.positions_sole[side], turn)
+        self._frame.update(position, state.positions_sole[side], turn)
 
     def _contact(self, side: Side) -> Contact:
         """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
@@ -540,4 +540,4 @@ class WalkingController:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: float(self.motion.footholds[side][0][2]) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
-        return self._ground.follow(target) + self.settings.com_height
+        return self._ground.update(target) + self.settings.com_height

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.layouts.layout import Side, SoleLayout
+from plantar.sides import SIDES
 from shoes.cad_kernel import load_cadquery
 from shoes.fit.taxels import TaxelFit, fit_taxels
 from shoes.foot.foot import Foot
@@ -119,7 +120,7 @@ def build_shoe(
     """
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
-    sides: tuple[Side, ...] = ("left", "right") if side == "both" else (side,)
+    sides: tuple[Side, ...] = SIDES if side == "both" else (side,)
     tell = progress or (lambda fraction, text: None)
     p = parameters or ShoeParameters()
     if not 0.0 <= overhang <= p.overhang_max:

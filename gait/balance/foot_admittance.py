@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import Side
 from plantar.settings.schema import Settings, number
+from plantar.sides import SIDES
 
 __all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 class AdmittanceGains(Settings):
@@ -69,7 +68,7 @@ class FootAdmittance:
     def __init__(self, gains: AdmittanceGains, period: float) -> None:
         self.gains = gains
         self.period = period
-        self.corrections = {s: FootCorrection() for s in _SIDES}
+        self.corrections = {s: FootCorrection() for s in SIDES}
         self._measured: dict[Side, list[float] | None] = {"left": None, "right": None}
 
     def update(
@@ -87,7 +86,7 @@ class FootAdmittance:
         g, dt = self.gains, self.period
         share = dt / (g.foot_filter + dt)
         errors: dict[Side, float] = {}
-        for side in _SIDES:
+        for side in SIDES:
             foot = self.corrections[side]
             if side not in wanted:
                 self._measured[side] = None

@@ -86,7 +86,7 @@ class FootContacts:
     """Contacts of both feet.
 
     Args:
-        settings: How a foothold is found from the taxels.
+        settings: How the contact polygon is found from the taxels.
         layouts: Sole layout of each side.
     """
 
@@ -100,11 +100,11 @@ class FootContacts:
         self._region = np.empty((0, 2))
 
     def center(self, side: Side) -> NDArray[np.float64]:
-        """Middle (2,) of a foot's foothold in its sole frame in m; of the sole while the foothold is not known."""
+        """Middle (2,) of a foot's contact polygon in its sole frame in m; of the sole while it is not known."""
         return self._feet[side].center
 
     def polygon(self, side: Side) -> NDArray[np.float64]:
-        """Foothold (k, 2) of a foot in its sole frame in m; the sole's outline while it is not known."""
+        """Contact polygon (k, 2) of a foot in its sole frame in m; the sole's outline while it is not known."""
         foot = self._feet[side]
         return self._outline[side] if foot.support is None else foot.contact.polygon_in_sole
 
@@ -151,7 +151,7 @@ class FootContacts:
                 sides.append(side)
         return sides
 
-    def see(
+    def find_ahead(
         self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
     ) -> FootholdSeen | None:
         """What the swing foot will stand on, from what its taxels see; told once for each step.
@@ -170,7 +170,7 @@ class FootContacts:
         if side is None or feet.landed:
             return None
         contact, rules = self._feet[side].contact, self._settings
-        contact.see(soles[side].reading)
+        contact.update_view(soles[side].reading)
         if self._foreseen == phase.step or math.hypot(*feet.ahead.tolist()) > rules.foresee_reach:
             return None
         if phase.end - time < rules.foresee_least:
@@ -192,7 +192,7 @@ class FootContacts:
             time: Time in s.
             feet: Where the feet are.
             state: Estimated state.
-            soles: What each sole feels.
+            soles: What each sole senses.
 
         Returns:
             The footholds.

@@ -25,7 +25,7 @@ from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
 __all__ = ["GroundMap", "GroundView"]
 
 
-_LARGEST_LESSON = 0.0015  # m that one touch changes the bias by: more is ground that moved
+_LARGEST_BIAS_STEP = 0.0015  # m that one touch changes the bias by: more is ground that moved
 _EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one
 _LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
 _LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expected at least
@@ -109,10 +109,10 @@ class GroundMap:
         """
         self._stood = (position, rotation)
 
-    def look(
+    def update(
         self, percept: Percept, position: NDArray[np.float64], rotation: NDArray[np.float64], time: float
     ) -> GroundView | None:
-        """What the sole sees now.
+        """Take what the sole senses now into the map.
 
         Args:
             percept: What the sole senses.
@@ -143,7 +143,7 @@ class GroundMap:
         """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
         view = self._view()
         if view is not None and abs(view.distance) < 0.015:
-            self.bias += min(_LARGEST_LESSON, max(-_LARGEST_LESSON, 0.5 * view.distance))
+            self.bias += min(_LARGEST_BIAS_STEP, max(-_LARGEST_BIAS_STEP, 0.5 * view.distance))
 
     def _height(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> float:
         return float(position[2] + rotation[2, :2].dot(self._centre[:2]))

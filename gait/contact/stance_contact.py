@@ -2,8 +2,8 @@
 
 A single reading is no polygon: noise lights single taxels, and a cell goes dark when the ZMP moves away from it though
 the ground under it is still there. So loads are gathered from touchdown on: a taxel that has carried in this stance
-belongs to the foothold until lift-off. The foothold counts as settled once the foot has carried for a few readings,
-and is refined while more load comes on.
+belongs to the contact polygon until lift-off. The polygon counts as settled once the foot has carried for a few
+readings, and is refined while more load comes on.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ __all__ = ["ContactSettings", "StanceContact"]
 
 
 class ContactSettings(Settings):
-    """How a foothold is found from the taxels.
+    """How the contact polygon of a foot is found from the taxels.
 
     Attributes:
         minimum_load: Vertical force in N from which a foot's taxels tell what it stands on.
-        settle_readings: Readings with that load before the foothold counts.
+        settle_readings: Readings with that load before the contact polygon counts.
         taxel_noise: Standard deviation of a taxel's noise in N.
         smoothing: Share of a new reading in the running mean that decides whether a taxel has carried.
         forgetting: Share of the old in the running sum that edges are fitted to.
@@ -42,16 +42,16 @@ class ContactSettings(Settings):
         least_wrong: Share of the load that silent taxels should carry, from which the belief is wrong.
         least_force: Running mean in N from which a taxel has carried.
         model_error: Share of the largest force that a taxel's force may differ from the fit's.
-        full_ratio: Share of the sole from which on the foothold counts as the whole sole.
+        full_ratio: Share of the sole from which on the contact polygon counts as the whole sole.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
-        fit_every: Readings between two looks at a foothold that has settled.
+        fit_every: Readings between two fits of a contact polygon that has settled.
         standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
         least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
         foresee_readings: Readings of the ground from which a foothold is planned with before the foot is on it.
         foresee_reach: Distance in m that the foot may still have to go for that.
         foresee_least: Time in s before the planned touchdown from which it is too late for that.
         largest_shift: Distance in m by which one foothold moves the footsteps to come.
-        watch: Time in s into the single support until which a foothold is refined.
+        watch: Time in s into the single support until which a contact polygon is refined.
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
@@ -137,7 +137,7 @@ class StanceContact:
             load: Vertical force on the foot in N.
 
         Returns:
-            Whether the foothold has just settled or become another.
+            Whether the contact polygon has just settled or become another.
         """
         s = self.settings
         if reading.time <= self._time or load < s.minimum_load:
@@ -155,7 +155,7 @@ class StanceContact:
             return False
         return self._find()
 
-    def see(self, reading: Reading) -> None:
+    def update_view(self, reading: Reading) -> None:
         """Take in what the taxels see of the ground while the foot comes down.
 
         Args:
@@ -178,7 +178,7 @@ class StanceContact:
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Centroid of the foothold that a foot comes down on, from what its taxels see.
+        """Centroid of the ground that will carry a foot which comes down, from what its taxels see.
 
         Args:
             ahead: How far (2,) in m the sole still moves in its own plane before it lands.
@@ -206,7 +206,7 @@ class StanceContact:
         return self._fit.between(np.isfinite(self._depth) & ~idle, idle)
 
     def _find(self) -> bool:
-        """Find what carries, from what was seen and what is felt."""
+        """Find what carries, from what was seen and which loads it carries."""
         s = self.settings
         mean = self._sum / self._weight
         first, before = not self.settled, self.polygon_in_sole

@@ -64,7 +64,7 @@ class SupportStrip:
         """The ground is whole again, or not known."""
         self._footholds.clear()
 
-    def add(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
+    def update(self, step: int, side: Side, centroid: NDArray[np.float64]) -> None:
         """Take in a partial foothold.
 
         Args:

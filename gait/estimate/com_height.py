@@ -18,7 +18,7 @@ class CoMHeight:
 
     Example:
         >>> height = CoMHeight(0.0, 0.005)
-        >>> track = [height.follow(0.03) for _ in range(300)]
+        >>> track = [height.update(0.03) for _ in range(300)]
         >>> track[0] < 1e-4, round(track[-1], 4), max(track) <= 0.03
         (True, 0.03, True)
     """
@@ -29,7 +29,7 @@ class CoMHeight:
         self._period = period
         self._frequency = frequency
 
-    def follow(self, target: float) -> float:
+    def update(self, target: float) -> float:
         """One control tick.
 
         Args:

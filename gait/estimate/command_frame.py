@@ -30,7 +30,7 @@ class CommandFrame:
         self.turn = 0.0
         self._share = min(1.0, period / time_constant)
 
-    def follow(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
+    def update(self, commanded: NDArray[np.float64], real: NDArray[np.float64], turn: float) -> None:
         """Follow the carrying foot for one tick.
 
         Args:

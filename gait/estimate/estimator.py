@@ -27,6 +27,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector
 from plantar.mechanics.zmp import zmp_of_feet
 from plantar.settings.schema import Settings, number
+from plantar.sides import SIDES
 
 __all__ = [
     "EstimatorGains",
@@ -35,8 +36,6 @@ __all__ = [
     "Posture",
     "SoleLoad",
 ]
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 @dataclass(frozen=True)
@@ -157,8 +156,8 @@ class FloatingBaseEstimator:
         if airborne is not None:
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
-        loads: dict[str, float] = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in _SIDES}
-        cops = {s: soles[s].position_cop_in_sole for s in _SIDES}
+        loads: dict[str, float] = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in SIDES}
+        cops = {s: soles[s].position_cop_in_sole for s in SIDES}
         if self._rotation is None or self._last is None:
             self._start(posture, accelerometer)
         else:
@@ -168,16 +167,16 @@ class FloatingBaseEstimator:
         assert rotation is not None
         self._last, self._last_rotation = posture, rotation
         positions: dict[str, NDArray[np.float64]] = {
-            s: self._position + rotation.dot(posture.positions[s]) for s in _SIDES
+            s: self._position + rotation.dot(posture.positions[s]) for s in SIDES
         }
-        rotations: dict[str, NDArray[np.float64]] = {s: rotation.dot(posture.rotations[s]) for s in _SIDES}
+        rotations: dict[str, NDArray[np.float64]] = {s: rotation.dot(posture.rotations[s]) for s in SIDES}
         points: list[NDArray[np.float64] | None] = []
-        for s in _SIDES:
+        for s in SIDES:
             positions[s] = self._position + rotation.dot(posture.positions[s])
             rotations[s] = rotation.dot(posture.rotations[s])
             cop = cops[s]
             points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
-        zmp = zmp_of_feet(points, [loads[s] for s in _SIDES])
+        zmp = zmp_of_feet(points, [loads[s] for s in SIDES])
         self._observe(self._position + rotation.dot(posture.com), zmp)
         return BaseState(
             rotation,
@@ -197,15 +196,15 @@ class FloatingBaseEstimator:
         forward /= float(np.linalg.norm(forward))
         level = np.vstack([forward, np.cross(up, forward), up])
         turn = math.atan2(
-            sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
-            sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in _SIDES),
+            sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
+            sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
         )
         self._rotation = level_rotation(turn) @ level
         self._position = np.mean(
-            [np.array(self.feet[s][:3]) - self._rotation @ posture.positions[s] for s in _SIDES], axis=0
+            [np.array(self.feet[s][:3]) - self._rotation @ posture.positions[s] for s in SIDES], axis=0
         )
         self._com = self._position + self._rotation @ posture.com
-        for side in _SIDES:
+        for side in SIDES:
             self._heading[side] = self.feet[side][3]
 
     def _turn(
@@ -235,7 +234,7 @@ class FloatingBaseEstimator:
             rate += gain * rotation.T.dot(tilt)
         total = 0.0
         error = 0.0
-        for side in _SIDES:
+        for side in SIDES:
             if loads[side] <= self.gains.minimum_load:
                 self._heading[side] = None
                 continue
@@ -260,7 +259,7 @@ class FloatingBaseEstimator:
         assert self._last is not None
         shift = np.zeros(3)
         total = 0.0
-        for side in _SIDES:
+        for side in SIDES:
             cop = cops[side]
             weight = loads[side] - self.gains.minimum_load
             if cop is None or weight <= 0.0:

@@ -25,7 +25,7 @@ class ComplianceGains(Settings):
         steepness: Power of the time that is left with which a descent that has time to spare comes to the ground.
         crawl_time: Time in s before the plan puts weight on the foot at which it is there.
         reserve: The same at which a foot that has not touched hurries down; it begins at twice that.
-        haste: How many times faster it touches then.
+        late_speed_ratio: How many times faster it touches then.
         turning: Time constant in s with which the sole turns to the ground.
         turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
         largest_slope: Slope in rad beyond which the sole does not follow the ground.
@@ -35,8 +35,8 @@ class ComplianceGains(Settings):
         contact_force: Force in N that counts as touchdown.
         touch_force: Force in N that a foot carries at first.
         hold_force: Force in N that it carries from then on to the double support.
-        firming: Time in s from the one to the other.
-        pliancy: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
+        load_time: Time in s from the one to the other.
+        admittance: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
         settling: Time constant in s with which it learns how fast the body above it moves up or down.
         readings: Number of readings that the map of distances averages over while the sole stands still.
         readings_moving: The same while it moves fast.
@@ -59,7 +59,7 @@ class ComplianceGains(Settings):
     steepness: float = number(3.0, "1", 1, 10)
     crawl_time: float = number(0.3, "s", 0, 2)
     reserve: float = number(0.08, "s", 0, 1)
-    haste: float = number(2.5, "1", 1, 20)
+    late_speed_ratio: float = number(2.5, "1", 1, 20)
     turning: float = number(0.04, "s", 0.005, 1)
     turn_rate: float = number(1.5, "rad/s", 0.01, 20)
     largest_slope: float = number(0.25, "rad", 0, 0.7)
@@ -68,8 +68,8 @@ class ComplianceGains(Settings):
     contact_force: float = number(18.0, "N", 0, 10000)
     touch_force: float = number(20.0, "N", 0, 10000)
     hold_force: float = number(30.0, "N", 0.1, 10000)
-    firming: float = number(0.15, "s", 0.001, 5)
-    pliancy: float = number(1e-4, "m/s/N", 0, 0.1)
+    load_time: float = number(0.15, "s", 0.001, 5)
+    admittance: float = number(1e-4, "m/s/N", 0, 0.1)
     settling: float = number(0.1, "s", 0.005, 10)
     readings: int = whole(60, "readings", 1, 10000)
     readings_moving: int = whole(5, "readings", 1, 10000)

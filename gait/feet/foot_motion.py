@@ -311,8 +311,8 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
-            view = compliance.ground.look(*sense, time)
-            if self.comes_down and compliance.feel(load) and self._may_touch(compliance, view, load):
+            view = compliance.ground.update(*sense, time)
+            if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
                 self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)

@@ -29,7 +29,7 @@ _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to ha
 
 
 class SwingCompliance:
-    """How one sole comes down, and what it feels, from lift-off to the end of its landing.
+    """How one sole comes down, and the load on it, from lift-off to the end of its landing.
 
     Attributes:
         ground: What the sole sees of the ground.
@@ -58,8 +58,8 @@ class SwingCompliance:
         self.switch.reset()
         self.force = 0.0
 
-    def feel(self, load: float) -> bool:
-        """Whether the foot has landed (T 4.30 corrected).
+    def update_load(self, load: float) -> bool:
+        """Touchdown detection: whether the foot has landed (T 4.30 corrected).
 
         Args:
             load: Vertical force in N on the sole, less its tare.
@@ -95,7 +95,7 @@ class SwingCompliance:
         left = self._aim - (g.margin if above else min(g.clearance, 0.004 + g.clearance_slope * remaining))
         hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
         doubt = max(0.0, -view.distance) / _DOUBT  # it should have touched already
-        crawl = g.touch_speed * (1.0 + (g.haste - 1.0) * hurry + doubt)
+        crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
         wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
         if above:
@@ -127,7 +127,7 @@ class SwingCompliance:
             since: Time in s since it touched.
         """
         g = self.gains
-        return g.touch_force + min(1.0, since / g.firming) * (g.hold_force - g.touch_force)
+        return g.touch_force + min(1.0, since / g.load_time) * (g.hold_force - g.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
         """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
@@ -142,7 +142,7 @@ class SwingCompliance:
             The distance.
         """
         g = self.gains
-        missing = g.pliancy * (target - load)
+        missing = g.admittance * (target - load)
         self._drift = min(_LARGEST_DRIFT, max(-_LARGEST_DRIFT, self._drift + missing * period / g.settling))
         wanted = missing + self._drift
         if load < 0.3 * g.hold_force:

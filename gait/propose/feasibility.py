@@ -37,7 +37,7 @@ class FeasibilityRules(Settings):
         surprise: How much higher than expected in m ground has to be to be checked.
         hold: By how much the single support is made longer for that, in s.
         probe_force: Force in N that the foot presses with.
-        probe_time: For how long in s it is felt, once it is there.
+        probe_time: For how long in s it is probed, once it is there.
         probe_limit: For how long in s it may take to come.
         reserve: How long in s the single support goes on after that at least.
         active_force: Mean force in N of a taxel that carries, above what its noise adds up to.
@@ -108,7 +108,7 @@ class FootholdProbe:
         self._moment = np.zeros(2)
         self._count = self._moments = 0
 
-    def see(self, distance: NDArray[np.float64]) -> None:
+    def update_view(self, distance: NDArray[np.float64]) -> None:
         """Take in how far the taxels were from the ground when the foot touched it.
 
         Args:
@@ -117,7 +117,7 @@ class FootholdProbe:
         with np.errstate(invalid="ignore"):
             self._near = distance < self.rules.near
 
-    def feel(self, force: NDArray[np.float64], moment: NDArray[np.float64] | None) -> None:
+    def update_load(self, force: NDArray[np.float64], moment: NDArray[np.float64] | None) -> None:
         """Take in one reading.
 
         Args:
@@ -131,7 +131,7 @@ class FootholdProbe:
             self._moment += moment
 
     def verdict(self) -> Foothold:
-        """What the rule says of all that was felt."""
+        """What the rule says of all that was sensed."""
         count = max(1, self._count)
         active = (self._force / count > self.rules.active_force) | self._near
         polygon = cells_polygon(self.layout, active)

@@ -63,7 +63,7 @@ class FootholdCarries:
         if found.whole:
             self._strip.clear()
         else:
-            self._strip.add(found.step, found.side, found.vrp)
+            self._strip.update(found.step, found.side, found.vrp)
         rested = time >= self._moved + self._settings.replan_pause or self._moved_step != found.step
         return rested and not found.as_planned
 

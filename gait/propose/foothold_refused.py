@@ -154,7 +154,7 @@ class StepGuard:
         self.press = rules.probe_force
         self._probe = FootholdProbe(self._layouts[side], rules)
         if tick.feet.distance is not None:
-            self._probe.see(tick.feet.distance)
+            self._probe.update_view(tick.feet.distance)
         # The DCM has to be back over the stance foot, and to stay there, until the rule has decided.
         missing = tick.time + rules.probe_limit + 1.5 * rules.probe_time + rules.reserve - phase.end
         return _waiting(phase, missing) if missing > 0.0 else None
@@ -168,7 +168,7 @@ class StepGuard:
         if time > self._since + 0.5 * rules.probe_time and reading.time > self._reading_time:
             self._reading_time = reading.time
             pressing = load > 0.5 * rules.probe_force
-            self._probe.feel(reading.force, tick.moments.get(side) if pressing else None)
+            self._probe.update_load(reading.force, tick.moments.get(side) if pressing else None)
 
     def _judge(self, phase: Phase, side: Side, tick: Tick) -> PlanChange | None:
         """Step on it, go around it, or back."""

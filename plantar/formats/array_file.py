@@ -31,6 +31,7 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.sides import SIDES
 from plantar.structured_text import JSON_MOST
 from plantar.zip_archive import open_archive
 
@@ -105,7 +106,7 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
     feet: dict[Side, FootRecording] = {}
     if by_side:
         first = by_side.get("left") or by_side["right"]
-        for side in ("left", "right"):
+        for side in SIDES:
             if side in by_side:
                 array = by_side[side][1]
                 if array.shape[0] != first[1].shape[0]:

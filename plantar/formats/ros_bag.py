@@ -25,6 +25,7 @@ from plantar.input_file import check_input, is_file
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
+from plantar.sides import SIDES
 from plantar.structured_text import JSON_MOST
 
 __all__ = ["FORMAT", "read_bag", "series_of_bag"]
@@ -88,7 +89,7 @@ def read_bag(path: Path, options: ReadOptions) -> PressureRecording:
     time, rate, notes = sampling(stamps - stamps[0], None, options.rate_hz)
     feet: dict[Side, FootRecording] = {}
     if by_side:
-        for side in ("left", "right"):
+        for side in SIDES:
             if side in by_side:
                 own, values = series[by_side[side]]
                 if len(own) != len(stamps) or np.abs(own - stamps).max() > 1e-6:

@@ -24,6 +24,7 @@ from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
+from plantar.sides import SIDES
 
 __all__ = ["FORMAT"]
 
@@ -134,7 +135,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         feet[side] = FootRecording(side, values, layout)
         grid = shape
     warnings.append("the first row of each matrix is taken as the toes, its columns as seen from above")
-    feet = {s: feet[s] for s in ("left", "right") if s in feet}
+    feet = {s: feet[s] for s in SIDES if s in feet}
     return PressureRecording(
         path=path,
         format=FORMAT.name,

@@ -22,7 +22,7 @@ from plantar.arrays import array, integers, numbers, own_array, read_only
 from plantar.errors import LayoutError
 from plantar.kernels.sole import SoleKernel
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import Side, other_side
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = [
     "CELL_SHAPES",
@@ -147,7 +147,7 @@ class SoleLayout:
 
     def _check(self, n: int) -> None:
         instance(self.name, str, "layout field 'name'", LayoutError)
-        if self.side not in ("left", "right"):
+        if self.side not in SIDES:
             raise LayoutError(f"layout field 'side' is {self.side!r}; allowed: left, right")
         if len(np.unique(self.ids)) != n:
             raise LayoutError("layout field 'ids' holds an id twice; every taxel needs its own")

@@ -113,12 +113,12 @@ def sole_wrenches(
         >>> sole_wrenches(contact, contact * 0 + 2.0, threshold=5.0)[:, 2].tolist()
         [2.0, 2.5, 9.0, 4.0]
     """
-    felt, foreseen = _finite(contact, ("frames", 6)), _finite(virtual, ("frames", 6))
-    if felt.shape != foreseen.shape:
-        raise InputError(f"wrenches have shapes {felt.shape} and {foreseen.shape}; expected the same")
+    carried, foreseen = _finite(contact, ("frames", 6)), _finite(virtual, ("frames", 6))
+    if carried.shape != foreseen.shape:
+        raise InputError(f"wrenches have shapes {carried.shape} and {foreseen.shape}; expected the same")
     on = number(threshold, "threshold", nan=True)
-    landed = hysteresis(_size(felt), on, 0.5 * on if release is None else release)
-    return np.where(landed[..., None], felt, felt + foreseen)
+    landed = hysteresis(_size(carried), on, 0.5 * on if release is None else release)
+    return np.where(landed[..., None], carried, carried + foreseen)
 
 
 class SoleWrenchSwitch:
@@ -166,10 +166,10 @@ class SoleWrenchSwitch:
         Raises:
             InputError: If a wrench is not 6 numbers.
         """
-        felt, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
-        force = math.hypot(*felt[:3].tolist())
+        carried, foreseen = _finite(contact, (6,)), _finite(virtual, (6,))
+        force = math.hypot(*carried[:3].tolist())
         self.landed = force > (self.release if self.landed else self.threshold)
-        return felt if self.landed else felt + foreseen
+        return carried if self.landed else carried + foreseen
 
 
 def _size(wrench: NDArray[np.float64]) -> NDArray[np.float64]:

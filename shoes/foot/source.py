@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from plantar.errors import InputError, RobotError
+from plantar.sides import SIDES
 from plantar.structured_text import packaged_files, read_toml
 from shoes.foot.foot import Foot, foot_from_dimensions
 from shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
@@ -17,7 +18,7 @@ from shoes.order import FootSource
 __all__ = ["foot_of_robot", "read_foot"]
 
 _ALLOWED = {
-    "mesh_side": ("left", "right"),
+    "mesh_side": SIDES,
     "unit": ("m", "cm", "mm", "in"),
     "up": ("x", "-x", "y", "-y", "z", "-z"),
     "forward": ("x", "-x", "y", "-y"),

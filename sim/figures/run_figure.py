@@ -28,7 +28,7 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
 
     Returns:
         The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at, zmp.png and
-        zmp_plane.png where the ankles were felt.
+        zmp_plane.png where the robot has force-torque sensors at its ankles.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)

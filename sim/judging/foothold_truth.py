@@ -17,11 +17,12 @@ from sim.terrain import Ground
 __all__ = ["FootholdTruth"]
 
 _LEVEL = 0.006  # m: faces within this of the sole are under it
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 class FootholdTruth:
-    """Compares felt footholds with the ground's geometry. Level boxes and the floor count; round ground does not.
+    """Compares the footholds that the controller found with the ground's geometry.
+
+    Level boxes and the floor count; round ground does not.
 
     Args:
         world: The world.
@@ -42,24 +43,24 @@ class FootholdTruth:
         self._only_level = len(faces) == len(ground.solids)
         self._found: dict[int, tuple[float, float, float]] = {}
 
-    def look(self, footholds: tuple[FootholdFound, ...]) -> None:
-        """Compare the footholds that were felt at this tick; of each step the last one counts."""
-        for felt in footholds if self._only_level else ():
-            true = self._under(felt.side)
-            if len(true) < 3 or len(felt.polygon) < 3:
+    def update(self, footholds: tuple[FootholdFound, ...]) -> None:
+        """Compare the footholds that were found at this tick; of each step the last one counts."""
+        for told in footholds if self._only_level else ():
+            true = self._under(told.side)
+            if len(true) < 3 or len(told.polygon) < 3:
                 continue
-            middle, found = centroid(true), centroid(felt.polygon)
+            middle, found = centroid(true), centroid(told.polygon)
             assert middle is not None
             assert found is not None
-            whole = area(self._world.robot.layouts[felt.side].outline)
-            self._found[felt.step] = (
+            whole = area(self._world.robot.layouts[told.side].outline)
+            self._found[told.step] = (
                 float(np.hypot(*(found - middle))),
-                area(felt.polygon) / whole,
+                area(told.polygon) / whole,
                 area(true) / whole,
             )
 
     def summary(self) -> Mapping[str, Any]:
-        """Errors of the felt footholds' centroids in m, and true and felt shares of the sole's area, a step each."""
+        """Errors of the found footholds' centroids in m, and true and found shares of the sole's area, a step each."""
         rows = [self._found[k] for k in sorted(self._found)]
         if not rows:
             return {}
@@ -69,7 +70,7 @@ class FootholdTruth:
                 "median": round(float(np.median(errors)), 4),
                 "p95": round(float(np.percentile(errors, 95)), 4),
             },
-            "area_ratio_felt": [round(row[1], 3) for row in rows],
+            "area_ratio_found": [round(row[1], 3) for row in rows],
             "area_ratio_true": [round(row[2], 3) for row in rows],
         }
 

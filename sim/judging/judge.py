@@ -15,6 +15,7 @@ from plantar.geometry.polygon import area
 from plantar.kernels.few_points import small_hull
 from plantar.layouts.layout import Side
 from plantar.mechanics.lip import GRAVITY
+from plantar.sides import SIDES
 from sim.judging.joint_limits import JointLimits
 from sim.judging.leg_contact import LegContact
 from sim.judging.step_count import StepCount
@@ -30,7 +31,6 @@ from sim.model.world import PHYSICS_PERIOD, World
 
 __all__ = ["Judge", "Landing"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _TOUCH = 20.0  # N: less than this is no contact, the usual level of force plates in gait analysis
 _AIRBORNE = 0.15  # s without contact before a touch counts as a landing
 _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
@@ -82,9 +82,9 @@ class Judge:
     zmp_error: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in _SIDES}
+        self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in SIDES}
         self._sensed = self.world.data.sensordata
-        self._air = dict.fromkeys(_SIDES, 0)
+        self._air = dict.fromkeys(SIDES, 0)
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         mass = float(self.world.model.body_subtreemass[self.world.model.body_rootid[self.world.torso]])
         self.steps = StepCount(self.goal, mass * GRAVITY)
@@ -96,7 +96,7 @@ class Judge:
         """Whether the robot fell."""
         return self.fall is not None
 
-    def watch(self) -> None:
+    def update_physics(self) -> None:
         """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
         self.legs.step()
         self.joints.step()
@@ -129,7 +129,7 @@ class Judge:
         sole = data.site_xmat[self.world.sole_sites[side]].reshape(3, 3)[:, 2]
         return math.degrees(math.acos(min(1.0, abs(float(up @ sole)))))
 
-    def look(
+    def update(
         self,
         com: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
@@ -149,7 +149,7 @@ class Judge:
         """
         world, data = self.world, self.world.data
         if feet is None:
-            feet = feet_contacts(world.model, data, [self._geoms[s] for s in _SIDES])
+            feet = feet_contacts(world.model, data, [self._geoms[s] for s in SIDES])
         truth = ground_truth(feet)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
@@ -161,13 +161,13 @@ class Judge:
         self.estimate_error_max = np.maximum(self.estimate_error_max, np.abs(com - center))
         if zmp is not None and truth.zmp is not None:
             self.zmp_error.append(math.dist(zmp, truth.zmp))
-        for side, points in zip(_SIDES, truth.points, strict=True):
+        for side, points in zip(SIDES, truth.points, strict=True):
             last = self._landing[side]
             if last is not None and data.time - last.time <= _SETTLED and len(points) > 2:
                 last.area = max(last.area, area(np.array(small_hull(points))))
         if moved:
             self.goal.hear(float(data.time), moved)
-        for side in _SIDES:
+        for side in SIDES:
             site = world.sole_sites[side]
             x, y, _ = data.site_xpos[site].tolist()
             rotation = data.site_xmat[site]
@@ -186,5 +186,5 @@ class Judge:
     def height(self) -> float:
         """Height in m of the CoM above the lower sole."""
         data, world = self.world.data, self.world
-        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in _SIDES)
+        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in SIDES)
         return float(data.subtree_com[world.torso, 2]) - ground

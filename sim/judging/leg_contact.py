@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from plantar.sides import SIDES
 from sim.model.world import PHYSICS_PERIOD, World
 from sim.robots.leg_shapes import COLLIDES
 
@@ -19,7 +20,7 @@ def legs_that_touch(world: World) -> tuple[str, str] | None:
     model = world.model
     for pair in world.data.contact.geom.tolist():
         sides = {int(model.geom_contype[g]): g for g in pair if g >= 0}
-        found = [sides.get(COLLIDES[side][0]) for side in ("left", "right")]
+        found = [sides.get(COLLIDES[side][0]) for side in SIDES]
         if None not in found:
             left, right = (model.body(int(model.geom_bodyid[g])).name for g in found)
             return left or "left leg", right or "right leg"

@@ -34,7 +34,7 @@ class Recovery:
         self._last_off = [s.start for s in self.shoves]  # last time at which it was not back yet
         self._seen = [-math.inf] * len(self.shoves)
 
-    def look(
+    def update(
         self,
         time: float,
         zmp: NDArray[np.float64] | None,

@@ -11,6 +11,7 @@ import numpy as np
 
 from gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
+from plantar.sides import SIDES
 from sim.judging.walk_goal import NEAR, NEAR_YAW, WalkGoal
 
 __all__ = ["Stand", "StepCount"]
@@ -67,7 +68,7 @@ class StepCount:
         self.goal = goal
         self._enough = _CARRIES * weight
         self.stands: list[Stand] = []
-        self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in ("left", "right")}
+        self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in SIDES}
 
     def touch(self, side: Side, time: float) -> None:
         """A foot touches the ground after it was in the air.

@@ -47,7 +47,7 @@ class VelocityTruth:
         self._speed = 0.0
         self._walks_from = math.inf
 
-    def look(self, time: float) -> None:
+    def update(self, time: float) -> None:
         """At each control tick.
 
         Args:

@@ -17,10 +17,10 @@ from gait.plan.footsteps import Footstep
 from gait.plan.plan_change import MovedStep
 from gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
+from plantar.sides import SIDES
 
 __all__ = ["NEAR", "NEAR_YAW", "WalkGoal"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 NEAR = 0.05
 """Distance in m within which a foot has reached a place."""
@@ -134,7 +134,7 @@ class WalkGoal:
         last = dict(self._feet)
         for step in self._now:
             last[step.side] = step
-        middle = 0.5 * sum(vrp_of_step(last[side], centers[side]) for side in _SIDES)
+        middle = 0.5 * sum(vrp_of_step(last[side], centers[side]) for side in SIDES)
         return np.asarray(middle), self._now[-1].yaw if self._now else self._feet["left"].yaw
 
     def summary(self) -> list[dict[str, object]]:

@@ -18,13 +18,12 @@ from gait.estimate.ankle_sensor import SoleWrench
 from gait.estimate.skin_load import SkinLoad
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.mechanics.zmp import zmp_of_feet
+from plantar.sides import SIDES
 
 __all__ = ["FILTER_TIME", "ZmpComparison"]
 
 FILTER_TIME = 0.02
 """Time constant in s of both low-pass filters: that of the balance laws' own."""
-
-_SIDES: tuple[Side, Side] = ("left", "right")
 
 
 class ZmpComparison:
@@ -40,16 +39,16 @@ class ZmpComparison:
     def __init__(self, layouts: Mapping[Side, SoleLayout], noise: float, period: float, begin: float = 1.0) -> None:
         self._share = period / (FILTER_TIME + period)
         self._begin = begin
-        self._skins = {s: SkinLoad(layouts[s], noise, self._share) for s in _SIDES}
+        self._skins = {s: SkinLoad(layouts[s], noise, self._share) for s in SIDES}
         self._wrenches: dict[Side, NDArray[np.float64]] = {}
         self._differences: list[NDArray[np.float64]] = []
 
-    def look(self, time: float, command: Command) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]:
+    def update(self, time: float, command: Command) -> tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]:
         """At each control tick.
 
         Args:
             time: Time in s.
-            command: What the controller felt; it has to have ankle loads.
+            command: The command, with what the controller sensed; it has to have ankle loads.
 
         Returns:
             ZMP (2,) in m from the skin and from the ankles in the world frame, None without load.
@@ -58,7 +57,7 @@ class ZmpComparison:
         ankle: list[NDArray[np.float64] | None] = []
         skin_loads: list[float] = []
         ankle_loads: list[float] = []
-        for side in _SIDES:
+        for side in SIDES:
             wrench = command.ankle_loads[side].wrench_in_sole
             last = self._wrenches.get(side, wrench)
             self._wrenches[side] = last + self._share * (wrench - last)

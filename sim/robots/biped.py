@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.settings.unknown_keys import refuse_unknown_keys
+from plantar.sides import SIDES
 
 __all__ = ["BipedParameters", "biped_mjcf"]
 
@@ -263,11 +264,11 @@ def biped_mjcf(
         )
 
     sole = {"center": sole_center, "half_size": sole_half_size}
-    legs = "".join(_leg(side, p, sole, shoe_mass, shoe_thickness) for side in ("left", "right"))
+    legs = "".join(_leg(side, p, sole, shoe_mass, shoe_thickness) for side in SIDES)
     servos = "\n".join(
         f'    <position name="{side}_{joint}" joint="{side}_{joint}" kp="{stiffness:.6g}" kv="{damping:.6g}" '
         f'forcerange="{-p.effort_limits[i]:.6g} {p.effort_limits[i]:.6g}"/>'
-        for side in ("left", "right")
+        for side in SIDES
         for i, joint in enumerate(_JOINTS)
     )
     return f"""<mujoco model="{name}">

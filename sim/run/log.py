@@ -13,12 +13,12 @@ from gait.controller import Command, Sensors
 from plantar.layouts.layout import Side
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
+from plantar.sides import SIDES
 from sim.model.contact_truth import GroundTruth
 from sim.model.world import World
 
 __all__ = ["MOST_VERTICES", "RunLog"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _NAN2 = np.full(2, np.nan)
 
 MOST_VERTICES = 24
@@ -38,16 +38,16 @@ class RunLog:
     def __init__(self, path: Path, world: World, metadata: Mapping[str, object], *, zmps: bool = False) -> None:
         k = len(world.servos)
         self._world = world
-        self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in _SIDES})
+        self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES})
         channel = self._recorder.channel
-        self._skin = {s: channel(f"/skin/{s}", [("force", len(world.robot.layouts[s]))]) for s in _SIDES}
+        self._skin = {s: channel(f"/skin/{s}", [("force", len(world.robot.layouts[s]))]) for s in SIDES}
         self._joints = channel("/joints", [("position", k), ("command", k), ("torque", k)])
         self._estimate = channel("/estimate", [("com", 3), ("com_velocity", 3), ("dcm", 2), ("zmp", 2)])
         self._reference = channel(
             "/reference", [("com", 3), ("dcm", 2), ("zmp", 2), ("zmp_desired", 2), ("phase", 1), ("step", 1)]
         )
         self._truth = {
-            s: channel(f"/truth/{s}", [("normal_force", 1), ("position", 3), ("rotation", 9)]) for s in _SIDES
+            s: channel(f"/truth/{s}", [("normal_force", 1), ("position", 3), ("rotation", 9)]) for s in SIDES
         }
         self._body = channel("/truth/body", [("com", 3), ("zmp", 2), ("zmp_margin", 1), ("rotation", 9), ("wrench", 6)])
         self._foothold = channel(
@@ -83,10 +83,10 @@ class RunLog:
 
     def _footholds(self, time: float, command: Command) -> None:
         """Record what feet have been found to stand on; polygons end with NaN."""
-        for felt in command.footholds:
+        for found in command.footholds:
             row = np.full(5 + 2 * MOST_VERTICES, np.nan)
-            row[:5] = felt.step, _SIDES.index(felt.side), felt.area_ratio, *felt.vrp
-            ring = felt.polygon[:MOST_VERTICES].ravel()
+            row[:5] = found.step, SIDES.index(found.side), found.area_ratio, *found.vrp
+            ring = found.polygon[:MOST_VERTICES].ravel()
             row[5 : 5 + len(ring)] = ring
             self._foothold.write(time, row)
 

@@ -21,6 +21,7 @@ from gait.plan.walk_plan import vrp_of_step
 from gait.propose.velocity_command import Legs, VelocityCommand
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
+from plantar.sides import SIDES
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
@@ -45,7 +46,6 @@ __all__ = ["Simulation", "run_scene"]
 
 Progress = Callable[[float, str], None]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _MEMBERS = frozenset(Percept.members())
 _EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
 _FRAME_EVERY = round(1.0 / (FRAME_RATE * PHYSICS_PERIOD))
@@ -112,11 +112,11 @@ class Simulation:
         if scene.sensing.force_torque:
             self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, CONTROL_PERIOD)
         centers = {}
-        for side in _SIDES:
+        for side in SIDES:
             centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side]))
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
         self.foothold_truth = FootholdTruth(self.world, ground)
-        self._centers = {side: middle_of_sole(robot.layouts[side]) for side in _SIDES}
+        self._centers = {side: middle_of_sole(robot.layouts[side]) for side in SIDES}
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
@@ -151,7 +151,7 @@ class Simulation:
             return Footprint(foot.side, place, foot.yaw, half, foot.position[:2], swing.start, swing.end)
 
         return PlannedFeet(
-            {side: footprint(self.feet[side], None) for side in _SIDES},
+            {side: footprint(self.feet[side], None) for side in SIDES},
             tuple(footprint(foot, k) for k, foot in enumerate(self.steps)),
         )
 
@@ -207,14 +207,14 @@ class Simulation:
                 ticks.append(1e6 * (clock.perf_counter() - start))
                 skipped["percept_members"] += _compute_rest(command, everything)
                 if command.footholds:
-                    self.foothold_truth.look(command.footholds)
-                truth = judge.look(command.state.com, command.state.zmp, feet, command.moved_steps)
+                    self.foothold_truth.update(command.footholds)
+                truth = judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
                 if self.speeds is not None:
-                    self.speeds.look(data.time)
+                    self.speeds.update(data.time)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
-                    self.recovery.look(data.time, truth.zmp, com, plan.vrp, plan.com)
-                zmps = None if self.zmps is None else self.zmps.look(data.time, command)
+                    self.recovery.update(data.time, truth.zmp, com, plan.vrp, plan.com)
+                zmps = None if self.zmps is None else self.zmps.update(data.time, command)
                 if log is not None:
                     log.tick(reading, command, joints, truth)
                     if zmps is not None:
@@ -239,7 +239,7 @@ class Simulation:
             if world.moving_ground:
                 world.move_ground()
             mujoco.mj_step(model, data)
-            judge.watch()
+            judge.update_physics()
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
@@ -280,7 +280,7 @@ class Simulation:
             why += self.speeds.reasons(landings)
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         late = self.servos.out_of_reach_since
-        sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in _SIDES}
+        sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in SIDES}
         summary: dict[str, Any] = {
             "scene": self.scene.name,
             "robot": self.robot.name,

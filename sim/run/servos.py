@@ -6,13 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command
-from plantar.layouts.layout import Side
+from plantar.sides import SIDES
 from sim.model.leg_model import LegModel
 from sim.model.world import PHYSICS_PERIOD, World
 
 __all__ = ["LegServos"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # m or rad, of a joint solution; the motion of one control period leaves 8 mm
 _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
@@ -65,16 +64,16 @@ class LegServos:
         joints, missed = self._legs.solve(
             command.com,
             command.rotation_torso,
-            {side: feet[side].position for side in _SIDES},
-            {side: feet[side].rotation for side in _SIDES},
-            yielding=[side for side in _SIDES if feet[side].force[2] <= 0.0],
+            {side: feet[side].position for side in SIDES},
+            {side: feet[side].rotation for side in SIDES},
+            yielding=[side for side in SIDES if feet[side].force[2] <= 0.0],
             largest_step=_LARGEST_STEP,
         )
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
         torques = self._legs.static_torques(
-            {side: feet[side].force for side in _SIDES},
-            {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in _SIDES},
+            {side: feet[side].force for side in SIDES},
+            {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in SIDES},
         )
         last = joints if self._last is None else self._last
         if self._per_limit is not None:

@@ -13,6 +13,7 @@ from plantar.errors import RobotError, SceneError
 from plantar.layouts.layout import Side
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import level_rotation
+from plantar.sides import SIDES
 from sim.judging.leg_contact import legs_that_touch
 from sim.model.leg_model import LegModel
 from sim.model.world import PHYSICS_PERIOD, World, check_stable
@@ -20,7 +21,6 @@ from sim.run.servos import LegServos
 
 __all__ = ["stand"]
 
-_SIDES: tuple[Side, Side] = ("left", "right")
 _SETTLING = 0.5  # s
 _SINKING_MAX = 0.05  # m, of the base while it settles; soft servos yield by less
 
@@ -55,8 +55,8 @@ def stand(
             f"robot '{world.robot.name}': the foot of [legs.left] is to the right of [legs.right]'s in [posture]; "
             "x points forward, y to the left"
         )
-    ground = float(np.mean([feet[s].z for s in _SIDES]))
-    middle = np.mean([centers[s] for s in _SIDES], axis=0)
+    ground = float(np.mean([feet[s].z for s in SIDES]))
+    middle = np.mean([centers[s] for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], ground + com_height])
     yaw = feet["left"].yaw
     rotation = level_rotation(yaw)
@@ -65,8 +65,8 @@ def stand(
     joints, error = legs.solve(
         com,
         rotation,
-        {s: feet[s].position for s in _SIDES},
-        {s: feet[s].rotation_sole_to_world for s in _SIDES},
+        {s: feet[s].position for s in SIDES},
+        {s: feet[s].rotation_sole_to_world for s in SIDES},
         iterations=50,
     )
     if not error < 1e-6:
@@ -76,7 +76,7 @@ def stand(
             "allowed: what the legs reach from [posture] (degrees), within their joints' limits"
         )
     half = np.array([0.0, 0.0, 0.5 * legs.mass * GRAVITY])
-    torques = legs.static_torques(dict.fromkeys(_SIDES, half), {s: np.array([*centers[s], ground]) for s in _SIDES})
+    torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
     data = world.data
     mujoco.mj_resetData(world.model, data)
     data.qpos[:] = legs.configuration

@@ -11,6 +11,7 @@ from pathlib import Path
 from plantar import __version__
 from plantar.errors import PlantarError, RobotError, SceneError
 from plantar.input_file import is_file, open_input
+from plantar.sides import SIDES
 from plantar.structured_text import read_toml
 from sim.robots import load_robot
 from sim.run.scene import scene_file
@@ -88,7 +89,7 @@ def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
     loaded = load_robot(robot)
     yield f"robot file {loaded.path.name}", loaded.path
     layout = read_toml(loaded.path, RobotError, str(loaded.path))["shoe"]["layout"]
-    for side in ("left", "right"):
+    for side in SIDES:
         name = layout.replace("{side}", side)
         yield f"layout {name}", loaded.path.parent / name
     if loaded.model_file is not None:

@@ -1,4 +1,4 @@
-"""The scene `balance`: pushes on a standing robot, felt by skin and ankles (T 4.3.1)."""
+"""The scene `balance`: pushes on a standing robot, sensed by skin and ankles (T 4.3.1)."""
 
 from __future__ import annotations
 

@@ -148,16 +148,16 @@ def _heat(block: Block, tally: Tally) -> None:
 def _skin(block: Block, tally: Tally) -> None:
     """Pseudo-forces, patch signals and wrenches of skin cells."""
     layout = block.layout
-    felt = np.clip(block.force, -1e12, 1e12)
-    active = body_skin.active_cells(felt, block.proximity, 1.0, 0.02)
-    alive = [np.abs(values) <= 1e100 for values in (felt, block.proximity)]  # 1e300 is no signal either
-    one, two = (np.where(is_alive, v, 0.0) for is_alive, v in zip(alive, (felt, block.proximity), strict=True))
+    forces = np.clip(block.force, -1e12, 1e12)
+    active = body_skin.active_cells(forces, block.proximity, 1.0, 0.02)
+    alive = [np.abs(values) <= 1e100 for values in (forces, block.proximity)]  # 1e300 is no signal either
+    one, two = (np.where(is_alive, v, 0.0) for is_alive, v in zip(alive, (forces, block.proximity), strict=True))
     wanted = (alive[0] & (one > 1.0)) | (alive[1] & (two > 0.02))
     tally.add("active_cells", block, (active != wanted).any(axis=1))
-    pseudo = body_skin.pseudo_force(felt, block.proximity, 2.0, 0.5, active)
+    pseudo = body_skin.pseudo_force(forces, block.proximity, 2.0, 0.5, active)
     right = np.where(wanted, 2.0 * one + 0.5 * two, 0.0)
     tally.add("pseudo_force", block, (np.abs(pseudo - right) / (np.abs(right) + 1e-300)).max(axis=1), 1e-15)
-    mixed = body_skin.patch_signal(felt, block.proximity, 0.25)
+    mixed = body_skin.patch_signal(forces, block.proximity, 0.25)
     right = 0.25 * one + 0.75 * two
     size = 0.25 * np.abs(one) + 0.75 * np.abs(two) + 1e-300
     tally.add("patch_signal", block, (np.abs(mixed - right) / size).max(axis=1), 1e-15)

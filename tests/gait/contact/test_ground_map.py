@@ -30,7 +30,7 @@ def looked(
     view = None
     for k in range(20):
         reading = distance + rng.normal(0.0, noise, len(distance)) if noise else distance
-        view = ground.look(percept(reading, 0.005 * k), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.005 * k)
+        view = ground.update(percept(reading, 0.005 * k), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.005 * k)
     return view
 
 
@@ -91,7 +91,7 @@ def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() ->
         for k in range(20):
             reading = np.where(X > -0.03, 0.012, 0.03) + rng.normal(0.0, 2e-3, len(LAYOUT))
             time = PERIOD * k
-            view = ground.look(percept(reading, time), np.array([0.0, 0.0, 0.03]), np.eye(3), time)
+            view = ground.update(percept(reading, time), np.array([0.0, 0.0, 0.03]), np.eye(3), time)
         assert view is not None
         assert view.slope is not None
         errors.append((view.middle - 0.012, *view.slope))
@@ -105,9 +105,9 @@ def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground() -> None:
     ground.begin()
     distance = np.full(len(LAYOUT), 0.01)
     for k in range(40):
-        ground.look(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
+        ground.update(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
     ground._readings[0], ground._distance[0] = 1.0, 0.005  # a taxel that sees this ground for the first time
-    view = ground.look(percept(distance, 0.195), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.195)
+    view = ground.update(percept(distance, 0.195), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.195)
     assert view is not None
     assert view.distance == pytest.approx(0.01, abs=5e-4)
     assert view.slope == pytest.approx((0.0, 0.0), abs=5e-3)
@@ -126,14 +126,14 @@ def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
 def test_the_map_moves_with_the_sole_between_readings() -> None:
     ground = GroundMap(LAYOUT, ComplianceGains())
     ground.begin()
-    ground.look(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
+    ground.update(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
     blind = Percept(LAYOUT, Reading(time=0.01, force=np.zeros(len(LAYOUT))))
-    view = ground.look(blind, np.array([0.0, 0.0, 0.021]), np.eye(3), 0.01)
+    view = ground.update(blind, np.array([0.0, 0.0, 0.021]), np.eye(3), 0.01)
     assert view is not None
     assert view.middle == pytest.approx(0.021)
     angle = 0.05
     tilted = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
-    view = ground.look(blind, np.array([0.0, 0.0, 0.021]), tilted, 0.015)  # toes down
+    view = ground.update(blind, np.array([0.0, 0.0, 0.021]), tilted, 0.015)  # toes down
     assert view is not None
     assert view.slope is not None
     assert view.slope[0] == pytest.approx(np.tan(angle), rel=0.02)
@@ -150,7 +150,7 @@ def swung(
     for k, height in enumerate(heights):
         time = start + PERIOD * k
         seen = percept(distance(heights[max(0, k - late)]), time - PERIOD * late)
-        view = ground.look(seen, np.array([0.0, 0.0, height]), np.eye(3), time)
+        view = ground.update(seen, np.array([0.0, 0.0, height]), np.eye(3), time)
     return view
 
 
@@ -159,7 +159,7 @@ def test_a_bias_is_learned_from_the_touch() -> None:
     for _ in range(8):
         ground.begin()
         for k in range(20):
-            ground.look(percept(np.full(len(LAYOUT), 0.005), 0.005 * k), np.zeros(3), np.eye(3), 0.005 * k)
+            ground.update(percept(np.full(len(LAYOUT), 0.005), 0.005 * k), np.zeros(3), np.eye(3), 0.005 * k)
         ground.touched()
     assert ground.bias == pytest.approx(0.005, abs=1e-4)
 
@@ -167,7 +167,7 @@ def test_a_bias_is_learned_from_the_touch() -> None:
 def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
     ground = GroundMap(LAYOUT, ComplianceGains())
     ground.begin()
-    ground.look(percept(np.full(len(LAYOUT), 0.012)), np.zeros(3), np.eye(3), 0.0)
+    ground.update(percept(np.full(len(LAYOUT), 0.012)), np.zeros(3), np.eye(3), 0.0)
     ground.touched()
     assert 0.0 < ground.bias <= 0.0015
 
@@ -208,7 +208,7 @@ def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move() -> None:
     views = []
     for k in range(120):
         distance = (0.03 if k < 100 else 0.015) + rng.normal(0.0, 2e-3, len(LAYOUT))
-        view = ground.look(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
+        view = ground.update(percept(distance, PERIOD * k), np.array([0.0, 0.0, 0.03]), np.eye(3), PERIOD * k)
         assert view is not None
         views.append(view.distance)
     assert np.ptp(views[60:100]) < 1e-3

@@ -30,7 +30,7 @@ class Foot:
             self.time += 0.004
             height = 0.03 - 0.002 * k
             distance = np.where(over, height, math.inf) + self.rng.normal(0.0, noise, len(SOLE))
-            self.contact.see(Reading(self.time, np.zeros(len(SOLE)), distance))
+            self.contact.update_view(Reading(self.time, np.zeros(len(SOLE)), distance))
 
     def load(self, readings: int = 30, force: float = 300.0, at: tuple[float, float] | None = None) -> bool:
         changed = False
@@ -114,7 +114,7 @@ def test_dead_taxels_neither_see_nor_feel() -> None:
     distance = np.where(over, 0.01, math.inf)
     distance[::7] = math.nan
     for k in range(8):
-        foot.contact.see(Reading(0.004 * (k + 1), np.zeros(len(SOLE)), distance))
+        foot.contact.update_view(Reading(0.004 * (k + 1), np.zeros(len(SOLE)), distance))
     forces = FIT.expected(400.0, (-0.06, 0.0), REAR)
     forces[::7] = math.nan
     for k in range(10):

@@ -6,7 +6,7 @@ from gait.estimate.com_height import CoMHeight
 
 def test_it_follows_a_step_without_a_jump_in_speed() -> None:
     height = CoMHeight(0.1, 0.005)
-    track = np.array([height.follow(0.14) for _ in range(600)])
+    track = np.array([height.update(0.14) for _ in range(600)])
     speed = np.diff(track, prepend=0.1) / 0.005
     assert track[-1] == pytest.approx(0.14, abs=1e-5)
     assert track.max() <= 0.14
@@ -15,4 +15,4 @@ def test_it_follows_a_step_without_a_jump_in_speed() -> None:
 
 def test_it_stays_where_the_ground_is() -> None:
     height = CoMHeight(-0.7, 0.005)
-    assert {height.follow(-0.7) for _ in range(10)} == {-0.7}
+    assert {height.update(-0.7) for _ in range(10)} == {-0.7}

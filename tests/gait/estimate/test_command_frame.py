@@ -11,7 +11,7 @@ numbers = st.floats(-50.0, 50.0)
 def followed(real: list[float], turn: float, ticks: int = 4000) -> CommandFrame:
     frame = CommandFrame(np.array([1.0, 2.0, 0.0]), 0.005, 0.3)
     for _ in range(ticks):
-        frame.follow(np.array([1.0, 2.0, 0.0]), np.array(real), turn)
+        frame.update(np.array([1.0, 2.0, 0.0]), np.array(real), turn)
     return frame
 
 
@@ -33,5 +33,5 @@ def test_a_change_of_the_carrying_foot_does_not_jump() -> None:
     frame = followed([1.02, 1.97, 0.0], 0.05)
     point = np.array([1.1, 2.1])
     before = frame.to_command(point)
-    frame.follow(np.array([1.3, 1.8, 0.0]), np.array([1.31, 1.79, 0.0]), -0.03)
+    frame.update(np.array([1.3, 1.8, 0.0]), np.array([1.31, 1.79, 0.0]), -0.03)
     assert np.abs(frame.to_command(point) - before).max() < 1e-3

@@ -20,37 +20,37 @@ def test_a_steady_load_without_noise_is_its_wrench(sole: SoleLayout) -> None:
     force = np.linspace(1.0, 12.0, len(sole))
     load = SkinLoad(sole, 0.0, 0.2)
     for k in range(3):
-        felt = load.update(Reading(0.005 * k, force))
-    assert felt.vertical_force == pytest.approx(force.sum())
-    assert felt.position_cop_in_sole == pytest.approx(center_of_pressure(sole, force))
+        estimated = load.update(Reading(0.005 * k, force))
+    assert estimated.vertical_force == pytest.approx(force.sum())
+    assert estimated.position_cop_in_sole == pytest.approx(center_of_pressure(sole, force))
 
 
 def test_it_follows_a_change_with_its_time_constant(sole: SoleLayout) -> None:
     load = SkinLoad(sole, 0.0, 0.2)
     load.update(Reading(0.0, np.zeros(len(sole))))
     for k in range(1, 6):
-        felt = load.update(Reading(0.005 * k, np.full(len(sole), 10.0)))
-        assert felt.vertical_force == pytest.approx(10.0 * len(sole) * (1.0 - 0.8**k))
+        estimated = load.update(Reading(0.005 * k, np.full(len(sole), 10.0)))
+        assert estimated.vertical_force == pytest.approx(10.0 * len(sole) * (1.0 - 0.8**k))
 
 
 def test_a_light_foot_is_felt_where_a_threshold_would_drop_it(sole: SoleLayout) -> None:
     """1 N on each taxel is below the threshold of 0.15 kg."""
     rng = np.random.default_rng(0)
     load = SkinLoad(sole, NOISE, 0.2)
-    felt, clipped = [], []
+    estimated, clipped = [], []
     for k in range(2000):
         force = np.clip(1.0 + rng.normal(0.0, NOISE, len(sole)), 0.0, None)
-        felt.append(load.update(Reading(0.005 * k, force)).vertical_force)
+        estimated.append(load.update(Reading(0.005 * k, force)).vertical_force)
         clipped.append(force.sum())
-    assert np.mean(felt[50:]) == pytest.approx(len(sole), rel=0.1)
+    assert np.mean(estimated[50:]) == pytest.approx(len(sole), rel=0.1)
     assert np.mean(clipped[50:]) > 1.2 * len(sole)
 
 
 def test_dead_taxels_carry_nothing(sole: SoleLayout) -> None:
     force = np.full(len(sole), 10.0)
     force[:3] = np.nan
-    felt = SkinLoad(sole, NOISE, 0.2).update(Reading(0.0, force))
-    assert felt.vertical_force == pytest.approx(10.0 * (len(sole) - 3))
+    estimated = SkinLoad(sole, NOISE, 0.2).update(Reading(0.0, force))
+    assert estimated.vertical_force == pytest.approx(10.0 * (len(sole) - 3))
 
 
 def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole: SoleLayout) -> None:

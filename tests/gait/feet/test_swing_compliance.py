@@ -58,9 +58,9 @@ def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     gains = ComplianceGains()
     compliance = SwingCompliance(LAYOUT, gains)
     compliance.begin()
-    assert not any(compliance.feel(load) for load in (5.0, -3.0, 8.0, 6.0))
-    assert [compliance.feel(40.0) for _ in range(3)][-1]
-    assert compliance.feel(10.0)  # above half the threshold
+    assert not any(compliance.update_load(load) for load in (5.0, -3.0, 8.0, 6.0))
+    assert [compliance.update_load(40.0) for _ in range(3)][-1]
+    assert compliance.update_load(10.0)  # above half the threshold
     load, height = 0.0, 0.001
     for _ in range(800):
         height -= compliance.yielding(load, gains.hold_force, 0.0, PERIOD)
@@ -78,7 +78,7 @@ def test_a_descent_is_over_before_weight_is_put_on_the_foot() -> None:
             drop = compliance.descent(GroundView(height, height, None), 0.1, 0.0, left, PERIOD)
             speed, height, left = drop / PERIOD, height - drop, left - PERIOD
         assert 0.0 < left < 0.2
-        assert speed < 1.5 * gains.haste * gains.touch_speed
+        assert speed < 1.5 * gains.late_speed_ratio * gains.touch_speed
 
 
 def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:

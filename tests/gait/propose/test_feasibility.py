@@ -19,7 +19,7 @@ def probe(mask: np.ndarray, rules: FeasibilityRules = RULES, moment: float = 0.0
     made = FootholdProbe(LAYOUT, rules)
     load = np.where(mask, 130.0 / max(1, mask.sum()), 0.0)
     for _ in range(25):
-        made.feel(np.clip(load + rng.normal(0.0, noise, len(mask)), 0.0, None), np.array([0.0, moment]))
+        made.update_load(np.clip(load + rng.normal(0.0, noise, len(mask)), 0.0, None), np.array([0.0, moment]))
     return made
 
 
@@ -42,16 +42,16 @@ def test_dead_taxels_do_not_spoil_the_area() -> None:
     force = np.full(len(LAYOUT), 4.0)
     force[[3, 9]] = np.nan
     for _ in range(10):
-        made.feel(force, None)
+        made.update_load(force, None)
     assert made.verdict().feasible
 
 
 def test_what_is_seen_right_below_counts_as_supported() -> None:
     made = probe(np.zeros(len(LAYOUT), dtype=bool))
     distance = np.full(len(LAYOUT), np.inf)
-    made.see(distance)
+    made.update_view(distance)
     assert made.verdict().area_ratio == 0.0
-    made.see(np.where(LAYOUT.positions[:, 0] > 0.0, 0.001, 0.03))
+    made.update_view(np.where(LAYOUT.positions[:, 0] > 0.0, 0.001, 0.03))
     assert 0.3 < made.verdict().area_ratio < 0.7
 
 
@@ -62,7 +62,7 @@ def test_the_force_torque_rule_goes_by_the_moment_alone(moment: float, feasible:
     found = probe(small, rules, moment).verdict()
     assert found.feasible is feasible
     assert found.moment == pytest.approx(abs(moment))
-    assert not FootholdProbe(LAYOUT, rules).verdict().feasible  # nothing was felt
+    assert not FootholdProbe(LAYOUT, rules).verdict().feasible  # nothing was sensed
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -15,10 +15,10 @@ def inner() -> dict:  # type: ignore[type-arg]
 def test_half_a_foothold_is_found_and_walked_over(inner: dict) -> None:  # type: ignore[type-arg]
     assert inner["completed"]
     assert inner["replans"] >= 1
-    felt, true = inner["footholds"]["area_ratio_felt"], inner["footholds"]["area_ratio_true"]
+    found, true = inner["footholds"]["area_ratio_found"], inner["footholds"]["area_ratio_true"]
     assert true[2] == pytest.approx(0.5, abs=0.02)
-    assert felt[2] == pytest.approx(true[2], abs=0.1)
-    assert [round(v, 2) for v in felt[:2] + felt[3:]] == [1.0] * 5
+    assert found[2] == pytest.approx(true[2], abs=0.1)
+    assert [round(v, 2) for v in found[:2] + found[3:]] == [1.0] * 5
     assert inner["footholds"]["centroid_error_m"]["p95"] < 0.01
 
 
@@ -69,13 +69,13 @@ def test_a_leaning_trunk_takes_load_off_the_hips() -> None:
         simulation = Simulation(load_scene("flat", ["steps=2", "settle=0.2", f"lean={lean}"]), 0)
         world, torques = simulation.world, []
         rolls = [i for i, name in enumerate(world.robot.legs["left"].joints) if name.endswith("hip_roll")]
-        look = simulation.judge.look
+        look = simulation.judge.update
 
         def watch(*arguments, seen=torques, at=rolls, now=world, look=look):  # type: ignore[no-untyped-def]
             seen.append(np.abs(now.data.actuator_force[now.servos])[at + [i + 6 for i in at]].max())
             return look(*arguments)
 
-        simulation.judge.look = watch  # type: ignore[method-assign]
+        simulation.judge.update = watch  # type: ignore[method-assign]
         assert simulation.run()["completed"]
         loads.append(float(np.percentile(torques, 90)))
     assert loads[1] < loads[0] - 4.0

@@ -16,7 +16,7 @@ ORIGIN = np.zeros(2)
 def run(zmp_at, com_at, end: float = 9.0) -> dict:
     recovery = Recovery(SHOVES, end)
     for time in np.arange(0.0, end, 0.005):
-        recovery.look(time, zmp_at(time), com_at(time), ORIGIN, ORIGIN)
+        recovery.update(time, zmp_at(time), com_at(time), ORIGIN, ORIGIN)
     return recovery.summary()
 
 
@@ -43,5 +43,5 @@ def test_a_robot_that_stays_off_sways_on_or_falls_has_not_recovered() -> None:
     assert air["recovered"] == 1
     # A run that ends in the fall never saw the robot at rest.
     recovery = Recovery(SHOVES, 9.0)
-    recovery.look(1.1, ORIGIN, ORIGIN, ORIGIN, ORIGIN)
+    recovery.update(1.1, ORIGIN, ORIGIN, ORIGIN, ORIGIN)
     assert recovery.summary()["recovered"] == 0

@@ -30,7 +30,7 @@ def moved(table: VelocityTable, velocity: tuple[float, float, float], until: flo
         c, s = math.cos(heading), math.sin(heading)
         com[0, :2] += period * np.array([c * ahead - s * left, s * ahead + c * left])
         xmat[0, 0], xmat[0, 3] = c, s
-        truth.look(time)
+        truth.update(time)
     return truth
 
 

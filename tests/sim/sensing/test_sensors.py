@@ -69,11 +69,11 @@ def test_ankle_sensors_tell_the_ground_s_wrench_on_a_standing_robot(name: str) -
     for side, measured in suite.read_body().ankles.items():
         site = world.sole_sites[side]
         rotation = world.data.site_xmat[site].reshape(3, 3)
-        felt = mounted[side].sole_wrench(measured, rotation).wrench_in_sole
+        sensed = mounted[side].sole_wrench(measured, rotation).wrench_in_sole
         contacts = foot_contacts(world.model, world.data, frozenset(world.sole_geoms[side]))
         truth = contact_wrench_in_frame(contacts, world.data.site_xpos[site], rotation)
-        assert felt == pytest.approx(truth, abs=0.3)  # the foot settles: its inertia is all that differs
-        total += felt[2]
+        assert sensed == pytest.approx(truth, abs=0.3)  # the foot settles: its inertia is all that differs
+        total += sensed[2]
     assert total == pytest.approx(simulation.legs.mass * 9.81, rel=2e-3)
 
 
