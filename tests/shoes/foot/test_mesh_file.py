@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from shoes.foot import mesh_file
 from shoes.foot.mesh_file import read_mesh
 
 Shape = Callable[..., NDArray[np.float64]]
@@ -132,7 +134,7 @@ def test_a_truncated_file_gives_one_line(tmp_path: Path, box: Shape, kind: str, 
         mesh.export(path, file_type=kind)
     whole = path.read_bytes()
     path.write_bytes(whole[: int(share * len(whole))])
-    with pytest.raises(FootError, match=r"cut short|no triangles|not a readable") as caught:
+    with pytest.raises(FootError, match=r"cut short|no triangles|not an? .* that can be read") as caught:
         read_mesh(path)
     assert "\n" not in str(caught.value)
 
@@ -153,3 +155,72 @@ def test_what_is_wrong_is_named(tmp_path: Path, box: Shape, stl: Callable[..., P
         read_mesh(tmp_path / "folder.stl")
     with pytest.raises(FootError, match=r"'\.jpg' is no mesh format that is read; allowed: \.stl"):
         read_mesh(tmp_path / "foot.jpg")
+
+
+def test_faces_of_an_obj_are_those_that_trimesh_finds(tmp_path: Path) -> None:
+    random = np.random.default_rng(0)
+    lines = [f"v {x} {y} {z} 0.5 0.5 0.5" for x, y, z in random.uniform(-100, 100, (30, 3)).round(3).tolist()]
+    for _ in range(40):
+        ring = random.choice(30, int(random.integers(3, 7)), replace=False) + 1
+        form = random.choice(["{0}", "{0}/{0}", "{0}//{0}", "{0}/{0}/{0}"])
+        lines.append("f " + " ".join(form.format(i) for i in ring))
+    path = tmp_path / "foot.obj"
+    plain = "\n".join(line.replace("/", " ").split("#")[0] for line in lines)
+    path.write_text("\n".join(lines))
+    got = read_mesh(path)[0]
+    rings = [[int(item.split("/")[0]) - 1 for item in line.split()[1:]] for line in lines if line[0] == "f"]
+    corners = np.array([[float(v) for v in line.split()[1:4]] for line in plain.splitlines() if line[0] == "v"])
+    fans = [(ring[0], b, c) for ring in rings for b, c in pairwise(ring[1:])]
+    np.testing.assert_array_equal(got, corners[np.array(fans)])
+    only = [line for line in lines if line[0] == "v" or len(line.split()) == 4]
+    path.write_text("\n".join(only))
+    theirs = trimesh.load(path, process=False, force="mesh")
+    np.testing.assert_allclose(_sorted(read_mesh(path)[0]), _sorted(theirs.triangles))
+
+
+def test_an_obj_may_count_back_and_go_on_in_the_next_line(tmp_path: Path) -> None:
+    corners = "v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n"
+    (tmp_path / "a.obj").write_text(f"{corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3 # the last\n")
+    (tmp_path / "b.obj").write_text(f"{corners}f -4 -2 \\\n-3\r\nf -4 -3 -1\nf -3 -2 \\\r\n -1\nf -4 -1 -2")
+    np.testing.assert_array_equal(read_mesh(tmp_path / "a.obj")[0], read_mesh(tmp_path / "b.obj")[0])
+
+
+@pytest.mark.parametrize("faces", ["f 1 2 5\n", "f 0 1 2\n", "f -5 1 2\n", "f 1 2 x\n", "f 1 2 99999999999999999999\n"])
+def test_an_obj_that_names_no_vertex_gives_one_line(tmp_path: Path, faces: str) -> None:
+    path = tmp_path / "foot.obj"
+    path.write_text("v 0 0 0\nv 90 0 0\nv 0 90 0\nv 0 0 90\n" + 4 * faces)
+    with pytest.raises(FootError, match="not a readable OBJ mesh") as caught:
+        read_mesh(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_step_file_gives_the_triangles_that_cadquery_finds(tmp_path: Path) -> None:
+    cadquery = pytest.importorskip("cadquery")
+    solid = cadquery.Workplane().box(200, 80, 60).edges("|Z").fillet(20).faces(">Z").hole(30)
+    path = str(tmp_path / "foot.step")
+    cadquery.exporters.export(solid, path)
+    triangles, unit = read_mesh(path)
+    vertices, faces = cadquery.importers.importStep(path).val().tessellate(0.05, 0.2)
+    wanted = np.array([v.toTuple() for v in vertices])[np.array(faces)]
+    assert unit == "mm"
+    np.testing.assert_allclose(_sorted(triangles.round(9)), _sorted(wanted.round(9)), atol=1e-8)
+    mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(triangles))
+    assert mesh.volume == pytest.approx(solid.val().Volume(), rel=2e-3)  # and so turned outwards
+
+
+@pytest.mark.parametrize("name", ["foot.stl", "text.stl", "foot.obj", "foot.ply", "foot.off", "foot.3mf"])
+def test_a_mesh_of_too_many_triangles_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, box: Shape, name: str
+) -> None:
+    mesh, path = _mesh(box).subdivide(), tmp_path / name
+    if name == "text.stl":
+        path.write_text(trimesh.exchange.stl.export_stl_ascii(mesh))
+    elif name == "foot.3mf":
+        _write_3mf(path, mesh, "millimeter", '<item objectid="1"/>')
+    else:
+        mesh.export(path)
+    monkeypatch.setattr(mesh_file, "MOST_TRIANGLES", len(mesh.faces))
+    assert len(read_mesh(path)[0]) == len(mesh.faces)
+    monkeypatch.setattr(mesh_file, "MOST_TRIANGLES", len(mesh.faces) - 1)
+    with pytest.raises(FootError, match=f"{len(mesh.faces) - 1}.*reduce the mesh"):
+        read_mesh(path)

@@ -1,0 +1,34 @@
+"""PLY and OFF files through trimesh: called in a process of its own, see `plantar.confined`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.optional_library import optional_library
+
+__all__ = ["triangles_of_trimesh"]
+
+
+def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
+    """Triangles of a mesh file that trimesh reads, by the file's ending.
+
+    Args:
+        path: The file.
+
+    Returns:
+        "triangles" (n, 3, 3), in the file's unit.
+
+    Raises:
+        DependencyError: If trimesh is not installed.
+    """
+    with optional_library("trimesh", "shoes"):
+        import trimesh
+    with np.errstate(all="ignore"):  # coordinates that are not finite are reported by who reads the mesh
+        mesh = trimesh.load(path, process=False, force="mesh", skip_materials=True)
+    if not isinstance(mesh, trimesh.Trimesh):
+        return {"triangles": np.empty((0, 3, 3))}
+    return {"triangles": np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]}
