@@ -104,12 +104,12 @@ def test_bad_drawings_are_refused_in_one_line(tmp_path: Path) -> None:
     open_line = json.dumps({"type": "LineString", "coordinates": [[0, 0], [200, 0], [200, 80]]})
     cases = {
         "empty.dxf": ("", "is empty"),
-        "text.dxf": ("hello", "not a readable DXF|no lines"),
-        "cut.svg": ("<svg><path d='M0 0", "not a readable SVG"),
+        "text.dxf": ("hello", "not a DXF drawing that can be read"),
+        "cut.svg": ("<svg><path d='M0 0", "not a readable XML"),
         "none.svg": ("<svg/>", "holds no lines"),
         "bad.svg": ("<svg><path d='M 0 0 L 10 x'/></svg>", "not a readable SVG|no closed line|has no size"),
         "turn.svg": ("<svg><g transform='warp(3)'><rect width='9' height='9'/></g></svg>", "transform 'warp'"),
-        "a.geojson": ("{", "not a readable GEOJSON"),
+        "a.geojson": ("{", "is not a readable GeoJSON"),
         "b.geojson": ('{"type": "Potato"}', "type is 'Potato'"),
         "c.geojson": (open_line, "no closed line"),
         "d.geojson": ('{"type": "Polygon", "coordinates": [[[0, 0], [1e999, 0], [0, 1]]]}', "not finite"),
