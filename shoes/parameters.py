@@ -243,6 +243,8 @@ def read_parameters(path: str | os.PathLike[str]) -> ShoeParameters:
         values = values["parameters"]
     if not isinstance(values, dict):
         raise InputError(f"parameter file {file} is not a table of name = value pairs")
+    if not values:
+        raise InputError(f"parameter file {file} names no parameter; allowed: name = value pairs, or no such file")
     try:
         return ShoeParameters.from_mapping(values)
     except InputError as error:

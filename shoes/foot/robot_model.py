@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import is_finite
 from plantar.errors import FootError
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.model_files import folders_of_model, mesh_of_urdf, named_file, parsed_model
-from shoes.foot.mesh_file import read_mesh
+from shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from shoes.geometry.primitives import primitive
 from shoes.geometry.transforms import Pose, mjcf_rotation
 
@@ -26,6 +27,8 @@ MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")
 """File endings of robot models that are read."""
 
 _SHOWN = 14  # names in a message
+_MOST_SHAPES = 200  # of a foot's body
+_FARTHEST = 1e6  # m
 
 Array = NDArray[np.float64]
 Element = ElementTree.Element
@@ -81,9 +84,9 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     file = Path(path)
     root = parsed_model(file, FootError)
     if root.tag == "robot":
-        bodies = _urdf_bodies(file, root, body)
+        bodies = _urdf_bodies(_Source(file), root, body)
     elif root.tag == "mujoco":
-        bodies = _mjcf_bodies(file, root)
+        bodies = _mjcf_bodies(_Source(file), root)
     else:
         raise FootError(f"{file}: the outermost element is <{root.tag}>; allowed: <mujoco> (MJCF), <robot> (URDF)")
     if body is None or body not in bodies:
@@ -95,15 +98,47 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     shapes = drawn or colliding
     if not shapes:
         raise FootError(f"{file}: body '{body}' has no geometry; name the body that has the foot's")
-    triangles = np.concatenate([shape() for shape in shapes])
+    triangles = _together(shapes, f"{file}: body '{body}'")
     kind = "drawn" if drawn else "colliding"
     return BodyGeometry(
         triangles, side_of_name(body), f"body '{body}': {len(shapes)} {kind} shape(s), in m as models are"
     )
 
 
-Shape = Any  # a callable that gives triangles: meshes are read only of the body that is asked for
+Shape = Callable[[], Array]  # gives triangles: meshes are read only of the body that is asked for
 Bodies = dict[str, tuple[list[Shape], list[Shape]]]
+
+
+@dataclass(frozen=True)
+class _Source:
+    """A model's file, and the meshes that were read for it: one that is drawn many times is read once."""
+
+    file: Path
+    held: dict[Path, Array] = field(default_factory=dict)
+
+    def mesh(self, path: Path) -> Array:
+        """Triangles of a mesh file."""
+        if path not in self.held:
+            self.held[path] = read_mesh(path)[0]
+        return self.held[path]
+
+
+def _together(shapes: list[Shape], where: str) -> Array:
+    """Triangles of all shapes."""
+    if len(shapes) > _MOST_SHAPES:
+        raise FootError(f"{where} has {len(shapes)} shapes; allowed: up to {_MOST_SHAPES}")
+    found: list[Array] = []
+    count = 0
+    for shape in shapes:
+        with np.errstate(all="ignore"):  # sizes of 1e300: told below
+            found.append(shape())
+        count += len(found[-1])
+        if count > MOST_TRIANGLES:
+            raise FootError(f"{where} has more than {MOST_TRIANGLES} triangles; reduce its meshes")
+    triangles = np.concatenate(found)
+    if not (np.abs(triangles) < _FARTHEST).all():
+        raise FootError(f"{where} reaches farther than {_FARTHEST:g} m")
+    return triangles
 
 
 def _numbers(text: str | None, default: tuple[float, ...], where: str) -> Array:
@@ -113,13 +148,14 @@ def _numbers(text: str | None, default: tuple[float, ...], where: str) -> Array:
         out = np.array([float(v) for v in text.split()])
     except ValueError:
         raise FootError(f"{where}: '{text[:40]}' is no list of numbers") from None
-    if len(out) < len(default) or not np.isfinite(out).all():
-        raise FootError(f"{where}: '{text[:40]}' needs {len(default)} finite numbers")
+    if len(out) < len(default) or not is_finite(out):
+        raise FootError(f"{where}: '{text[:40]}' needs {len(default) or 'only'} finite numbers")
     return out
 
 
-def _urdf_bodies(file: Path, root: Element, wanted: str | None) -> Bodies:
+def _urdf_bodies(source: _Source, root: Element, wanted: str | None) -> Bodies:
     """The links of a URDF; drawn and colliding shapes of the wanted one and of what is fixed to it."""
+    file = source.file
 
     def pose(element: Element | None) -> Pose:
         if element is None:
@@ -162,17 +198,18 @@ def _urdf_bodies(file: Path, root: Element, wanted: str | None) -> Bodies:
                 for item in links[here].findall(tag) if here in links else ():
                     geometry = item.find("geometry")
                     if geometry is not None and len(geometry):
-                        found[place].append(_urdf_shape(file, geometry[0], at @ pose(item.find("origin"))))
+                        found[place].append(_urdf_shape(source, geometry[0], at @ pose(item.find("origin"))))
             queue += [(child_link, at @ step) for child_link, step in fixed.get(here, ())]
     return bodies
 
 
-def _urdf_shape(file: Path, shape: Element, at: Pose) -> Shape:
+def _urdf_shape(source: _Source, shape: Element, at: Pose) -> Shape:
     def read() -> Array:
-        where = f"{file}: <{shape.tag}>"
+        where = f"{source.file}: <{shape.tag}>"
         if shape.tag == "mesh":
             scale = _numbers(shape.get("scale"), (1.0, 1.0, 1.0), where)
-            return at.moved(read_mesh(mesh_of_urdf(file, shape.get("filename", ""), FootError, where))[0], scale)
+            path = mesh_of_urdf(source.file, shape.get("filename", ""), FootError, where)
+            return at.moved(source.mesh(path), scale)
         radius, length = (_numbers(shape.get(k), (0.0,), where)[0] for k in ("radius", "length"))
         if shape.tag == "box":
             return at.moved(primitive("box", 0.5 * _numbers(shape.get("size"), (0.0, 0.0, 0.0), where), where))
@@ -214,8 +251,9 @@ class _Defaults:
         return {**self.classes.get(name, self.classes["main"]).get(element.tag, {}), **element.attrib}
 
 
-def _mjcf_bodies(file: Path, root: Element) -> Bodies:
+def _mjcf_bodies(source: _Source, root: Element) -> Bodies:
     """Drawn and colliding shapes of every body of an MJCF."""
+    file = source.file
     compiler: dict[str, str] = {}
     for element in root.iter("compiler"):
         compiler.update(element.attrib)
@@ -245,7 +283,7 @@ def _mjcf_bodies(file: Path, root: Element) -> Bodies:
                 if attributes.get("type") in ("plane", "hfield"):
                     continue
                 drawn = attributes.get("contype", "1") == "0" and attributes.get("conaffinity", "1") == "0"
-                yield drawn, _mjcf_shape(file, attributes, meshes, compiler, at, pose(child, attributes))
+                yield drawn, _mjcf_shape(source, attributes, meshes, compiler, at, pose(child, attributes))
             elif child.tag == "frame" or (child.tag == "body" and not _moves(child)):
                 yield from shapes(child, at @ pose(child, child.attrib), child_class)
 
@@ -272,7 +310,7 @@ def _moves(body: Element) -> bool:
 
 
 def _mjcf_shape(
-    file: Path,
+    source: _Source,
     attributes: Mapping[str, str],
     meshes: Mapping[str, Mapping[str, str]],
     compiler: Mapping[str, str],
@@ -280,7 +318,7 @@ def _mjcf_shape(
     own: Pose,
 ) -> Shape:
     def read() -> Array:
-        where = f"{file}: <geom name='{attributes.get('name', '')}'>"
+        where = f"{source.file}: <geom name='{attributes.get('name', '')}'>"
         kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
         at = body @ own
         if kind in ("mesh", "sdf"):
@@ -291,8 +329,8 @@ def _mjcf_shape(
             folder = compiler.get("meshdir", compiler.get("assetdir", ""))
             stated = Path(mesh["file"])
             stated = Path(stated.name) if compiler.get("strippath", "false") == "true" else stated
-            path = named_file(file.parent / folder / stated, folders_of_model(file), FootError, where)
-            triangles = read_mesh(path)[0]
+            place = source.file.parent / folder / stated
+            triangles = source.mesh(named_file(place, folders_of_model(source.file), FootError, where))
             origin = _numbers(mesh.get("refpos"), (0.0, 0.0, 0.0), where)
             turn = mjcf_rotation({"quat": mesh.get("refquat", "1 0 0 0")}, False, "xyz", where)
             scale = _numbers(mesh.get("scale"), (1.0, 1.0, 1.0), where)

@@ -32,6 +32,8 @@ _GROOVE = 10.0  # mm: half the width of a groove that is bridged
 _PART_SHARE = 0.05  # of the touching area: a smaller part gets no patch
 _MANY = 20_000  # triangles, above which they are joined on a coarser grid
 _COARSE_GRID = 0.4  # mm
+_LAYERS = 30  # of a surface, seen from above
+_TILE, _IN_TILE = 10.0, 2000  # mm and triangles
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
 
 
@@ -149,8 +151,31 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
     flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
     if not len(flat):
         return shapely.Polygon()
-    closed = np.concatenate([flat, flat[:, :1]], axis=1)
-    return shapely.set_precision(shapely.union_all(shapely.polygons(closed)), GRID)  # which closes hairline gaps
+    cells = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
+    if len(flat) > _MANY:
+        cells = _joined_in_tiles(cells, flat)
+    return shapely.set_precision(shapely.union_all(cells), GRID)  # which closes hairline gaps
+
+
+def _joined_in_tiles(cells: Any, flat: NDArray[np.float64]) -> Any:
+    """Unions of triangles that lie side by side; refused where they are a crowd, which takes minutes to unite.
+
+    Triangles of a surface join: the border of a tile has few corners. What overlaps at random gets more of them.
+    """
+    import shapely
+
+    box = shapely.total_bounds(cells)
+    if shapely.area(cells).sum() > _LAYERS * (box[2] - box[0]) * (box[3] - box[1]):
+        raise FootError(f"its triangles lie over each other more than {_LAYERS} times; give a surface")
+    rows = np.floor(flat[:, 0, 0] / _TILE)
+    order = np.lexsort((flat[:, 0, 1], rows))
+    tiles = []
+    for start in range(0, len(order), _IN_TILE):
+        tile = cells[order[start : start + _IN_TILE]]
+        tiles.append(shapely.union_all(tile))
+        if shapely.get_num_coordinates(tiles[-1]) > len(tile):
+            raise FootError("its triangles overlap without joining; give a surface")
+    return tiles
 
 
 def apart(union: Any, gap: float) -> tuple[Any, ...]:

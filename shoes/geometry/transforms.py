@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import is_finite
 from plantar.errors import FootError
 from plantar.mechanics.rotation import rotation_from_vector
 
@@ -70,10 +71,10 @@ def mjcf_rotation(attributes: Mapping[str, str], degrees: bool, sequence: str, w
             values = np.array([float(v) for v in attributes[name].split()])
         except ValueError:
             values = np.array([])
-        if len(values) != count or not np.isfinite(values).all():
+        if len(values) != count or not is_finite(values):
             raise FootError(f"{where}: {name} is '{attributes[name][:40]}'; allowed: {count} finite numbers")
         try:
-            return _rotation(name, values, degrees, sequence)
+            return _rotation(name, values, degrees, sequence, where)
         except ZeroDivisionError:
             raise FootError(f"{where}: {name} is '{attributes[name][:40]}', which gives no direction") from None
     return np.eye(3)
@@ -86,7 +87,7 @@ def _unit(vector: Array) -> Array:
     return np.asarray(vector / length)
 
 
-def _rotation(name: str, values: Array, degrees: bool, sequence: str) -> Array:
+def _rotation(name: str, values: Array, degrees: bool, sequence: str, where: str) -> Array:
     unit = math.pi / 180.0 if degrees else 1.0
     if name == "quat":
         w, *v = _unit(values)
@@ -95,6 +96,8 @@ def _rotation(name: str, values: Array, degrees: bool, sequence: str) -> Array:
     if name == "axisangle":
         return rotation_from_vector(values[3] * unit * _unit(values[:3]))
     if name == "euler":
+        if len(sequence) != 3 or sequence.lower().strip("xyz"):
+            raise FootError(f"{where}: eulerseq is '{sequence[:40]}'; allowed: three of x, y, z, X, Y, Z")
         out = np.eye(3)
         for letter, angle in zip(sequence, values, strict=True):
             turn = rotation_from_vector(angle * unit * np.eye(3)["xyz".index(letter.lower())])
