@@ -1,0 +1,112 @@
+"""Any file that somebody else made: a command takes it, or refuses it in one line, at once, and leaves nothing.
+
+A file is not to take more than 5 s of the processor and 500 MB. It is the processor's time that is measured, of the
+command and of what it starts, since the wall clock tells how busy the machine is; a command that waits for ever is
+ended after a minute. The memory is that of the largest process.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .hostile_files import COMMANDS, DEFECTS_OF_ANY, FAMILIES, Content
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, devices and memory as on Linux")
+
+PLANTAR = str(Path(sys.executable).parent / "plantar")
+MOST_SECONDS, MOST_MEGABYTES = 5.0, 500.0
+
+# A process counts what its parent held when it was started: hence a small one between the tests and the command.
+_MEASURE = """
+import json, resource, subprocess, sys
+command, folder = sys.argv[2:], sys.argv[1]
+with open(folder + "/stdout", "wb") as out, open(folder + "/stderr", "wb") as err:
+    try:
+        code = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=out, stderr=err, timeout=60).returncode
+    except subprocess.TimeoutExpired:
+        code = None
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(json.dumps([code, used.ru_utime + used.ru_stime, used.ru_maxrss / 1e3]))
+"""
+
+
+@dataclass
+class Ended:
+    """How a command ended."""
+
+    code: int | None
+    seconds: float
+    megabytes: float
+    out: str
+    err: str
+
+
+def measured(folder: Path, *arguments: str) -> Ended:
+    """Run the command line in a folder."""
+    logs = folder / "logs"
+    logs.mkdir()
+    command = [sys.executable, "-I", "-S", "-c", _MEASURE, str(logs), PLANTAR, *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
+    code, seconds, megabytes = json.loads(done.stdout)
+    texts = [(logs / name).read_text(errors="replace") for name in ("stdout", "stderr")]
+    return Ended(code, seconds, megabytes, *texts)
+
+
+def write(path: Path, content: Content) -> None:
+    """Make a file of the family."""
+    if callable(content):
+        content(path)
+    elif isinstance(content, str):
+        path.write_text(content)
+    else:
+        path.write_bytes(content)
+
+
+def refused(folder: Path, kind: str, content: Content) -> None:
+    """A file of a kind is refused by the command that reads it, in one line and in time, and nothing is left."""
+    path = folder / f"foot.{kind}"
+    good = folder / "good.csv"
+    good.write_text("time,left 1,left 2,left 3\n" + "".join(f"{0.01 * i},1,2,3\n" for i in range(50)))
+    write(path, content)
+    before = {p.name for p in folder.iterdir()}
+    arguments = [a.format(file=path, out=folder / "out", good=good) for a in COMMANDS[kind]]
+    ended = measured(folder, *arguments)
+    left = {p.name for p in folder.iterdir()} - before
+    if path.is_file() and not path.is_symlink():
+        path.unlink()  # some are large
+    said = ended.err[:300]
+    assert ended.code == 2, (ended, said)
+    assert ended.out == ""
+    assert ended.err.count("\n") == 1, said
+    assert ended.err.startswith("plantar: "), said
+    assert len(ended.err) < 1000
+    assert ended.seconds < MOST_SECONDS, (ended.seconds, said)
+    assert ended.megabytes < MOST_MEGABYTES, (ended.megabytes, said)
+    assert left == {"logs"}
+
+
+def _quick_or_long(names: list[str], quick: set[str]) -> list[Any]:
+    """Parameters of a test, most of which run only where there is time."""
+    return [pytest.param(name, marks=() if name in quick else pytest.mark.long) for name in names]
+
+
+FIRST_OF_KIND = set({kind: name for name, (kind, _) in reversed(FAMILIES.items())}.values())
+ANY = {f"{kind}: {defect}": (kind, content) for kind in COMMANDS for defect, content in DEFECTS_OF_ANY.items()}
+ONE_OF_KIND = {f"{kind}: {list(DEFECTS_OF_ANY)[i % len(DEFECTS_OF_ANY)]}" for i, kind in enumerate(COMMANDS)}
+
+
+@pytest.mark.parametrize("name", _quick_or_long(list(FAMILIES), FIRST_OF_KIND))
+def test_a_hostile_file_is_refused_in_one_line_at_once(name: str, tmp_path: Path) -> None:
+    refused(tmp_path, *FAMILIES[name])
+
+
+@pytest.mark.parametrize("name", _quick_or_long(list(ANY), ONE_OF_KIND))
+def test_what_may_stand_behind_any_name_is_refused(name: str, tmp_path: Path) -> None:
+    refused(tmp_path, *ANY[name])
