@@ -21,6 +21,7 @@ from gait.balance.law import Feet, FootAction, FootState
 from gait.balance.open_loop import OpenLoop
 from gait.command import Command, FootTarget, Sensors
 from gait.contact.foot_contacts import FootContacts, middle_of_sole
+from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.contact.support_strip import SupportStrip
 from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
@@ -33,7 +34,7 @@ from gait.estimate.estimator import (
     SoleLoad,
 )
 from gait.estimate.skin_load import at_its_limit
-from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.ground_conformity import ConformityGains, GroundConformity
 from gait.feet.landing_compliance import LandingCompliance
@@ -48,9 +49,10 @@ from gait.propose.decide import decide
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_found import FootholdCarries
 from gait.propose.foothold_refused import StepGuard
+from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
 from gait.propose.proposer import Proposer, Tick
-from gait.propose.slope_inside import SlopeInside, inward_distance
+from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
@@ -84,6 +86,9 @@ class ControllerSettings(Settings):
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
+        touchdown: Loads of a foot that lands with compliance.
+        ground_map: Map of the ground under it.
+        slope: Ground that slopes across a foot which lands with compliance.
         feasibility: Rules of step feasibility, which need compliance; None steps on everything.
         conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
@@ -91,7 +96,8 @@ class ControllerSettings(Settings):
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
         estimator: Estimator gains.
-        contact: How footholds are found from the taxels.
+        contact: How contact polygons are found from the taxels.
+        foothold: When what is found moves the plan.
         feedback: False walks the plan in open loop, for comparison.
         zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
@@ -106,6 +112,9 @@ class ControllerSettings(Settings):
     swing_height: float = number(0.05, "m", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
+    touchdown: TouchdownGains = field(default_factory=TouchdownGains)
+    ground_map: GroundMapSettings = field(default_factory=GroundMapSettings)
+    slope: SlopeRules = field(default_factory=SlopeRules)
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
@@ -114,6 +123,7 @@ class ControllerSettings(Settings):
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
+    foothold: FootholdRules = field(default_factory=FootholdRules)
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
@@ -187,8 +197,10 @@ class WalkingController:
             {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES},
             settings.estimator,
         )
-        gains = settings.compliance
-        compliance = None if gains is None else {s: SwingCompliance(layouts[s], gains) for s in SIDES}
+        gains, loads = settings.compliance, settings.touchdown
+        compliance = None
+        if gains is not None:
+            compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
         self.contacts = FootContacts(settings.contact, layouts)
         self._damping = {side: LandingCompliance(period) for side in SIDES}
@@ -223,11 +235,11 @@ class WalkingController:
         length = float(np.hypot(*way))
         forward = np.array([math.cos(start.feet["left"].yaw), math.sin(start.feet["left"].yaw)])
         strip = SupportStrip(begin, way / length if length > 0.05 else forward)
-        contact = self.settings.contact
+        rules = self.settings.foothold
         on_ground: list[Proposer] = [
             SlopeInside(),
-            FootholdSeenAhead(contact),
-            FootholdCarries(contact, middles, strip),
+            FootholdSeenAhead(rules),
+            FootholdCarries(rules, middles, strip),
         ]
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 
@@ -336,15 +348,15 @@ class WalkingController:
         senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press())
-        feet, gains = self.motion.view, self.settings.compliance
+        feet, slope = self.motion.view, self.settings.slope
         if feet.lift_off and feet.side is not None:
             self._compensation.start()
             self.contacts.lift_off(feet.side, phase.step)
             self._damping[feet.side].reset()
         inward = 0.0
-        if feet.touchdown and feet.side is not None and gains is not None:
+        if feet.touchdown and feet.side is not None and self.settings.compliance is not None:
             rise = self.motion.outward_rise(feet.side)
-            inward = inward_distance(feet.side, rise, gains.ankle_reach, self.settings.com_height)
+            inward = inward_distance(feet.side, rise, slope.ankle_reach, self.settings.com_height)
             if inward:
                 self.contacts.bear_inside(feet.side, inward)
         return feet, inward

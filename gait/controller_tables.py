@@ -7,12 +7,15 @@ from typing import Any
 
 from gait.balance.dcm_balance import BalanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
+from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.estimate.estimator import EstimatorGains
-from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.propose.feasibility import FeasibilityRules
+from gait.propose.foothold_rules import FootholdRules
+from gait.propose.slope_inside import SlopeRules
 from plantar.errors import InputError, PlantarError
 from plantar.settings.schema import Setting, Settings
 from plantar.settings.unknown_keys import refuse_unknown_keys
@@ -24,7 +27,11 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "estimator": (EstimatorGains,),
     "landing": (Landing,),
     "contact": (ContactSettings,),
+    "foothold": (FootholdRules,),
     "compliance": (ComplianceGains,),
+    "touchdown": (TouchdownGains,),
+    "ground_map": (GroundMapSettings,),
+    "slope": (SlopeRules,),
     "feasibility": (FeasibilityRules,),
     "conformity": (ConformityGains,),
 }
@@ -33,10 +40,22 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
 _ELSEWHERE = {
     "landing.approach_height": "walk.approach_height",
     "landing.approach_speed": "walk.approach_speed",
-    "compliance.sensing_range": "sensing.proximity_range",
+    "ground_map.sensing_range": "sensing.proximity_range",
     "feasibility.rule": "control.feasibility",
 }
 """Settings that a scene gives by another name."""
+
+_MOVED = {
+    **{f"compliance.{name}": f"ground_map.{name}" for name in GroundMapSettings.names() if name != "sensing_range"},
+    **{f"compliance.{name}": f"touchdown.{name}" for name in TouchdownGains.names()},
+    **{f"contact.{name}": f"foothold.{name}" for name in FootholdRules.names()},
+    "compliance.ankle_reach": "slope.ankle_reach",
+    "compliance.sensing_range": "sensing.proximity_range",
+    "compliance.haste": "compliance.late_speed_ratio",
+    "compliance.firming": "touchdown.load_time",
+    "compliance.pliancy": "touchdown.admittance",
+}
+"""Names that settings had before, for messages."""
 
 
 def controller_keys(table: str) -> tuple[str, ...]:
@@ -83,8 +102,9 @@ def check_controller_table(name: str, table: Any, where: str, error: type[Planta
     if not isinstance(table, Mapping):
         raise error(f"{where} is not a table")
     for key in table:
-        if f"{name}.{key}" in _ELSEWHERE:
-            raise error(f"{where} '{key}' is given by '{_ELSEWHERE[f'{name}.{key}']}'; leave it out here")
+        elsewhere = {**_MOVED, **_ELSEWHERE}.get(f"{name}.{key}")
+        if elsewhere is not None:
+            raise error(f"{where} '{key}' is given by '{elsewhere}'; leave it out here")
     refuse_unknown_keys(table, controller_keys(name), where, error)
     for kind in CONTROLLER_TABLES[name]:
         kind.from_table({k: v for k, v in table.items() if k in kind.names()}, where, error)

@@ -67,9 +67,6 @@ ROOMS: dict[str, tuple[str, ...]] = {
 ALONE = {"gait.analysis"}
 """Rooms that import no other room of their package, and that none imports."""
 
-NOT_YET = {("gait.contact.ground_map", "gait.feet.compliance_gains")}
-"""Imports that run against the order and are still there."""
-
 PLACE_OF_LIBRARY = {
     "cadquery": "shoes",
     "OCP": "shoes",
@@ -164,7 +161,7 @@ def arrows_up(root: Path) -> list[str]:
                 continue
             for line, name in imports_of(module, path):
                 other = room_of(name, house)
-                if other in (None, own) or {(module, name), (module, name.rpartition(".")[0])} & NOT_YET:
+                if other in (None, own):
                     continue
                 if other not in rooms[: rooms.index(own)] or ALONE & {f"{house}.{own}", f"{house}.{other}"}:
                     found.append(f"{where}:{line}: {own} imports {name}, which is no earlier room of {house}")
@@ -193,12 +190,6 @@ def test_no_room_imports_a_later_one():
 
 def test_no_modules_import_each_other_in_a_circle():
     assert circle(ROOT) == []
-
-
-@pytest.mark.parametrize(("module", "name"), sorted(NOT_YET))
-def test_what_runs_against_the_order_is_still_there(module, name):
-    path = ROOT / Path(*module.split(".")).with_suffix(".py")
-    assert name in {found for _, found in imports_of(module, path)}, "gone: take it out of NOT_YET"
 
 
 @pytest.mark.parametrize(

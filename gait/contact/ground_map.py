@@ -15,14 +15,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.feet.compliance_gains import ComplianceGains
 from plantar.kernels.highest_ground import highest_plane
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
+from plantar.settings.schema import Settings, choice, number, whole
 
-__all__ = ["GroundMap", "GroundView"]
+__all__ = ["GroundMap", "GroundMapSettings", "GroundView"]
 
 
 _LARGEST_BIAS_STEP = 0.0015  # m that one touch changes the bias by: more is ground that moved
@@ -33,6 +33,33 @@ _NOISE_SHARE = 0.02  # share of a reading in what is known of that
 _SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
 _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
 _REMEMBERED = 12  # control ticks for which poses are kept, for readings that are late
+
+
+class GroundMapSettings(Settings):
+    """How the map of the ground under a swing foot is kept, and read as a plane.
+
+    Attributes:
+        orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
+        sensing_range: Range of the proximity sensors in m.
+        largest_slope: Slope in rad beyond which the sole does not follow the ground.
+        follow_taxels: Number of taxels that must lie on a slope for the sole to follow it.
+        readings: Number of readings that the map of distances averages over while the sole stands still.
+        readings_moving: The same while it moves fast.
+        still: Move in m a control tick that halves it.
+        jump: Difference from the map, in standard deviations of the readings, by which one of them shows that the
+            ground has moved.
+        jump_of_all: The same for the mean of all taxels, which is less noisy.
+    """
+
+    orientation: str = choice("plane", "moment")
+    sensing_range: float = number(0.05, "m", 0.005, 0.5)
+    largest_slope: float = number(0.25, "rad", 0, 0.7)
+    follow_taxels: int = whole(10, "taxels", 3, 10000)
+    readings: int = whole(60, "readings", 1, 10000)
+    readings_moving: int = whole(5, "readings", 1, 10000)
+    still: float = number(0.0001, "m", 1e-06, 0.01)
+    jump: float = number(6.0, "1", 0.1, 100)
+    jump_of_all: float = number(1.5, "1", 0.1, 100)
 
 
 @dataclass(frozen=True)
@@ -61,12 +88,12 @@ class GroundMap:
 
     Args:
         layout: The sole.
-        gains: Settings.
+        settings: Settings.
     """
 
-    def __init__(self, layout: SoleLayout, gains: ComplianceGains) -> None:
+    def __init__(self, layout: SoleLayout, settings: GroundMapSettings) -> None:
         self.layout = layout
-        self.gains = gains
+        self.settings = settings
         self.bias = 0.0
         self._x, self._y = layout.positions[:, 0].copy(), layout.positions[:, 1].copy()
         self._corners = layout.outline
@@ -77,7 +104,7 @@ class GroundMap:
         self._on_plane = np.zeros(len(layout), dtype=np.uint8)
         self._plane = np.zeros(3)
         self._read = -math.inf
-        self._most = float(gains.readings_moving)
+        self._most = float(settings.readings_moving)
         self._noise = _LEAST_NOISE
         self._rising = False
         self._stood: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
@@ -125,8 +152,8 @@ class GroundMap:
         """
         if self._poses:
             _, before, turned = self._poses[-1]
-            g, moved = self.gains, math.dist(position, before)
-            self._most = max(float(g.readings_moving), g.readings * g.still / (g.still + moved))
+            s, moved = self.settings, math.dist(position, before)
+            self._most = max(float(s.readings_moving), s.readings * s.still / (s.still + moved))
             self._rise = self._risen(before, turned, position, rotation)
             self._distance = self._distance + self._rise
         self._poses.append((time, position.copy(), rotation.copy()))
@@ -188,16 +215,16 @@ class GroundMap:
 
     def _mix(self, reading: NDArray[np.float64]) -> None:
         """Take a reading (n,) in m into the map; where the ground has moved the map begins anew."""
-        g = self.gains
+        s = self.settings
         known = np.isfinite(reading) & np.isfinite(self._distance)
         news = np.subtract(reading, self._distance, out=np.zeros(len(known)), where=known)
         told = news[known]
         if len(told):
-            if abs(float(told.sum()) / len(told)) > g.jump_of_all * self._noise:
+            if abs(float(told.sum()) / len(told)) > s.jump_of_all * self._noise:
                 self._readings[:] = 0.0
             spread = _SIGMA_OF_MEDIAN * _median(np.abs(told))
             self._noise = max(_LEAST_NOISE, self._noise + _NOISE_SHARE * (spread - self._noise))
-        self._readings[~known | (np.abs(news) > g.jump * self._noise)] = 0.0
+        self._readings[~known | (np.abs(news) > s.jump * self._noise)] = 0.0
         self._readings = np.minimum(self._readings + 1.0, self._most)
         self._distance = np.where(known, self._distance + news / self._readings, reading)
 
@@ -206,28 +233,28 @@ class GroundMap:
         seen = int(np.count_nonzero(np.isfinite(distance)))
         if seen < 3:
             return None
-        g = self.gains
+        s = self.settings
         found = highest_plane(
-            self._x, self._y, distance, self._readings, self._noise, g.follow_taxels, self._on_plane, self._plane
+            self._x, self._y, distance, self._readings, self._noise, s.follow_taxels, self._on_plane, self._plane
         )
         count = int(np.count_nonzero(self._on_plane))
         level, sx, sy = self._plane.tolist() if found else (0.0, 0.0, 0.0)
         slope: tuple[float, float] | None = (sx, sy)
-        if count < g.follow_taxels or math.hypot(sx, sy) > g.largest_slope:
+        if count < s.follow_taxels or math.hypot(sx, sy) > s.largest_slope:
             slope = None  # too little to stand on, or too steep: the sole stays level
         if slope is None or not found:
             nearest = middle = float(np.sort(distance[self._on_plane != 0])[: max(1, count // 3)].mean())
         else:
             nearest = level - float((self._corners.dot(np.array([sx, sy]))).max())
             middle = level - sx * float(self._centre[0]) - sy * float(self._centre[1])
-            if g.orientation == "moment":
+            if s.orientation == "moment":
                 slope = self._slope_of_moment(seen)
         return GroundView(nearest, middle, slope, count > _EVEN * seen)
 
     def _slope_of_moment(self, count: int) -> tuple[float, float]:
         """Slope that a level sole would see for the virtual moment about its middle (T 4.26)."""
         distance = self._distance - self.bias
-        wrench = virtual_ground_reaction_wrench(self.layout, distance, PROXIMITY_GAIN, self.gains.sensing_range)
+        wrench = virtual_ground_reaction_wrench(self.layout, distance, PROXIMITY_GAIN, self.settings.sensing_range)
         moment_x = wrench[3] - self._centre[1] * wrench[2]
         moment_y = wrench[4] + self._centre[0] * wrench[2]
         return (

@@ -46,13 +46,10 @@ class ContactSettings(Settings):
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
         fit_every: Readings between two fits of a contact polygon that has settled.
         standing_load: Vertical force in N from which the foot stands and its loads say where the edges are.
-        least_move: Distance in m by which the centroid has to differ from the plan's VRP before the plan is moved.
         foresee_readings: Readings of the ground from which a foothold is planned with before the foot is on it.
         foresee_reach: Distance in m that the foot may still have to go for that.
         foresee_least: Time in s before the planned touchdown from which it is too late for that.
-        largest_shift: Distance in m by which one foothold moves the footsteps to come.
         watch: Time in s into the single support until which a contact polygon is refined.
-        replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
     minimum_load: float = number(90.0, "N", 0, 10000)
@@ -74,13 +71,10 @@ class ContactSettings(Settings):
     subcell: bool = switch(True)
     fit_every: int = whole(8, "readings", 1, 1000)
     standing_load: float = number(450.0, "N", 0, 100000)
-    least_move: float = number(0.004, "m", 0, 0.1)
     foresee_readings: int = whole(6, "readings", 1, 1000)
     foresee_reach: float = number(0.015, "m", 0, 0.2)
     foresee_least: float = number(0.07, "s", 0, 1)
-    largest_shift: float = number(0.02, "m", 0, 0.2)
     watch: float = number(0.15, "s", 0, 5)
-    replan_pause: float = number(0.06, "s", 0, 5)
 
 
 class StanceContact:

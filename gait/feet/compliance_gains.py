@@ -1,18 +1,16 @@
-"""Settings of preemptive foot compliance."""
+"""Settings of preemptive foot compliance: how a sole comes down, and what it carries once it has touched."""
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, choice, number, whole
+from plantar.settings.schema import Settings, number
 
-__all__ = ["ComplianceGains"]
+__all__ = ["ComplianceGains", "TouchdownGains"]
 
 
 class ComplianceGains(Settings):
-    """Settings of preemptive foot compliance.
+    """How a swing foot comes down on the ground that its taxels see.
 
     Attributes:
-        orientation: "plane" turns the sole by the plane fitted to the distances, "moment" by the virtual moment.
-        sensing_range: Range of the proximity sensors in m.
         damping: Smallest time constant in s with which the swing comes to the ground: speed = touch_speed + distance /
             time constant.
         touch_speed: Speed in m/s at which it touches.
@@ -28,26 +26,8 @@ class ComplianceGains(Settings):
         late_speed_ratio: How many times faster it touches then.
         turning: Time constant in s with which the sole turns to the ground.
         turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
-        largest_slope: Slope in rad beyond which the sole does not follow the ground.
-        follow_taxels: Number of taxels that must lie on a slope for the sole to follow it.
-        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
-            outwards itself; on a steeper one the body stays further inside.
-        contact_force: Force in N that counts as touchdown.
-        touch_force: Force in N that a foot carries at first.
-        hold_force: Force in N that it carries from then on to the double support.
-        load_time: Time in s from the one to the other.
-        admittance: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
-        settling: Time constant in s with which it learns how fast the body above it moves up or down.
-        readings: Number of readings that the map of distances averages over while the sole stands still.
-        readings_moving: The same while it moves fast.
-        still: Move in m a control tick that halves it.
-        jump: Difference from the map, in standard deviations of the readings, by which one of them shows that the
-            ground has moved.
-        jump_of_all: The same for the mean of all taxels, which is less noisy.
     """
 
-    orientation: str = choice("plane", "moment")
-    sensing_range: float = number(0.05, "m", 0.005, 0.5)
     damping: float = number(0.04, "s", 0.001, 1)
     touch_speed: float = number(0.002, "m/s", 0.0001, 0.1)
     margin: float = number(0.0002, "m", 0, 0.01)
@@ -62,17 +42,23 @@ class ComplianceGains(Settings):
     late_speed_ratio: float = number(2.5, "1", 1, 20)
     turning: float = number(0.04, "s", 0.005, 1)
     turn_rate: float = number(1.5, "rad/s", 0.01, 20)
-    largest_slope: float = number(0.25, "rad", 0, 0.7)
-    follow_taxels: int = whole(10, "taxels", 3, 10000)
-    ankle_reach: float = number(0.095, "rad", 0, 0.7)
+
+
+class TouchdownGains(Settings):
+    """From which load a foot counts as down, and which load it carries until weight is put on it.
+
+    Attributes:
+        contact_force: Force in N that counts as touchdown.
+        touch_force: Force in N that a foot carries at first.
+        hold_force: Force in N that it carries from then on to the double support.
+        load_time: Time in s from the one to the other.
+        admittance: Speed in m/s with which a foot on the ground yields to each newton of force that it should not have.
+        settling: Time constant in s with which it learns how fast the body above it moves up or down.
+    """
+
     contact_force: float = number(18.0, "N", 0, 10000)
     touch_force: float = number(20.0, "N", 0, 10000)
     hold_force: float = number(30.0, "N", 0.1, 10000)
     load_time: float = number(0.15, "s", 0.001, 5)
     admittance: float = number(1e-4, "m/s/N", 0, 0.1)
     settling: float = number(0.1, "s", 0.005, 10)
-    readings: int = whole(60, "readings", 1, 10000)
-    readings_moving: int = whole(5, "readings", 1, 10000)
-    still: float = number(0.0001, "m", 1e-06, 0.01)
-    jump: float = number(6.0, "1", 0.1, 100)
-    jump_of_all: float = number(1.5, "1", 0.1, 100)

@@ -203,7 +203,7 @@ class FootMotion:
         """
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
-                if loads[side] > compliance.gains.touch_force:
+                if loads[side] > compliance.touchdown.touch_force:
                     compliance.ground.stand(senses[side].position, senses[side].rotation)
         self._lift_off = phase.swing is not None and self._step != phase.step
         if self._lift_off and target is not None:
@@ -358,7 +358,7 @@ class FootMotion:
         if view is None or view.distance >= _TOUCHING:
             return False
         far = (view.distance - _AT_THE_GROUND) / (_TOUCHING - _AT_THE_GROUND)
-        least = compliance.gains.contact_force
+        least = compliance.touchdown.contact_force
         return far <= 0.0 or compliance.force > least + far * (blind - least)
 
     def _turn(self, compliance: SwingCompliance, side: Side, view: GroundView) -> None:
@@ -367,7 +367,7 @@ class FootMotion:
         share = min(1.0, self._period / gains.turning)
         if view.slope is None:
             self._tilts[side] = rotation_from_vector((1.0 - share) * vector_from_rotation(self._tilts[side]))
-        elif view.distance < 0.8 * gains.sensing_range:
+        elif view.distance < 0.8 * compliance.ground.settings.sensing_range:
             largest = compliance.turn_rate(view.distance, view.slope) * self._period
             self._tilts[side] = turned_to_ground(self._tilts[side], view.slope, share, largest)
 

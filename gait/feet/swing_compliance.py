@@ -14,8 +14,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.contact.ground_map import GroundMap, GroundView
-from gait.feet.compliance_gains import ComplianceGains
+from gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.rotation import rotation_from_vector
 from plantar.sensing.virtual_wrench import SoleWrenchSwitch
@@ -37,14 +37,19 @@ class SwingCompliance:
 
     Args:
         layout: The sole.
-        gains: Settings.
+        gains: How it comes down.
+        touchdown: Which load is a touchdown, and which one it carries from then on.
+        ground: How the map of the ground is kept.
     """
 
-    def __init__(self, layout: SoleLayout, gains: ComplianceGains) -> None:
+    def __init__(
+        self, layout: SoleLayout, gains: ComplianceGains, touchdown: TouchdownGains, ground: GroundMapSettings
+    ) -> None:
         self.layout = layout
         self.gains = gains
-        self.ground = GroundMap(layout, gains)
-        self.switch = SoleWrenchSwitch(gains.contact_force)
+        self.touchdown = touchdown
+        self.ground = GroundMap(layout, ground)
+        self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self.force = 0.0
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
         self._speed = self._drift = 0.0
@@ -126,8 +131,8 @@ class SwingCompliance:
         Args:
             since: Time in s since it touched.
         """
-        g = self.gains
-        return g.touch_force + min(1.0, since / g.load_time) * (g.hold_force - g.touch_force)
+        t = self.touchdown
+        return t.touch_force + min(1.0, since / t.load_time) * (t.hold_force - t.touch_force)
 
     def yielding(self, load: float, target: float, above: float, period: float) -> float:
         """How far a foot on the ground goes down in one control tick, in m, for a force; negative: up.
@@ -141,11 +146,11 @@ class SwingCompliance:
         Returns:
             The distance.
         """
-        g = self.gains
-        missing = g.admittance * (target - load)
-        self._drift = min(_LARGEST_DRIFT, max(-_LARGEST_DRIFT, self._drift + missing * period / g.settling))
+        g, t = self.gains, self.touchdown
+        missing = t.admittance * (target - load)
+        self._drift = min(_LARGEST_DRIFT, max(-_LARGEST_DRIFT, self._drift + missing * period / t.settling))
         wanted = missing + self._drift
-        if load < 0.3 * g.hold_force:
+        if load < 0.3 * t.hold_force:
             wanted = max(wanted, g.touch_speed + above / g.damping)
         self._speed = min(0.02, max(-0.02, wanted))
         return self._speed * period

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.contact.foot_contacts import FootholdFound
-from gait.contact.stance_contact import ContactSettings
 from gait.contact.support_strip import SupportStrip
 from gait.plan.phases import PhaseKind
 from gait.plan.plan_change import PlanChange, Point
 from gait.plan.walk_plan import vrp_of_step
+from gait.propose.foothold_rules import FootholdRules
 from gait.propose.proposer import Priority, Tick, was_applied
 from plantar.sides import Side
 
@@ -27,17 +27,15 @@ class FootholdCarries:
     """Proposes the VRP over what a foot was found to stand on, and footsteps on the strip that the ground goes on as.
 
     Args:
-        settings: How far a foothold has to lie off the plan, and how far one moves the footsteps to come.
+        rules: How far a foothold has to lie off the plan, and how far one moves the footsteps to come.
         middles: Middle (2,) of each sole in its frame in m.
         strip: Where the ground goes on.
     """
 
     priority = Priority.FOOTHOLD
 
-    def __init__(
-        self, settings: ContactSettings, middles: Mapping[Side, NDArray[np.float64]], strip: SupportStrip
-    ) -> None:
-        self._settings = settings
+    def __init__(self, rules: FootholdRules, middles: Mapping[Side, NDArray[np.float64]], strip: SupportStrip) -> None:
+        self._rules = rules
         self._middles = middles
         self._strip = strip
         self._moved, self._moved_step = -math.inf, -1
@@ -64,7 +62,7 @@ class FootholdCarries:
             self._strip.clear()
         else:
             self._strip.update(found.step, found.side, found.vrp)
-        rested = time >= self._moved + self._settings.replan_pause or self._moved_step != found.step
+        rested = time >= self._moved + self._rules.replan_pause or self._moved_step != found.step
         return rested and not found.as_planned
 
     def _over(self, found: FootholdFound, tick: Tick) -> PlanChange | None:
@@ -73,7 +71,7 @@ class FootholdCarries:
         shift, vrp_shift = self._onto_strip(found.step, tick)
         x, y = found.vrp.tolist()
         away = math.dist(found.vrp, tick.plan.vrp(found.step))
-        if max(away, math.hypot(*vrp_shift), math.hypot(*shift)) < self._settings.least_move:
+        if max(away, math.hypot(*vrp_shift), math.hypot(*shift)) < self._rules.least_move:
             return None
         return PlanChange(
             "foothold found",
@@ -95,7 +93,7 @@ class FootholdCarries:
         center = vrp_of_step(foot, self._middles[foot.side])
         place, lateral = strip.coordinates(center)
         missing = strip.lateral(place) - lateral
-        reach = self._settings.largest_shift
+        reach = self._rules.largest_shift
         dx, dy = (min(reach, max(-reach, missing)) * strip.across).tolist()
         vx, vy = (center + missing * strip.across - tick.plan.vrp(upcoming)).tolist()
         return (dx, dy), (vx, vy)

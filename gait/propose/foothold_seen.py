@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from gait.contact.stance_contact import ContactSettings
 from gait.plan.plan_change import PlanChange
+from gait.propose.foothold_rules import FootholdRules
 from gait.propose.proposer import Priority, Tick
 
 __all__ = ["FootholdSeenAhead"]
@@ -15,18 +15,18 @@ class FootholdSeenAhead:
     """Proposes the VRP over the foothold that a swing foot is coming down on.
 
     Args:
-        settings: How far a foothold has to lie off the plan.
+        rules: How far a foothold has to lie off the plan.
     """
 
     priority = Priority.FOOTHOLD
 
-    def __init__(self, settings: ContactSettings) -> None:
-        self._settings = settings
+    def __init__(self, rules: FootholdRules) -> None:
+        self._rules = rules
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """The VRP over what is seen, where that is not what was planned (see `gait.propose.proposer.Proposer`)."""
         seen = tick.seen
-        if seen is None or math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._settings.least_move:
+        if seen is None or math.dist(seen.vrp, tick.plan.vrp(seen.step)) < self._rules.least_move:
             return None
         x, y = seen.vrp.tolist()
         return PlanChange("foothold seen", seen.step, vrp=(x, y))

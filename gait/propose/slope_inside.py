@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from gait.plan.plan_change import PlanChange
 from gait.propose.proposer import Priority, Tick, was_applied
+from plantar.settings.schema import Settings, number
 from plantar.sides import Side
 
-__all__ = ["SlopeInside", "inward_distance"]
+__all__ = ["SlopeInside", "SlopeRules", "inward_distance"]
 
 
 def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_height: float) -> float:
@@ -27,6 +28,17 @@ def inward_distance(side: Side, outward_rise: float, ankle_reach: float, com_hei
     """
     excess = outward_rise - ankle_reach
     return com_height * excess * (-1.0 if side == "left" else 1.0) if excess > 0.0 else 0.0
+
+
+class SlopeRules(Settings):
+    """What slope across a foot an ankle can follow.
+
+    Attributes:
+        ankle_reach: Slope across the foot, rising outwards, in rad that an ankle can follow on one leg, which leans
+            outwards itself; on a steeper one the body stays further inside.
+    """
+
+    ankle_reach: float = number(0.095, "rad", 0, 0.7)
 
 
 class SlopeInside:

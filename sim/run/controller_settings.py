@@ -6,15 +6,18 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from gait.balance.balance_laws import balance_gains
+from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.controller import ControllerSettings
 from gait.estimate.ankle_sensor import AnkleSensor
 from gait.estimate.estimator import EstimatorGains
-from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
+from gait.propose.foothold_rules import FootholdRules
+from gait.propose.slope_inside import SlopeRules
 from plantar.errors import SceneError
 from plantar.layouts.layout import Side
 from plantar.settings.schema import Settings
@@ -74,15 +77,17 @@ def controller_settings(
         ),
         swing_height=walk.swing_height,
         landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
-        compliance=made(ComplianceGains, "compliance", sensing_range=scene.sensing.proximity_range)
-        if control.pfc
-        else None,
+        compliance=made(ComplianceGains, "compliance") if control.pfc else None,
+        touchdown=made(TouchdownGains, "touchdown"),
+        ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.sensing.proximity_range),
+        slope=made(SlopeRules, "slope"),
         feasibility=made(FeasibilityRules, "feasibility", rule=control.feasibility)
         if control.feasibility != "off"
         else None,
         conformity=made(ConformityGains, "conformity") if control.conform else None,
         estimator=made(EstimatorGains, "estimator", **yaw),
         contact=made(ContactSettings, "contact"),
+        foothold=made(FootholdRules, "foothold"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
         feedback=control.feedback,
         zmp_source=control.zmp_source,
@@ -99,10 +104,10 @@ def _refuse_unused(scene: Scene) -> None:
     if control.conform and not control.pfc:
         raise SceneError("control.conform is true; allowed: with pfc = true")
     runs = {
-        "compliance": (control.pfc, "control.pfc = true"),
+        **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
         "conformity": (control.conform, "control.conform = true"),
-        "contact": (control.footholds != "off", "control.footholds = 'force' or 'skin'"),
+        **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),
     }
     for name, (used, needed) in runs.items():
         if scene.controller.get(name) and not used:

@@ -10,14 +10,18 @@ import pytest
 from gait.balance.dcm_balance import BalanceGains
 from gait.balance.foot_admittance import AdmittanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
+from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.controller import ControllerSettings
+from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from gait.estimate.estimator import EstimatorGains
-from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
+from gait.propose.foothold_rules import FootholdRules
+from gait.propose.slope_inside import SlopeRules
 from plantar.errors import InputError
 from plantar.settings.schema import Settings
 
@@ -25,6 +29,10 @@ CLASSES = (
     AdmittanceGains,
     BalanceGains,
     ComplianceGains,
+    TouchdownGains,
+    GroundMapSettings,
+    FootholdRules,
+    SlopeRules,
     ConformityGains,
     ContactSettings,
     EstimatorGains,
@@ -58,3 +66,21 @@ def test_a_controller_needs_a_height_and_a_mass(name: str, value: float) -> None
     good = ControllerSettings(com_height=0.8, mass=60.0)
     with pytest.raises(InputError, match=f"'{name}' is .*; allowed: a finite number above 0"):
         replace(good, **{name: value})
+
+
+@pytest.mark.parametrize(
+    ("table", "old", "new"),
+    [
+        ("compliance", "haste", "compliance.late_speed_ratio"),
+        ("compliance", "pliancy", "touchdown.admittance"),
+        ("compliance", "readings", "ground_map.readings"),
+        ("compliance", "ankle_reach", "slope.ankle_reach"),
+        ("contact", "least_move", "foothold.least_move"),
+        ("ground_map", "sensing_range", "sensing.proximity_range"),
+    ],
+)
+def test_a_setting_that_has_moved_is_told_with_its_place(table: str, old: str, new: str) -> None:
+    with pytest.raises(InputError, match=f"'{old}' is given by '{new}'"):
+        check_controller_table(table, {old: 1.0}, f"[{table}]")
+    place, _, name = new.partition(".")
+    assert name in (*controller_keys(place), "proximity_range") if place in CONTROLLER_TABLES else place == "sensing"

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gait.contact.ground_map import GroundMap, GroundView
-from gait.feet.compliance_gains import ComplianceGains
+from gait.contact.ground_map import GroundMap, GroundMapSettings, GroundView
 from plantar import Percept, Reading, hex_layout
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
@@ -22,10 +21,10 @@ def percept(distance: NDArray[np.float64], time: float = 0.0) -> Percept:
 
 
 def looked(
-    distance: NDArray[np.float64], gains: ComplianceGains | None = None, noise: float = 0.0
+    distance: NDArray[np.float64], gains: GroundMapSettings | None = None, noise: float = 0.0
 ) -> GroundView | None:
     rng = np.random.default_rng(1)
-    ground = GroundMap(LAYOUT, gains or ComplianceGains())
+    ground = GroundMap(LAYOUT, gains or GroundMapSettings())
     ground.begin()
     view = None
     for k in range(20):
@@ -36,7 +35,7 @@ def looked(
 
 @pytest.mark.parametrize("orientation", ["plane", "moment"])
 def test_sloping_ground_gives_its_slope_and_the_first_contact(orientation: str) -> None:
-    view = looked(0.03 - 0.08 * X + 0.05 * Y, ComplianceGains(orientation=orientation))
+    view = looked(0.03 - 0.08 * X + 0.05 * Y, GroundMapSettings(orientation=orientation))
     assert view is not None
     assert view.slope == pytest.approx((0.08, -0.05), abs=2e-3)
     assert view.middle == pytest.approx(0.03, abs=1e-3)
@@ -86,7 +85,7 @@ def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() ->
     errors = []
     for seed in range(20):
         rng = np.random.default_rng(seed)
-        ground = GroundMap(LAYOUT, ComplianceGains())
+        ground = GroundMap(LAYOUT, GroundMapSettings())
         ground.begin()
         for k in range(20):
             reading = np.where(X > -0.03, 0.012, 0.03) + rng.normal(0.0, 2e-3, len(LAYOUT))
@@ -101,7 +100,7 @@ def test_ground_that_half_the_sole_is_above_is_measured_by_all_of_that_half() ->
 
 
 def test_one_noisy_reading_of_a_taxel_is_not_yet_high_ground() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     distance = np.full(len(LAYOUT), 0.01)
     for k in range(40):
@@ -124,7 +123,7 @@ def test_dead_taxels_and_no_ground_are_no_obstacle() -> None:
 
 
 def test_the_map_moves_with_the_sole_between_readings() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     ground.update(percept(np.full(len(LAYOUT), 0.03)), np.array([0.0, 0.0, 0.03]), np.eye(3), 0.0)
     blind = Percept(LAYOUT, Reading(time=0.01, force=np.zeros(len(LAYOUT))))
@@ -155,7 +154,7 @@ def swung(
 
 
 def test_a_bias_is_learned_from_the_touch() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     for _ in range(8):
         ground.begin()
         for k in range(20):
@@ -165,7 +164,7 @@ def test_a_bias_is_learned_from_the_touch() -> None:
 
 
 def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     ground.update(percept(np.full(len(LAYOUT), 0.012)), np.zeros(3), np.eye(3), 0.0)
     ground.touched()
@@ -175,27 +174,27 @@ def test_one_touch_does_not_take_moved_ground_for_a_bias() -> None:
 @pytest.mark.parametrize("bias", [-0.01, -0.005, 0.005, 0.01])
 def test_a_bias_is_learned_where_the_sole_leaves_the_ground(bias: float) -> None:
     rng = np.random.default_rng(2)
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     swung(ground, lambda z: z + bias + rng.normal(0.0, 2e-3, len(LAYOUT)), 0.0)
     assert ground.bias == pytest.approx(bias, abs=8e-4)
 
 
 def test_a_sole_that_left_the_ground_before_its_swing_learns_no_bias_of_that() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.stand(np.array([0.0, 0.0, -0.004]), np.eye(3))  # where it last carried load
     swung(ground, lambda z: np.full(len(LAYOUT), z + 0.004), 0.0)
     assert ground.bias == 0.0
 
 
 def test_ground_that_was_no_plane_teaches_no_bias() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     block = np.where(np.hypot(X - 0.05, Y) < 0.04, 0.0, 0.03)
     swung(ground, lambda z: z + block, 0.0)
     assert ground.bias == 0.0
 
 
 def test_a_reading_counts_for_when_it_was_taken() -> None:
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     view = swung(ground, lambda z: np.full(len(LAYOUT), z), 0.0, age=2 * PERIOD)
     assert view is not None
     assert view.distance == pytest.approx(0.02 * np.sin(0.75 * np.pi), abs=1e-4)
@@ -203,7 +202,7 @@ def test_a_reading_counts_for_when_it_was_taken() -> None:
 
 def test_ground_that_moves_is_seen_at_once_and_noise_is_no_move() -> None:
     rng = np.random.default_rng(3)
-    ground = GroundMap(LAYOUT, ComplianceGains())
+    ground = GroundMap(LAYOUT, GroundMapSettings())
     ground.begin()
     views = []
     for k in range(120):

@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gait.contact.ground_map import GroundMapSettings
 from gait.estimate.command_frame import CommandFrame
-from gait.feet.compliance_gains import ComplianceGains
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.swing_compliance import SwingCompliance
 from gait.plan.footsteps import Footstep, straight_plan
@@ -19,6 +20,8 @@ from plantar.layouts.layout import Side
 
 PERIOD = 0.005
 LANDING = Landing()
+
+GAINS = (ComplianceGains(), TouchdownGains(), GroundMapSettings())
 
 
 def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
@@ -84,7 +87,9 @@ def test_a_small_load_is_a_touch_only_where_the_ground_is_seen(height: float, sp
     layout = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
-    compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+    compliance = {
+        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+    }
     motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     force = np.zeros(len(layout))
@@ -177,7 +182,9 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told() -> None:
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     held = {}
     for press in (None, 80.0, 130.0):
-        compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+        compliance = {
+            side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+        }
         motion = FootMotion(feet, PERIOD, 0.05, LANDING, compliance)
         carried = []
         longer = schedule.delayed(schedule.phases[2], 6.0, wait=6.0)
@@ -194,6 +201,6 @@ def test_a_foot_that_sees_the_ground_presses_as_it_is_told() -> None:
             loads = {"left": load, "right": 800.0}
             motion.update(phase, time, taken(steps, phase), loads, frame, senses, press)
         held[press] = float(np.mean(carried[-200:]))
-    assert held[None] == pytest.approx(ComplianceGains().hold_force, rel=0.1)
+    assert held[None] == pytest.approx(TouchdownGains().hold_force, rel=0.1)
     assert held[80.0] == pytest.approx(80.0, rel=0.1)
     assert held[130.0] == pytest.approx(130.0, rel=0.1)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.feet.compliance_gains import ComplianceGains
+from gait.contact.ground_map import GroundMapSettings
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing
 from gait.feet.ground_conformity import ConformityGains, FootTurn
 from gait.feet.swing_compliance import SwingCompliance
@@ -15,6 +16,8 @@ from plantar.layouts.tiling import hex_layout
 
 PERIOD = 0.005
 GAINS = ConformityGains()
+
+GAINS = (ComplianceGains(), TouchdownGains(), GroundMapSettings())
 
 
 def test_an_incoming_sole_on_its_toes_turns_its_heel_down_the_faster_the_more_it_carries() -> None:
@@ -56,7 +59,9 @@ def test_a_foot_that_rolls_over_an_edge_turns_faster() -> None:
 def test_a_standing_sole_turns_about_what_carries_it() -> None:
     feet, _ = straight_plan(2)
     layout = hex_layout([[-0.1, -0.07], [0.12, -0.07], [0.12, 0.07], [-0.1, 0.07]])
-    compliance = {side: SwingCompliance(layout, ComplianceGains()) for side in feet}
+    compliance = {
+        side: SwingCompliance(layout, ComplianceGains(), TouchdownGains(), GroundMapSettings()) for side in feet
+    }
     motion = FootMotion(feet, PERIOD, 0.05, Landing(), compliance)
     pivot, before = np.array([0.1, -0.04]), motion.footholds["left"][0].copy()
     motion.turn_standing("left", np.array([0.02, -0.03]), pivot)

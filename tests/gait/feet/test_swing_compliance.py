@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gait.contact.ground_map import GroundView
-from gait.feet.compliance_gains import ComplianceGains
+from gait.contact.ground_map import GroundMapSettings, GroundView
+from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
 from plantar import hex_layout
 from plantar.mechanics.rotation import vector_from_rotation
@@ -16,9 +16,13 @@ PERIOD = 0.005
 X, Y = LAYOUT.positions[:, 0], LAYOUT.positions[:, 1]
 
 
+def swing(gains: ComplianceGains) -> SwingCompliance:
+    return SwingCompliance(LAYOUT, gains, TouchdownGains(), GroundMapSettings())
+
+
 def test_close_to_the_ground_an_edge_goes_down_no_faster_than_the_sole() -> None:
     gains = ComplianceGains()
-    compliance = SwingCompliance(LAYOUT, gains)
+    compliance = swing(gains)
     slow = compliance.turn_rate(0.0, (0.005, 0.0))
     assert slow * np.hypot(*np.ptp(LAYOUT.outline, axis=0)) / 2 == pytest.approx(gains.touch_speed)
     assert compliance.turn_rate(0.03, (0.005, 0.0)) == gains.turn_rate
@@ -28,11 +32,11 @@ def test_close_to_the_ground_an_edge_goes_down_no_faster_than_the_sole() -> None
 @pytest.mark.parametrize("height", [0.06, 0.04, 0.02])
 def test_the_swing_slows_down_and_touches_at_a_crawl(height: float) -> None:
     gains = ComplianceGains()
-    compliance = SwingCompliance(LAYOUT, gains)
+    compliance = swing(gains)
     compliance.begin()
     speeds = []
     for _ in range(400):
-        seen = GroundView(height, height, (0.0, 0.0)) if height < gains.sensing_range else None
+        seen = GroundView(height, height, (0.0, 0.0)) if height < compliance.ground.settings.sensing_range else None
         drop = compliance.descent(seen, 0.1, 0.0, 0.5, PERIOD)
         speeds.append(drop / PERIOD)
         height -= drop
@@ -46,7 +50,7 @@ def test_the_swing_slows_down_and_touches_at_a_crawl(height: float) -> None:
 
 def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
     gains = ComplianceGains()
-    compliance = SwingCompliance(LAYOUT, gains)
+    compliance = swing(gains)
     compliance.begin()
     height = 0.04
     for _ in range(400):
@@ -56,22 +60,22 @@ def test_a_foot_that_still_moves_forward_keeps_its_clearance() -> None:
 
 def test_touchdown_has_hysteresis_and_the_load_is_held() -> None:
     gains = ComplianceGains()
-    compliance = SwingCompliance(LAYOUT, gains)
+    compliance = swing(gains)
     compliance.begin()
     assert not any(compliance.update_load(load) for load in (5.0, -3.0, 8.0, 6.0))
     assert [compliance.update_load(40.0) for _ in range(3)][-1]
     assert compliance.update_load(10.0)  # above half the threshold
     load, height = 0.0, 0.001
     for _ in range(800):
-        height -= compliance.yielding(load, gains.hold_force, 0.0, PERIOD)
+        height -= compliance.yielding(load, compliance.touchdown.hold_force, 0.0, PERIOD)
         load = max(0.0, -2e5 * height)
-    assert load == pytest.approx(gains.hold_force, abs=2.0)
+    assert load == pytest.approx(compliance.touchdown.hold_force, abs=2.0)
 
 
 def test_a_descent_is_over_before_weight_is_put_on_the_foot() -> None:
     for height in (0.006, 0.012, 0.03):
         gains = ComplianceGains()
-        compliance = SwingCompliance(LAYOUT, gains)
+        compliance = swing(gains)
         compliance.begin()
         left, speed = 0.35, 0.0
         while height > 0.0:
@@ -84,7 +88,7 @@ def test_a_descent_is_over_before_weight_is_put_on_the_foot() -> None:
 def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:
     speeds = []
     for past in (0.0, 0.002, 0.004):
-        compliance = SwingCompliance(LAYOUT, ComplianceGains())
+        compliance = swing(ComplianceGains())
         compliance.begin()
         for _ in range(50):
             drop = compliance.descent(GroundView(-past, -past, None), 0.1, 0.0, 0.5, PERIOD)
@@ -94,18 +98,23 @@ def test_a_foot_past_the_ground_that_it_sees_goes_down_faster() -> None:
 
 def test_a_load_is_held_while_the_body_moves_and_grows_gently() -> None:
     gains = ComplianceGains()
-    compliance = SwingCompliance(LAYOUT, gains)
+    compliance = swing(gains)
     compliance.begin()
-    assert compliance.holding(0.0) == gains.touch_force < compliance.holding(1.0) == gains.hold_force
+    assert (
+        compliance.holding(0.0)
+        == compliance.touchdown.touch_force
+        < compliance.holding(1.0)
+        == compliance.touchdown.hold_force
+    )
     load, height = 20.0, -1e-4
     for _ in range(400):
-        height += 0.002 * PERIOD - compliance.yielding(load, gains.hold_force, 0.0, PERIOD)
+        height += 0.002 * PERIOD - compliance.yielding(load, compliance.touchdown.hold_force, 0.0, PERIOD)
         load = max(0.0, -2e5 * height)
-    assert load == pytest.approx(gains.hold_force, abs=1.0)
+    assert load == pytest.approx(compliance.touchdown.hold_force, abs=1.0)
 
 
 def test_a_foot_that_lost_the_ground_comes_back() -> None:
-    compliance = SwingCompliance(LAYOUT, ComplianceGains())
+    compliance = swing(ComplianceGains())
     compliance.begin()
     near, far = (compliance.yielding(0.0, 30.0, above, PERIOD) for above in (0.0, 0.0003))
     assert 0.0 < near < far

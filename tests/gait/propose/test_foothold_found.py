@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from gait.contact.foot_contacts import FootholdFound, FootholdSeen
-from gait.contact.stance_contact import ContactSettings
 from gait.contact.support_strip import SupportStrip
 from gait.plan.plan_change import PlanChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.foothold_found import FootholdCarries
+from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
 from gait.propose.proposer import Tick
 from plantar.sides import SIDES, Side
 
 NOWHERE = np.empty((0, 2))
-RULES = ContactSettings()
+RULES = FootholdRules()
 MIDDLES = {side: np.array([0.02, 0.0]) for side in SIDES}
 
 
