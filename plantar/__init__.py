@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from plantar.geometry.contact_rectangle import safe_rectangle
     from plantar.geometry.enclosing import bounding_box, enclosing_parallelogram, oriented_box
     from plantar.geometry.inscribed import (
+        BoundedRectangle,
         Circle,
         inscribed_circle,
         inscribed_parallelogram,
@@ -86,6 +87,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
+    "BoundedRectangle",
     "Circle",
     "DependencyError",
     "FeetPercept",
@@ -174,6 +176,7 @@ __all__ = [
 
 # Module of each name above that is not an error.
 _MODULE_OF_NAME = {
+    "BoundedRectangle": "geometry.inscribed",
     "Circle": "geometry.inscribed",
     "FeetPercept": "percepts.feet",
     "FootTick": "percepts.foot_tick",

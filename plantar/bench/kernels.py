@@ -192,7 +192,7 @@ def _outline_any_rectangle(found: Sequence[Contact]) -> tuple[list[Route], Refer
     outlines = [concave_outline(c.layout, c.active) for c in found]
     rings = [list(o.rings) for o in outlines]
     routes = [
-        Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, _size, ours=True),
+        Route("plantar", inscribed.rectangle_in_outline_any_angle, outlines, lambda r: _size(r.corners), ours=True),
         Route("histogram stack, 1 mm, 16 angles", rivals.histogram_any_angle, rings, approximate=True),
     ]
     return routes, Reference([_best_known_at_any_angle(o) for o in outlines])

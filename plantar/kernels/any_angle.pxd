@@ -5,19 +5,16 @@ from . cimport concave, rectangle, work_arrays
 
 cdef double _QUARTER
 cdef double _GOLDEN
-cdef double _WIDEST
-cdef double _SHARE
 cdef double _LEAST
 cdef double _SLIM
 cdef int _STEPS
-cdef int _MOST
 cdef int _SEEDS
 cdef double _CLOSE
 cdef int _SECTIONS
 cdef double _STEP
 cdef double _STRIDE
 cdef double _LONGEST
-cdef double _ALMOST
+cdef double _PROVEN
 cdef double _INF
 cdef double _ASIDE
 cdef int _PARABOLA
@@ -29,13 +26,14 @@ cdef int _SECTION
 @cython.final
 cdef class AnyAngle:
     cdef bint lists
-    cdef bint convex
+    cdef public bint convex
     cdef Py_ssize_t n
-    cdef double best
-    cdef double best_angle
-    cdef double fine
-    cdef double[::1] stack
-    cdef double[::1] direction
+    cdef public double best
+    cdef public double best_angle
+    cdef readonly double gap
+    cdef double whole
+    cdef public double fine
+    cdef readonly double[::1] direction
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] room
@@ -44,36 +42,23 @@ cdef class AnyAngle:
 
     cpdef double in_ring(self, double[::1] ring, Py_ssize_t n, double[::1] work, double[::1] out) except -1
 
-    @cython.locals(outline=concave.OutlineRectangles, parts=Py_ssize_t, best_part=Py_ssize_t, k=Py_ssize_t)
-    cpdef double in_outline(self, const double[:, :] points, object starts, bint apart, double[::1] out) except -1
-
     @cython.locals(i=Py_ssize_t, dx=double, dy=double, twice=double, reach2=double)
     cdef void _measure(self, double[::1] points, Py_ssize_t n) noexcept
 
-    cdef _take_ring(self, double[::1] points, Py_ssize_t n)
-    cdef double _largest(self, double angle, double floor, double[::1] out) except -1
+    cdef take_ring(self, double[::1] points, Py_ssize_t n)
+    cdef double largest(self, double angle, double floor, double[::1] out) except -1
 
     @cython.locals(
         direction="double[::1]", count=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, known=bint, angle=double, dx=double,
         dy=double, same=double
     )
-    cdef Py_ssize_t _find_directions(self, double[::1] points, Py_ssize_t n) noexcept
+    cdef Py_ssize_t find_directions(self, double[::1] points, Py_ssize_t n) noexcept
 
     @cython.locals(k=Py_ssize_t, area=double)
-    cdef void _seed(self, double[::1] points, Py_ssize_t n, double[::1] out) except *
+    cdef void seed(self, double[::1] points, Py_ssize_t n, double[::1] out) except *
 
-    cdef void _march(self, double[::1] out) except *
+    cdef void march(self, double[::1] out) except *
     cdef double _behind(self, double angle, double most, double[::1] out) except -1
-
-    @cython.locals(
-        outline=concave.OutlineRectangles, stack="double[::1]", turn="double[::1]", k=Py_ssize_t,
-        i=Py_ssize_t, count=Py_ssize_t, pieces=Py_ssize_t, top=Py_ssize_t, low=double, high=double, angle=double,
-        widest=double
-    )
-    cdef void _search(self, double[::1] out) except *
-
-    @cython.locals(before="double[::1]", i=Py_ssize_t)
-    cdef _widen(self)
 
     # All of them: where one is a Python object, so is whatever it meets.
     @cython.locals(
@@ -82,7 +67,7 @@ cdef class AnyAngle:
         at_beyond_high=double, missed=double, steep=double, width=double, angle=double, promised=double, summit=double,
         p=double, q=double, bend=double, trial=double, least=double, here=double, there=double, gap=double
     )
-    cdef void _climb(self, double middle, double area, double[::1] out) except *
+    cdef void climb(self, double middle, double area, double[::1] out) except *
     cdef double _lower(self, double area, double turn) noexcept
 
 cdef double _slope(double area, double before, double back, double lean) noexcept

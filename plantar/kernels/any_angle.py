@@ -10,18 +10,15 @@ from __future__ import annotations
 
 import math
 
-from . import concave, rectangle, work_arrays
+from . import rectangle, work_arrays
 
 __all__ = ["AnyAngle"]
 
 _QUARTER = 0.5 * math.pi
 _GOLDEN = 0.3819660112501051
-_WIDEST = 0.2  # rad of the widest interval that the search in an outline starts with, or so many times A / d^2
-_SHARE = 1.2
 _LEAST = 1e-10  # rad of the least step: summits that are narrower are looked for at edges alone
 _SLIM = 1e2  # times its area over its diameter squared a ring is slim below 1, and all angles are as much finer
 _STEPS = 1000  # steps along a ring's angles; some 20 are the rule, needles may want more
-_MOST = 20000  # angles that are looked at for an island, which only slivers with more bays than area need
 _SEEDS = 6  # directions of edges that are looked at first
 _CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
@@ -31,39 +28,41 @@ _PARABOLA, _CROSSING, _BESIDE, _SECTION = range(4)  # ways to a summit
 _SLACK = 1e-7  # share of the area that a summit may stand higher than what is taken for it
 _ASIDE = 0.02  # share of a bracket that a summit is looked for beside where it is known
 _INF = math.inf
-_ALMOST = 0.999  # share of the best area above which it is looked for again, at the end
+_PROVEN = 1e-6  # share of the area that is not looked for, with what least steps and rounding leave
 _LONGEST = 0.5  # rad of a step along the angles of a convex ring
 
 
 class AnyAngle:
-    """Largest rectangles at any angle, with the work arrays they need.
+    """Largest rectangles at any angle in convex rings, and the way to a summit of those in an outline.
 
-    In an outline: a rectangle of area A that is turned by t about its middle still holds one of A - d^2 t at the old
-    angle, d its diagonal. So the rectangles at one angle bound what is there at angles near it: intervals of a quarter
-    turn are cut and thrown away until nothing above the best area is left.
-
-    In a convex ring the bound is of second order. The edges that hold the largest rectangle at one angle bound the
+    In a convex ring the edges that hold the largest rectangle at one angle bound the
     rectangle at every angle t: with their multipliers l the area is at most (sum l h)^2 / (U V), U = sum l |cos| and
     V = sum l |sin| of the angles between t and the edges' normals. The second derivative of that bound's logarithm is
     2 + (U'/U)^2 + (V'/V)^2, where |U'| <= V and |V'| <= U, and at the rectangle U / V is the ratio of its sides. So it
     is at most (2 / sin 2 a)^2, with `a` the angle between diagonal and longer side, which may shrink by as much as t
     grows. A step along the angles is as long as the bound stays below the best area.
 
+    Attributes:
+        best: Largest area so far; best_angle where it stands.
+        gap: By what share of its area nothing is larger than the rectangle of the last ring.
+
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
+        outline: Rectangles of the outline in which summits are looked for.
     """
 
-    def __init__(self, lists):
+    def __init__(self, lists, outline):
         self.lists = lists
+        self.outline = outline
+        self.gap = 0.0
+        self.whole = 0.0
         self.convex = False
         self.n = 0
         self.best = 0.0
         self.best_angle = 0.0
         self.fine = 1.0
-        self.stack = work_arrays.numbers(512, self.lists)
         self.room = work_arrays.numbers(512, self.lists)
         self.direction = work_arrays.numbers(_SEEDS + 2, self.lists)
-        self.outline = concave.OutlineRectangles(lists)
 
     def in_ring(self, ring, n, work, out):
         """Largest rectangle in a convex ring.
@@ -83,55 +82,13 @@ class AnyAngle:
         self.work = work
         self.best = 0.0
         self.best_angle = 0.0
+        self.gap = 0.0
         self._measure(ring, n)
-        self._seed(ring, n, out)
+        self.seed(ring, n, out)
         if self.best > 0.0:
-            self._climb(self.best_angle, self.best, out)
-            self._march(out)
-        return self._largest(self.best_angle, 0.0, out)
-
-    def in_outline(self, points, starts, apart, out):
-        """Largest rectangle in an outline.
-
-        Args:
-            points: Vertices (k, 2) in m, the area on the left of each ring.
-            starts: Offsets (r + 1,) of the rings.
-            apart: Whether islands meet in points at most.
-            out: Receives the 4 corners about the first point, flat, counter-clockwise.
-
-        Returns:
-            Its area.
-        """
-        self.convex = False
-        self.best = 0.0
-        self.best_angle = 0.0
-        self.fine = 1.0
-        outline = self.outline
-        parts = outline.take(points, starts, apart)
-        best_part = 0
-        for k in range(parts):  # a good start first: it throws most of the other parts away
-            if outline.choose(k) <= self.best:
-                break
-            before = self.best
-            self._seed(outline.points, outline.m, out)
-            if self.best > before:
-                best_part = k
-        for k in range(parts):
-            if outline.choose(k) <= self.best:
-                break
-            before = self.best
-            if outline.is_convex():
-                self._take_ring(outline.points, outline.m)
-                self._march(out)
-                self.convex = False
-                self.fine = 1.0
-            else:
-                outline.measure()
-                self._search(out)
-            if self.best > before:
-                best_part = k
-        outline.choose(best_part)
-        return self._largest(self.best_angle, _ALMOST * self.best, out)
+            self.climb(self.best_angle, self.best, out)
+            self.march(out)
+        return self.largest(self.best_angle, 0.0, out)
 
     def _measure(self, points, n):
         """Measure how slim a ring is: the summits of one that is become as narrow."""
@@ -143,9 +100,10 @@ class AnyAngle:
             reach2 = max(reach2, dx * dx + dy * dy)
             if i + 1 < n:
                 twice += dx * (points[2 * i + 3] - points[1]) - (points[2 * i + 2] - points[0]) * dy
+        self.whole = 0.5 * twice
         self.fine = min(1.0, _SLIM * 0.5 * twice / reach2)
 
-    def _take_ring(self, points, n):
+    def take_ring(self, points, n):
         """Look at a convex part of an outline as a ring."""
         if 8 * n + 16 > len(self.room):
             self.room = work_arrays.numbers(16 * n + 16, self.lists)
@@ -155,13 +113,13 @@ class AnyAngle:
         self.work = self.room
         self._measure(points, n)
 
-    def _largest(self, angle, floor, out):
+    def largest(self, angle, floor, out):
         """Largest rectangle at one angle; the floor where it is not above it."""
         if self.convex:
             return rectangle.largest_rectangle(self.ring, self.n, angle, floor, self.work, out)
         return self.outline.largest(angle, floor, out)
 
-    def _find_directions(self, points, n):
+    def find_directions(self, points, n):
         """Find the directions of some edges, within a quarter turn; their number."""
         direction = self.direction
         same = 1e-6 * self.fine
@@ -181,15 +139,15 @@ class AnyAngle:
                     break
         return count
 
-    def _seed(self, points, n, out):
+    def seed(self, points, n, out):
         """Try the directions of some edges."""
-        for k in range(self._find_directions(points, n)):
-            area = self._largest(self.direction[k], self.best, out)
+        for k in range(self.find_directions(points, n)):
+            area = self.largest(self.direction[k], self.best, out)
             if area > self.best:
                 self.best = area
                 self.best_angle = self.direction[k]
 
-    def _march(self, out):
+    def march(self, out):
         """Step along all angles of a quarter turn in a convex ring, and climb where there is more than the best.
 
         Towards a summit that rises to the best in a corner the steps get ever shorter, and the slope that they know
@@ -201,15 +159,17 @@ class AnyAngle:
         before = 0.0
         clear_from = 0.0
         clear_to = 0.0
+        self.gap = self.whole / self.best - 1.0
         for _ in range(_STEPS):
             if angle >= _QUARTER:
+                self.gap = _PROVEN
                 return
-            area = self._largest(angle, 0.0, out)
+            area = self.largest(angle, 0.0, out)
             if area <= 0.0:
                 return
             if area > self.best:
-                self._climb(angle, area, out)
-                area = self._largest(angle, 0.0, out)
+                self.climb(angle, area, out)
+                area = self.largest(angle, 0.0, out)
             lean = rectangle.lean(out)
             curve = 2.0 / math.sin(2.0 * lean)
             curve *= curve
@@ -218,7 +178,7 @@ class AnyAngle:
             back = angle - last
             if not 0.0 < back < 0.3 * lean:
                 back = min(0.25 * lean, max(1e-4, min(0.02, 0.1 * math.sqrt(2.0 * gap / curve))))
-                before = self._largest(angle - back, 0.0, out)
+                before = self.largest(angle - back, 0.0, out)
             slope = _slope(area, before, back, lean)
             last = angle
             before = area
@@ -233,8 +193,8 @@ class AnyAngle:
 
     def _behind(self, angle, most, out):
         """How far before an angle, up to some distance, nothing above the best stands, by its bound backwards."""
-        after = self._largest(angle + most, 0.0, out)
-        area = self._largest(angle, 0.0, out)
+        after = self.largest(angle + most, 0.0, out)
+        area = self.largest(angle, 0.0, out)
         if not 0.0 < area <= self.best * (1.0 + _CLOSE):
             return 0.0
         lean = rectangle.lean(out) - most
@@ -245,78 +205,15 @@ class AnyAngle:
         gap = math.log(self.best * (1.0 + _CLOSE) / area)
         return min(most, _reach(math.log(area / max(1e-300, after)) / most + 0.5 * curve * most, curve, gap))
 
-    def _search(self, out):
-        """Search all angles of a quarter turn in an outline for more than the best so far."""
-        outline = self.outline
-        if self.best > 0.0:
-            self._climb(self.best_angle, self.best, out)
-        # Intervals between the directions of edges, at which the areas have their corners, none of them too wide.
-        turn = self.direction
-        count = self._find_directions(outline.points, outline.m)
-        turn[count] = self.best_angle % _QUARTER
-        turn[count + 1] = _QUARTER
-        count += 2
-        for k in range(1, count):
-            angle = turn[k]
-            i = k
-            while i > 0 and turn[i - 1] > angle:
-                turn[i] = turn[i - 1]
-                i -= 1
-            turn[i] = angle
-        widest = max(0.02, min(_WIDEST, _SHARE * self.best / outline.diameter2))
-        stack = self.stack
-        top = 0
-        low = 0.0
-        for k in range(count):
-            pieces = int((turn[k] - low) / widest) + 1
-            if turn[k] - low < 1e-12:
-                continue
-            for i in range(pieces):
-                stack[2 * top] = low + (turn[k] - low) * i / pieces
-                stack[2 * top + 1] = low + (turn[k] - low) * (i + 1) / pieces
-                top += 1
-            low = turn[k]
-        for _ in range(_MOST):
-            if top == 0:
-                break
-            top -= 1
-            low = stack[2 * top]
-            high = stack[2 * top + 1]
-            middle = 0.5 * (low + high)
-            half = 0.5 * (high - low)
-            target = self.best * (1.0 + _CLOSE)
-            area = outline.clear(middle, half, target, out)
-            if area > self.best:
-                self._climb(middle, area, out)
-                outline.clear(middle, half, self.best * (1.0 + _CLOSE), out)
-            if 2 * top + 4 > len(stack):
-                self._widen()
-                stack = self.stack
-            if outline.clear_low < half:
-                stack[2 * top] = low
-                stack[2 * top + 1] = middle - outline.clear_low
-                top += 1
-            if outline.clear_high < half:
-                stack[2 * top] = middle + outline.clear_high
-                stack[2 * top + 1] = high
-                top += 1
-
-    def _widen(self):
-        """Make room for more intervals."""
-        before = self.stack
-        self.stack = work_arrays.numbers(2 * len(before), self.lists)
-        for i in range(len(before)):
-            self.stack[i] = before[i]
-
-    def _climb(self, middle, area, out):
+    def climb(self, middle, area, out):
         """Climb to the summit beside an angle; the best so far where it is higher."""
         mine = area
         at = middle
         side = middle + _STEP * self.fine
-        beside = self._largest(side, area, out)
+        beside = self.largest(side, area, out)
         if beside <= area:
             side = middle - _STEP * self.fine
-            beside = self._largest(side, area, out)
+            beside = self.largest(side, area, out)
         if beside > area:  # else the summit itself, as edges and corners that touch make them
             low = middle
             at_low = area
@@ -326,7 +223,7 @@ class AnyAngle:
             mine = beside
             reach = _STRIDE * self.fine if side > middle else -_STRIDE * self.fine
             high = at + reach
-            at_high = self._largest(high, self._lower(mine, high - at), out)
+            at_high = self.largest(high, self._lower(mine, high - at), out)
             while at_high > mine and abs(reach) < _QUARTER:
                 beyond_low = low
                 at_beyond_low = at_low
@@ -336,7 +233,7 @@ class AnyAngle:
                 mine = at_high
                 reach *= 2.0
                 high = at + reach
-                at_high = self._largest(high, self._lower(mine, high - at), out)
+                at_high = self.largest(high, self._lower(mine, high - at), out)
             beyond_high = high
             at_beyond_high = at_high
             # The summit of the parabola through the three; where that does not halve the bracket, the crossing of the
@@ -387,7 +284,7 @@ class AnyAngle:
                 elif way == _BESIDE:
                     least = min(_SLACK * mine / steep, 0.5 * abs(angle - at))
                     angle = at + (least if high - at > at - low else -least)
-                trial = self._largest(angle, self._lower(mine, angle - at), out)
+                trial = self.largest(angle, self._lower(mine, angle - at), out)
                 beyond = (angle > at) == (high > at)
                 if trial > mine:
                     if beyond:

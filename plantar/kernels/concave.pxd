@@ -1,9 +1,12 @@
 # C types of concave.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rectangle, turn_bound, work_arrays
+from cpython cimport exc as signals
+from . cimport rectangle, turn_bound, windows, work_arrays
 
 cdef double _CLOSER
+cdef double _INF
+cdef Py_ssize_t _ASK
 
 
 @cython.final
@@ -27,9 +30,9 @@ cdef class OutlineRectangles:
     cdef Py_ssize_t[::1] given_start
     cdef Py_ssize_t[::1] start
     cdef Py_ssize_t[::1] owner
-    cdef Py_ssize_t[::1] part
+    cdef readonly Py_ssize_t[::1] part
     cdef double[::1] ring_area
-    cdef double[::1] part_area
+    cdef readonly double[::1] part_area
     cdef double[::1] edge
     cdef double[::1] trapezoid
     cdef double[::1] reach
@@ -46,7 +49,13 @@ cdef class OutlineRectangles:
     cdef double clear_low
     cdef double clear_high
     cdef turn_bound.TurnBound bound
+    cdef double[::1] around
     cdef double diameter2
+    cdef readonly double most
+    cdef public Py_ssize_t spent
+    cdef Py_ssize_t next_look
+    cdef double limit
+    cdef readonly bint ended
     cdef double half
     cdef double target
     cdef double best
@@ -63,6 +72,9 @@ cdef class OutlineRectangles:
     )
     cpdef Py_ssize_t take(self, const double[:, :] points, object starts, bint apart) except -1
 
+    cdef int _count(self, Py_ssize_t work) except -1
+    cpdef void allow(self, double work) noexcept
+
     @cython.locals(
         given="double[::1]", a=Py_ssize_t, x=double, y=double, best=Py_ssize_t, k=Py_ssize_t, r=Py_ssize_t, inside=bint,
         i=Py_ssize_t, j=Py_ssize_t, share=double
@@ -71,6 +83,12 @@ cdef class OutlineRectangles:
 
     @cython.locals(chosen=Py_ssize_t, m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
     cpdef double choose(self, Py_ssize_t k) noexcept
+
+    @cython.locals(m=Py_ssize_t, rings=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
+    cpdef Py_ssize_t gather(self, double floor) noexcept
+
+    @cython.locals(begin=Py_ssize_t, rings=Py_ssize_t, base=Py_ssize_t, m=Py_ssize_t, r=Py_ssize_t, i=Py_ssize_t)
+    cpdef void load(self, windows.Windows pieces, Py_ssize_t piece) except *
 
     @cython.locals(points="double[::1]", a=Py_ssize_t, b=Py_ssize_t, c=Py_ssize_t)
     cdef bint is_convex(self) noexcept
@@ -97,7 +115,7 @@ cdef class OutlineRectangles:
     ) noexcept
 
     @cython.locals(
-        box="double[::1]", reach="double[::1]", width=double, height=double, flat=double, slim=double,
+        box="double[::1]", around="double[::1]", reach="double[::1]", width=double, height=double, flat=double, slim=double,
         diagonal2=double, least=double
     )
     cdef void _narrow(
@@ -110,7 +128,7 @@ cdef class OutlineRectangles:
         filled="Py_ssize_t[::1]", edge="double[::1]", trapezoid="double[::1]", slab="Py_ssize_t[::1]", gap=Py_ssize_t,
         lines=Py_ssize_t, slabs=Py_ssize_t, total=Py_ssize_t, across=Py_ssize_t, count=Py_ssize_t, i=Py_ssize_t,
         j=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
-        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t, end=Py_ssize_t
+        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t, end=Py_ssize_t, moved=Py_ssize_t
     )
     cdef Py_ssize_t _cut(self, double angle) except -1
 

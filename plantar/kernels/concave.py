@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import math
 
-from . import rectangle, turn_bound, work_arrays
+from . import rectangle, signals, turn_bound, work_arrays
 
 __all__ = ["OutlineRectangles"]
 
 _CLOSER = 0.05  # half an interval in rad in which pairs of trapezoids are looked at closer
+_ASK = 1 << 19  # units of work between two looks for signals
+_INF = math.inf
 
 
 class OutlineRectangles:
@@ -33,6 +35,7 @@ class OutlineRectangles:
         self.parts = 0
         self.room = 0
         self.many = 0
+        self._make_given(64, 16)
         self._make_room(64, 16)
         self._make_many(512)
         self.ring = work_arrays.numbers(18, self.lists)
@@ -43,7 +46,13 @@ class OutlineRectangles:
         self.clear_low = 0.0
         self.clear_high = 0.0
         self.bound = turn_bound.TurnBound(lists)
+        self.around = work_arrays.numbers(4, self.lists)
         self.diameter2 = 0.0
+        self.most = 0.0
+        self.spent = 0
+        self.next_look = _ASK
+        self.limit = _INF
+        self.ended = False
         self.half = 0.0
         self.target = 0.0
         self.best = 0.0
@@ -53,10 +62,18 @@ class OutlineRectangles:
         self.y1 = 0.0
         self.y2 = 0.0
 
-    def _make_room(self, points, rings):
-        """Work arrays for so many points and rings."""
-        self.room = points
+    def _make_given(self, points, rings):
+        """Work arrays for an outline of so many points and rings."""
         self.given = work_arrays.numbers(2 * points, self.lists)
+        self.given_start = work_arrays.places(rings + 1, self.lists)
+        self.owner = work_arrays.places(rings + 1, self.lists)
+        self.part = work_arrays.places(rings + 1, self.lists)
+        self.ring_area = work_arrays.numbers(rings + 1, self.lists)
+        self.part_area = work_arrays.numbers(rings + 1, self.lists)
+
+    def _make_room(self, points, rings):
+        """Work arrays for what is looked at, so many points and rings."""
+        self.room = points
         self.points = work_arrays.numbers(2 * points, self.lists)
         self.xs = work_arrays.numbers(points, self.lists)
         self.ys = work_arrays.numbers(points, self.lists)
@@ -65,12 +82,7 @@ class OutlineRectangles:
         self.rank = work_arrays.places(points, self.lists)
         self.first = work_arrays.places(points + 1, self.lists)
         self.filled = work_arrays.places(points, self.lists)
-        self.given_start = work_arrays.places(rings + 1, self.lists)
         self.start = work_arrays.places(rings + 1, self.lists)
-        self.owner = work_arrays.places(rings + 1, self.lists)
-        self.part = work_arrays.places(rings + 1, self.lists)
-        self.ring_area = work_arrays.numbers(rings + 1, self.lists)
-        self.part_area = work_arrays.numbers(rings + 1, self.lists)
 
     def _make_many(self, total):
         """Work arrays for so many edges across slabs."""
@@ -99,8 +111,13 @@ class OutlineRectangles:
         m = points.shape[0]
         rings = len(starts) - 1
         if m > self.room or rings + 1 > len(self.start):
-            self._make_room(max(2 * m, 64), max(2 * rings, 16))
+            self._make_room(max(2 * m, self.room), max(2 * rings, len(self.start)))
+        if 2 * m > len(self.given) or rings + 1 > len(self.owner):
+            self._make_given(max(2 * m, 64), max(2 * rings, 16))
         self.given_rings = rings
+        self.spent = 0
+        self.next_look = _ASK
+        self.allow(_INF)
         for i in range(m):
             self.given[2 * i] = points[i, 0] - points[0, 0]
             self.given[2 * i + 1] = points[i, 1] - points[0, 1]
@@ -144,6 +161,18 @@ class OutlineRectangles:
                 j -= 1
             self.part[j] = r
         return self.parts
+
+    def allow(self, work):
+        """Allow so many units of work from now on; what then ends too early says so in `ended`, and finds less."""
+        self.limit = self.spent + work
+        self.ended = False
+
+    def _count(self, work):
+        """Count some units of work, and look for signals from time to time."""
+        self.spent += work
+        if self.spent > self.next_look:
+            self.next_look = self.spent + _ASK
+            signals.PyErr_CheckSignals()
 
     def _around(self, hole):
         """The smallest rim that encloses the middle of a hole's first edge."""
@@ -192,6 +221,44 @@ class OutlineRectangles:
         self.rings = rings
         self.m = m
         return self.part_area[chosen]
+
+    def gather(self, floor):
+        """Look at all parts together from now on, but for those of no more than some area; their vertices' number."""
+        m = 0
+        rings = 0
+        for r in range(self.given_rings):
+            if self.part_area[self.owner[r] if self.parts > 1 else self.part[0]] <= floor:
+                continue
+            self.start[rings] = m
+            rings += 1
+            for i in range(self.given_start[r], self.given_start[r + 1]):
+                self.points[2 * m] = self.given[2 * i]
+                self.points[2 * m + 1] = self.given[2 * i + 1]
+                self.order[m] = m
+                m += 1
+        self.start[rings] = m
+        self.rings = rings
+        self.m = m
+        return m
+
+    def load(self, pieces, piece):
+        """Look at a piece of an outline from now on."""
+        begin = pieces.first[piece]
+        rings = pieces.first[piece + 1] - begin
+        base = pieces.start[begin]
+        m = pieces.start[begin + rings] - base
+        if m > self.room or rings + 1 > len(self.start):
+            self._make_room(max(2 * m, self.room), max(2 * rings, len(self.start)))
+        for r in range(rings + 1):
+            self.start[r] = pieces.start[begin + r] - base
+        for i in range(m):
+            self.points[2 * i] = pieces.points[2 * (base + i)]
+            self.points[2 * i + 1] = pieces.points[2 * (base + i) + 1]
+            self.order[i] = i
+        self.spent += m
+        self.rings = rings
+        self.m = m
+        self.diameter2 = pieces.reach2[piece]
 
     def is_convex(self):
         """Whether the chosen part is one convex ring."""
@@ -253,8 +320,10 @@ class OutlineRectangles:
             out: As in `largest`.
 
         Returns:
-            The largest area at the angle where it is above the target, then nothing around is clear; else 0.
+            The largest area at the angle where it is above the target, then nothing around is clear; else 0. What
+            bounds the areas that are not clear stands in `most`.
         """
+        self.most = target
         self.clear_low = half
         self.clear_high = half
         self.target = target
@@ -264,6 +333,7 @@ class OutlineRectangles:
             area = self._enumerate(angle, 0.0, out)
             self.clear_low = max(0.0, min(half, (target - area) / self.diameter2))
             self.clear_high = self.clear_low
+            self.most = area + half * self.diameter2
         else:
             self.half = half
             area = self._enumerate(angle, target - self.diameter2 * half, out)
@@ -304,6 +374,8 @@ class OutlineRectangles:
                 for t in range(first[k + 1], first[k + 2]):
                     left[2 * t] = 1.0
                     left[2 * t + 1] = 0.0
+            if k + 1 < slabs:
+                self._count((first[k + 1] - first[k]) * (first[k + 2] - first[k + 1]))
             for start in range(first[k], first[k + 1]):
                 far = line[k + 1]
                 right[2 * start] = 1.0
@@ -329,6 +401,10 @@ class OutlineRectangles:
         # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
         for exact in range(1 if floor > 0.0 else 0, 2):
             for start in range(count):
+                self._count(1)
+                if self.spent > self.limit:
+                    self.ended = True
+                    break
                 i = slab[start]
                 below = trapezoid[4 * start]
                 above = trapezoid[4 * start + 1]
@@ -362,6 +438,7 @@ class OutlineRectangles:
                         bottom_y = max(low_y, trapezoid[4 * t])
                         top_y = min(high_y, trapezoid[4 * t + 1])
                         height = top_y - bottom_y
+                        self.spent += 1
                         if height <= 0.0:
                             continue
                         if bottom_y >= left_low and top_y <= left_high:
@@ -414,6 +491,7 @@ class OutlineRectangles:
             width = self.line[k + 1] - self.line[i]
             height = high - low
             floor = max(floor, self.target - self.half * (width * width + height * height))
+        self.spent += 20
         n = self._octagon(i, k, low, high, start, end)
         if n < 3:
             return
@@ -446,6 +524,8 @@ class OutlineRectangles:
         reach = self.reached
         reach[0] = min(self.half, (self.target - area) / diagonal2)
         reach[1] = reach[0]
+        if reach[0] < self.half:
+            self.most = max(self.most, area + self.half * diagonal2)
         if reach[0] >= max(self.clear_low, self.clear_high):
             return
         least = self.target - self.half * diagonal2
@@ -455,6 +535,12 @@ class OutlineRectangles:
             box[1] = self.line[i] + least / height
             box[2] = high - least / width
             box[3] = low + least / width
+            around = self.around
+            around[0] = self.line[i]
+            around[1] = self.line[k + 1]
+            around[2] = low
+            around[3] = high
+            self.spent += 100 + 4 * self.m
             self.bound.narrow(self.ring, n, self.corner, least, box)
             self.bound.clear(
                 self.xs,
@@ -462,6 +548,7 @@ class OutlineRectangles:
                 self.start,
                 self.rings,
                 box,
+                around,
                 self.half,
                 self.target,
                 self.clear_low,
@@ -533,10 +620,12 @@ class OutlineRectangles:
             self.filled[k] = total
             total += across
         total = first[slabs]
+        self.spent += 3 * total + 4 * m
         if total > self.many:
             self._make_many(2 * total)
         edge = self.edge
         filled = self.filled
+        moved = 0
         for r in range(self.rings):
             i = start[r + 1] - 1
             for j in range(start[r], start[r + 1]):
@@ -560,12 +649,17 @@ class OutlineRectangles:
                         edge[3 * p + 1] = edge[3 * p - 2]
                         edge[3 * p + 2] = edge[3 * p - 1]
                         p -= 1
+                        moved += 1
                     edge[3 * p] = left
                     edge[3 * p + 1] = right
                     edge[3 * p + 2] = side
                     filled[k] += 1
                     left = right
                 i = j
+                if moved > _ASK // 4:
+                    self._count(moved)
+                    moved = 0
+        self._count(moved)
         # Trapezoids: bottom and top on the left, bottom and top on the right.
         trapezoid = self.trapezoid
         slab = self.slab

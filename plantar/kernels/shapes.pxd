@@ -1,7 +1,7 @@
 # C types of shapes.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport any_angle, clean, concave, convex, enclosing, inscribed, parallelogram, rectangle, work_arrays
+from . cimport any_angle, clean, convex, enclosing, inscribed, outline_search, parallelogram, rectangle, work_arrays
 
 cdef double _LARGEST
 cdef double _INF
@@ -13,6 +13,7 @@ cdef class ConvexShapes:
     cdef double[::1] ring
     cdef double[::1] work
     cdef double[::1] out
+    cdef outline_search.OutlineSearch search
     cdef any_angle.AnyAngle turning
     cdef Py_ssize_t n
     cdef double x
@@ -57,9 +58,12 @@ cdef class ConvexShapes:
     )
     cpdef bounding_box(self, const double[:, :] points)
 
-    @cython.locals(outline=concave.OutlineRectangles, best=double, k=Py_ssize_t)
     cpdef rectangle_in_outline(self, const double[:, :] points, object starts, bint apart, double angle)
-    cpdef rectangle_in_outline_at_any_angle(self, const double[:, :] points, object starts, bint apart)
+
+    @cython.locals(best=double, area=double)
+    cpdef rectangle_in_outline_at_any_angle(
+        self, const double[:, :] points, object starts, bint apart, double budget
+    )
 
     @cython.locals(
         k=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, ring="double[::1]", size=double, flat=double, x=double, y=double, ux=double,

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from . import any_angle, clean, convex, enclosing, inscribed, parallelogram, rectangle, work_arrays
+from . import clean, convex, enclosing, inscribed, outline_search, parallelogram, rectangle, work_arrays
 
 __all__ = ["ConvexShapes"]
 
@@ -36,7 +36,8 @@ class ConvexShapes:
         self.ring = work_arrays.numbers(64, self.lists)
         self.work = work_arrays.numbers(512, self.lists)
         self.out = work_arrays.numbers(8, self.lists)
-        self.turning = any_angle.AnyAngle(lists)
+        self.search = outline_search.OutlineSearch(lists)
+        self.turning = self.search.turning
         self.n = 0
         self.x = 0.0
         self.y = 0.0
@@ -162,20 +163,20 @@ class ConvexShapes:
 
     def rectangle_in_outline(self, points, starts, apart, angle):
         """Corners of the largest rectangle in an outline, its first side at an angle."""
-        outline = self.turning.outline
-        best = 0.0
-        for k in range(outline.take(points, starts, apart)):
-            if outline.choose(k) <= best:
-                break
-            best = outline.largest(angle, best, self.out)
-        return self._placed(points, best)
+        self.search.take(points, starts, apart)
+        return self._placed(points, self.search.at_angle(angle, self.out))
 
-    def rectangle_in_outline_at_any_angle(self, points, starts, apart):
-        """Corners of the largest rectangle in an outline, at any angle."""
-        if len(starts) == 2 and self._is_convex(points):
-            self.turning.in_ring(self.ring, self.n, self.work, self.out)
-            return self._corners(4)
-        return self._placed(points, self.turning.in_outline(points, starts, apart, self.out))
+    def rectangle_in_outline_at_any_angle(self, points, starts, apart, budget):
+        """Corners of the largest rectangle in an outline, at any angle, and by what share none is larger."""
+        self.search.take(points, starts, apart)
+        best = self.search.at_angle(0.0, self.out)
+        if len(starts) != 2 or not self._is_convex(points):
+            best = self.search.at_any_angle(best, budget, self.out)
+            return self._placed(points, best), self.search.gap
+        on_axes = self._placed(points, best)
+        self._clean(points)
+        area = self.turning.in_ring(self.ring, self.n, self.work, self.out)
+        return (self._corners(4) if area >= best else on_axes), self.turning.gap
 
     def _is_convex(self, points):
         """Whether a ring is convex up to rounding; then it stands clean in `ring`.

@@ -6,7 +6,7 @@ from . cimport rectangle, work_arrays
 cdef Py_ssize_t _LINES
 cdef Py_ssize_t _CHAIN
 cdef int _STEPS
-cdef double _BEND
+cdef double _TOUCH
 cdef double _INF
 
 @cython.final
@@ -31,20 +31,50 @@ cdef class TurnBound:
     cdef Py_ssize_t[::1] foremost
     cdef double[::1] most
     cdef double[::1] level
+    cdef double[::1] middles
+    cdef double[::1] known_middles
+    cdef double[::1] centre
+    cdef double[::1] sides
+    cdef double lean
+    cdef double aside
+    cdef double x
+    cdef double y
 
 
     @cython.locals(side=Py_ssize_t, wide=Py_ssize_t, size=Py_ssize_t, at=double, sign=double, reach=double)
     cdef void narrow(self, double[::1] ring, Py_ssize_t n, double[::1] corner, double least, double[::1] box) noexcept
 
     @cython.locals(
-        middle=double, middle_lean=double, side=Py_ssize_t, sign=double, wanted=double, area=double, lean=double,
-        at=double, left=double, bend=double, gap=double, beside=double, before=double, slope=double, root=double,
-        far=double
+        middle=double, side=Py_ssize_t, wanted=double, at=double, lean=double, aside=double, x=double, y=double
     )
     cdef void clear(
-        self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box, double half,
-        double target, double wanted_low, double wanted_high, double[::1] reach
+        self, double[::1] xs, double[::1] ys, Py_ssize_t[::1] start, Py_ssize_t rings, double[::1] box,
+        double[::1] around, double half, double target, double wanted_low, double wanted_high, double[::1] reach
     ) except *
+
+    @cython.locals(
+        area=double, at=double, left=double, beside=double, lean=double, moved=double, before=double, bend=double,
+        gap=double, slope=double, root=double, far=double
+    )
+    cdef double _advance(
+        self, double[::1] xs, double[::1] ys, double[::1] box, double sign, double wanted, double middle, double target
+    ) noexcept
+
+    @cython.locals(width=double, height=double, reach=double, push=double, left=double)
+    cdef void _stand(self, double[::1] box, double turn, double at) noexcept
+
+    @cython.locals(
+        close=double, across=double, along=double, cosine=double, sine=double, k=Py_ssize_t, ax=double, ay=double,
+        dx=double, dy=double, x=double, y=double
+    )
+    cdef double _push(self, double width, double height, double turn) noexcept
+
+    @cython.locals(x=double, y=double, cosine=double, sine=double)
+    cdef void _find_centre(self, double turn) noexcept
+    cdef double _farthest(self, double[::1] box, double x, double y) noexcept
+
+    @cython.locals(k=Py_ssize_t)
+    cdef void _find_middles(self, double[::1] box, double[::1] around) noexcept
 
     cdef void forget(self) noexcept
 
@@ -86,9 +116,9 @@ cdef class TurnBound:
 
     @cython.locals(
         n=Py_ssize_t, k=Py_ssize_t, i=Py_ssize_t, size=Py_ssize_t, side=Py_ssize_t, open_sides=bint,
-        ring="double[::1]", x=double, y=double, left=double, right=double, bottom=double, top=double, area=double
+        ring="double[::1]", sides="double[::1]", x=double, y=double, left=double, right=double, bottom=double, top=double, area=double
     )
     cdef double _room(self, double[::1] xs, double[::1] ys, double[::1] box, double turn) noexcept
 
 @cython.locals(count=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, before=double, after=double, share=double)
-cdef Py_ssize_t _cut(double[::1] ring, Py_ssize_t n, double nx, double ny, double level, double[::1] out) noexcept
+cpdef Py_ssize_t cut_ring(double[::1] ring, Py_ssize_t n, double nx, double ny, double level, double[::1] out) noexcept

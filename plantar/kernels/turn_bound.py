@@ -11,13 +11,13 @@ import math
 
 from . import rectangle, work_arrays
 
-__all__ = ["TurnBound"]
+__all__ = ["TurnBound", "cut_ring"]
 
 _LINES = 32  # slanted edges that are taken account of; others are left out, which only weakens the bound
 _CHAIN = 6  # edges of a chain that are walked along
 _INF = math.inf  # typed: an attribute of the module is looked up at each use
+_TOUCH = 1e-9  # of its sides: what a rectangle is closer to it may touch
 _STEPS = 4  # steps to either side, each from where the bound of the one before ends
-_BEND = 2.0  # second derivative of the bound's logarithm, in (w / h + h / w)^2
 
 
 class TurnBound:
@@ -29,14 +29,25 @@ class TurnBound:
     outline's, leave a problem that is convex at each angle: the largest rectangle in a box whose sides turn about
     vertices, its corners cut by lines that stand.
 
-    Weak duality bounds it at every angle t by D(t) = (sum l h)^2 / (4 g1 g2): l are the multipliers of the middle
-    angle, changed with t so that they stay in balance, h the levels, g1 and g2 the pushes along the two sides. As
-    for a convex ring (see `any_angle`) g1 changes by g2 at most, and g2 by g1. Where the sides take up what the
-    lines' pushes change by, the second derivative of log D is at most r^2 + 3, r = w / h + h / w, so less than 2
-    r^2. Where only lines bear on two opposite sides this is not proven: of 30,000 random problems, 20,309 of them such
-    ones, no second difference came above 1.12 r^2, and at no angle within the reach an area above the target
-    (`tests/plantar/kernels/test_turn_bound.py` draws some of them). With the bound's curve and the areas at the middle
-    and a little beside it follows how far from there the target is not reached; from where that ends it goes on.
+    Weak duality bounds it at every angle. With the origin at the middle of the largest rectangle at the middle angle,
+    w x h, let l be the multipliers there of log w + log h: at each side the pushes across it are 1 / w or 1 / h. For a
+    rectangle at an angle t with its middle at c the constraints, weighed with these same l, give
+
+        w(t) G1(t) + h(t) G2(t) <= L(t) + N(t) c,  so  w(t) h(t) <= (L(t) + N(t) c)^2 / (4 G1(t) G2(t)),
+
+    where G1 and G2 are half the pushes along the two sides, G1(0) = 1 / w, G2(0) = 1 / h, L the levels, L(0) = 2, and
+    N what is left of the pushes: none at 0, where they balance. Lines stand and vertices' pushes turn with the
+    rectangle, so |N(t)| <= |t| n, n the push of the lines alone, which is at most (1 / w^2 + 1 / h^2)^(1/2); it is none
+    where there are no lines, or no vertices.
+
+    The part without N: G1'' >= -G1, |G1'| <= G2, and likewise G2, since only the lines' pushes change. L'' <= 0, as a
+    vertex on a side stays on its side of the origin while |c v| tan t <= w / 2 or h / 2. So the second derivative of
+    its logarithm is at most 2 + (G1 / G2)^2 + (G2 / G1)^2 = (2 / sin 2 a)^2, with `a` the angle between diagonal and
+    longer side, which shrinks by as much as t grows. The part with N: it raises the logarithm by 2 |t| n |c| / L(t) at
+    most, a slope, where |c| is bounded by the boxes that all rectangles in question enclose and stand in.
+
+    With these and the areas at the middle and a little beside it follows how far from there the target is not reached;
+    from where that ends it goes on.
 
     Args:
         lists: Keep lists instead of arrays, which the interpreted form reads faster.
@@ -44,6 +55,10 @@ class TurnBound:
 
     def __init__(self, lists):
         self.lists = lists
+        self.lean = 0.0
+        self.aside = 0.0
+        self.x = 0.0
+        self.y = 0.0
         self.lines = 0
         self.line = work_arrays.numbers(4 * _LINES, self.lists)
         self.ring = work_arrays.numbers(2 * _LINES + 16, self.lists)
@@ -63,6 +78,10 @@ class TurnBound:
         self.foremost = work_arrays.places(8, self.lists)
         self.most = work_arrays.numbers(8, self.lists)
         self.level = work_arrays.numbers(4, self.lists)
+        self.middles = work_arrays.numbers(4, self.lists)
+        self.known_middles = work_arrays.numbers(4, self.lists)
+        self.centre = work_arrays.numbers(2, self.lists)
+        self.sides = work_arrays.numbers(4, self.lists)
 
     def narrow(self, ring, n, corner, least, box):
         """Find a box that all rectangles of more than some area in a convex ring enclose, at angle 0.
@@ -83,10 +102,10 @@ class TurnBound:
                 reach = (1.2 if wide == 0 else 3.0) * share
                 if side < 2:
                     at = (corner[4] if side else corner[0]) + sign * reach * width
-                    size = _cut(ring, n, sign, 0.0, sign * at, self.ring)
+                    size = cut_ring(ring, n, sign, 0.0, sign * at, self.ring)
                 else:
                     at = (corner[5] if side == 3 else corner[1]) + sign * reach * height
-                    size = _cut(ring, n, 0.0, sign, sign * at, self.ring)
+                    size = cut_ring(ring, n, 0.0, sign, sign * at, self.ring)
                 if sign * (at - box[side]) >= 0.0:
                     break
                 if (
@@ -96,7 +115,7 @@ class TurnBound:
                     box[side] = at
                     break
 
-    def clear(self, xs, ys, start, rings, box, half, target, wanted_low, wanted_high, reach):
+    def clear(self, xs, ys, start, rings, box, around, half, target, wanted_low, wanted_high, reach):
         """How far from the middle angle no rectangle that encloses a box has more than some area.
 
         Between two calls of `forget` only the box may change, and the distances that are looked at may shrink.
@@ -106,6 +125,7 @@ class TurnBound:
             start: Offsets (rings + 1) of the rings.
             rings: Their number.
             box: Box Q: x from and to, y from and to.
+            around: Box in which all rectangles in question stand once they are turned back about their middles.
             half: Half the interval in rad.
             target: The area.
             wanted_low: Distance in rad towards smaller angles that is looked at, up to `half`; wanted_high likewise.
@@ -116,6 +136,7 @@ class TurnBound:
             return
         self._find_bearing(xs, ys, start[rings], box, half)
         self._find_lines(xs, ys, start, rings, box, math.tan(half) * (1.0 - 1e-9))
+        self._find_middles(box, around)
         if self._is_known():
             reach[0] = max(reach[0], min(wanted_low, self.known_reach[0]))
             reach[1] = max(reach[1], min(wanted_high, self.known_reach[1]))
@@ -124,38 +145,124 @@ class TurnBound:
         middle = self._room(xs, ys, box, 0.0)
         if not 0.0 < middle < target:
             return
-        middle_lean = rectangle.lean(self.corner)
+        self._stand(box, 1.125 * max(wanted_low, wanted_high), 0.0)
+        lean = self.lean
+        aside = self.aside
+        x = self.x
+        y = self.y
         for side in range(2):
-            sign = -1.0 if side == 0 else 1.0
             wanted = wanted_low if side == 0 else wanted_high
-            area = middle
-            lean = middle_lean
-            at = 0.0
-            for _ in range(_STEPS):
-                left = wanted - at
-                beside = 0.125 * left
-                lean -= left + beside
-                if lean <= 0.0:
-                    break
-                bend = 2.0 / math.sin(2.0 * lean)
-                bend *= _BEND * bend
-                gap = math.log(target / area)
-                # The slope is at most what the areas rose by from a little before, and a bit for the bend in between.
-                before = self._room(xs, ys, box, sign * (at - beside))
-                if before == _INF:
-                    break
-                slope = math.log(area / max(1e-300, before)) / beside + 0.5 * bend * beside
-                root = math.sqrt(slope * slope + 2.0 * bend * gap)
-                far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
-                at += far
-                if far < 0.5 * left or at >= wanted:
-                    break
-                area = self._room(xs, ys, box, sign * at)
-                if not 0.0 < area < target:
-                    break
-                lean = rectangle.lean(self.corner)
+            at = self._advance(xs, ys, box, -1.0 if side == 0 else 1.0, wanted, middle, target)
             self.known_reach[side] = at
             reach[side] = max(reach[side], min(wanted, at))
+            self.lean = lean
+            self.aside = aside
+            self.x = x
+            self.y = y
+
+    def _advance(self, xs, ys, box, sign, wanted, middle, target):
+        """How far to one side the area stays below the target, in some steps up to the distance that is wanted."""
+        area = middle
+        at = 0.0
+        for _ in range(_STEPS):
+            left = wanted - at
+            beside = 0.125 * left
+            lean = self.lean - left - beside
+            if lean <= 0.0 or self.aside < 0.0:
+                return at
+            # The slope is at most what the areas rose by from a little before, and a bit for the bend in between.
+            before = self._room(xs, ys, box, sign * (at - beside))
+            if before == _INF:
+                return at
+            bend = 2.0 / math.sin(2.0 * lean)
+            bend *= bend
+            gap = math.log(target / area)
+            slope = math.log(area / max(1e-300, before)) / beside + 0.5 * bend * beside
+            if self.aside > 0.0:
+                self._find_centre(sign * (at - beside))
+                moved = math.hypot(self.centre[0] - self.x, self.centre[1] - self.y)
+                slope += self.aside * (moved + self._farthest(self.middles, self.x, self.y))
+            root = math.sqrt(slope * slope + 2.0 * bend * gap)
+            far = 2.0 * gap / (slope + root) if slope > 0.0 else (root - slope) / bend
+            at += far
+            if far < 0.5 * left or at >= wanted:
+                return at
+            area = self._room(xs, ys, box, sign * at)
+            if not 0.0 < area < target:
+                return at
+            self._stand(box, 1.125 * (wanted - at), sign * at)
+        return at
+
+    def _stand(self, box, turn, at):
+        """Look at the rectangle in `corner`, which stands at an angle: its lean, its middle, and what may push aside.
+
+        `aside` is the slope per distance between middles that pushes out of balance make up to a turn; below 0 where
+        that is too far.
+        """
+        self.lean = rectangle.lean(self.corner)
+        self._find_centre(at)
+        self.x = self.centre[0]
+        self.y = self.centre[1]
+        width = self.corner[4] - self.corner[0]
+        height = self.corner[5] - self.corner[1]
+        reach = self._farthest(box, self.x, self.y)
+        self.aside = -1.0
+        if reach * math.tan(turn) > 0.5 * min(width, height):
+            return
+        push = self._push(width, height, at)
+        # L(t) >= 2 - |t| sum l |c v| - t^2, and the pushes l of the vertices on two sides are 2 / w or 2 / h at most.
+        left = 1.0 - reach * (1.0 / width + 1.0 / height) * turn - 0.5 * turn * turn
+        if push == 0.0:
+            self.aside = 0.0
+        elif left >= 0.25:
+            self.aside = push / left
+
+    def _push(self, width, height, turn):
+        """What the lines that the rectangle in `corner` touches push in all, at most: only what touches does.
+
+        Where it touches lines alone their pushes balance, and likewise across where it touches no vertices on two
+        opposite sides.
+        """
+        close = _TOUCH * (width + height)
+        across = 0.0
+        along = 0.0
+        if self.sides[0] >= self.corner[0] - close or self.sides[1] <= self.corner[4] + close:
+            across = 1.0 / width
+        if self.sides[2] >= self.corner[1] - close or self.sides[3] <= self.corner[5] + close:
+            along = 1.0 / height
+        if across == 0.0 and along == 0.0:
+            return 0.0
+        cosine = math.cos(turn)
+        sine = math.sin(turn)
+        for k in range(self.lines):
+            ax = cosine * self.line[4 * k] + sine * self.line[4 * k + 1]
+            ay = cosine * self.line[4 * k + 1] - sine * self.line[4 * k]
+            dx = cosine * self.line[4 * k + 2] + sine * self.line[4 * k + 3]
+            dy = cosine * self.line[4 * k + 3] - sine * self.line[4 * k + 2]
+            x = self.corner[0 if dy < 0.0 else 4]
+            y = self.corner[1 if dx > 0.0 else 5]
+            if dx * (y - ay) - dy * (x - ax) <= close * (abs(dx) + abs(dy)):
+                return math.hypot(across, along)
+        return 0.0
+
+    def _find_centre(self, turn):
+        """Find the middle of the rectangle in `corner`, which stands at an angle, as seen at the middle angle."""
+        x = 0.5 * (self.corner[0] + self.corner[4])
+        y = 0.5 * (self.corner[1] + self.corner[5])
+        cosine = math.cos(turn)
+        sine = math.sin(turn)
+        self.centre[0] = cosine * x - sine * y
+        self.centre[1] = sine * x + cosine * y
+
+    def _farthest(self, box, x, y):
+        """Largest distance of a point of a box from a point."""
+        return math.hypot(max(abs(box[0] - x), abs(box[1] - x)), max(abs(box[2] - y), abs(box[3] - y)))
+
+    def _find_middles(self, box, around):
+        """Find the box in which the middles stand of all rectangles that enclose one box and stand in another."""
+        for k in range(0, 4, 2):
+            self.middles[k] = 0.5 * (around[k] + box[k + 1])
+            self.middles[k + 1] = 0.5 * (box[k] + around[k + 1])
 
     def forget(self):
         """Forget the vertices and lines that bore before, as at a new angle or for another target."""
@@ -168,10 +275,15 @@ class TurnBound:
         for k in range(self.bearings):
             if self.bearing[k] != self.known_bearing[k] or self.side[k] != self.known_side[k]:
                 return False
-        k = 0
-        while k < self.lines and self.edge[k] == self.known_edge[k]:
-            k += 1
-        return k == self.lines
+        for k in range(self.lines):
+            if self.edge[k] != self.known_edge[k]:
+                return False
+        if self.lines == 0 or self.bearings == 0:
+            return True
+        for k in range(0, 4, 2):
+            if self.middles[k] < self.known_middles[k] or self.middles[k + 1] > self.known_middles[k + 1]:
+                return False
+        return True
 
     def _keep(self):
         """Keep which vertices and lines bear."""
@@ -182,6 +294,8 @@ class TurnBound:
             self.known_side[k] = self.side[k]
         for k in range(self.lines):
             self.known_edge[k] = self.edge[k]
+        for k in range(4):
+            self.known_middles[k] = self.middles[k]
         self.known_reach[0] = 0.0
         self.known_reach[1] = 0.0
 
@@ -357,6 +471,11 @@ class TurnBound:
                 bottom = max(bottom, cosine * y - sine * x)
             else:
                 top = min(top, cosine * y - sine * x)
+        sides = self.sides
+        sides[0] = left
+        sides[1] = right
+        sides[2] = bottom
+        sides[3] = top
         # A side that only lines bear on: a bound that cuts nothing off them.
         open_sides = 0
         reach = 4.0 * (box[1] - box[0] + box[3] - box[2])
@@ -389,7 +508,7 @@ class TurnBound:
             ay = cosine * self.line[4 * k + 1] - sine * self.line[4 * k]
             dx = cosine * self.line[4 * k + 2] + sine * self.line[4 * k + 3]
             dy = cosine * self.line[4 * k + 3] - sine * self.line[4 * k + 2]
-            size = _cut(ring, n, -dy, dx, dx * ay - dy * ax, self.cut)
+            size = cut_ring(ring, n, -dy, dx, dx * ay - dy * ax, self.cut)
             if size < 3:
                 return 0.0
             n = size
@@ -406,8 +525,19 @@ class TurnBound:
         return area
 
 
-def _cut(ring, n, nx, ny, level, out):
-    """Cut a convex ring by a half-plane nx x + ny y >= level; the number of vertices left in `out`."""
+def cut_ring(ring, n, nx, ny, level, out):
+    """Cut a ring by a half-plane nx x + ny y >= level.
+
+    Args:
+        ring: Ring of n vertices, flat.
+        n: Their number.
+        nx: First coordinate of the half-plane's normal; ny the second one.
+        level: Its level.
+        out: Receives what is left, flat; along the cut it runs to and fro where the ring is not convex.
+
+    Returns:
+        Number of vertices left.
+    """
     count = 0
     i = n - 1
     before = nx * ring[2 * i] + ny * ring[2 * i + 1] - level

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.geometry import enclosing as _enclosing
 from plantar.geometry import inscribed as _inscribed
 from plantar.geometry.contact_rectangle import safe_rectangle
-from plantar.geometry.inscribed import Circle
+from plantar.geometry.inscribed import BoundedRectangle, Circle
 from plantar.geometry.outline import Outline, concave_outline
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
@@ -90,8 +90,8 @@ class ShapeMembers:
         return _inscribed.rectangle_in_outline(self.concave_outline_in_sole)
 
     @lazy
-    def outline_rectangle_any_angle_in_sole(self) -> NDArray[np.float64]:
-        """Largest rectangle (4, 2) in the concave outline, at any angle."""
+    def outline_rectangle_any_angle_in_sole(self) -> BoundedRectangle:
+        """Largest rectangle in the concave outline, at any angle, and by what share others may be larger."""
         return _inscribed.rectangle_in_outline_any_angle(self.concave_outline_in_sole)
 
     def safe_rectangle_in_sole(self, offset: float) -> NDArray[np.float64]:

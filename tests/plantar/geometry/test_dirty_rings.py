@@ -204,7 +204,7 @@ def test_rectangles_at_any_angle():
         wanted = size(inscribed_rectangle_any_angle(one.polygon))
         shapes = (
             inscribed_rectangle_any_angle(ring),
-            rectangle_in_outline_any_angle(Outline.of_rings([forwards])),
+            rectangle_in_outline_any_angle(Outline.of_rings([forwards])).corners,
         )
         off = 0.0
         for corners in map(one.local, shapes):
