@@ -36,6 +36,8 @@ class Ending:
         heading: Heading error in degrees; None likewise.
         tilt: Tilt of the torso in degrees.
         pushes: Pushes that the robot recovered from, and all of them.
+        overrun: Time in s at which the run was cut off, since the controller still was not at its end, and the end in s
+            as it was planned at first; None otherwise.
     """
 
     fall: tuple[float, float, str] | None
@@ -46,6 +48,7 @@ class Ending:
     heading: float | None
     tilt: float
     pushes: tuple[int, int] = (0, 0)
+    overrun: tuple[float, float] | None = None
 
 
 def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[str, Any]]:
@@ -69,6 +72,10 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         add("fall", round(value, 3), round(limit, 3), text)
     if ending.stopped:
         add("emergency_stop", 1, 0, "the controller stopped for good")
+    if ending.overrun is not None:
+        time, planned_end = ending.overrun
+        text = f"the controller still put its end off at {time:.0f} s, where the run was cut off"
+        add("overrun", round(time, 3), round(planned_end, 3), text)
     if legs.first is not None:
         time, one, other = legs.first
         text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"

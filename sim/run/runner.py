@@ -47,6 +47,7 @@ __all__ = ["Simulation", "run_scene"]
 Progress = Callable[[float, str], None]
 
 _MEMBERS = frozenset(Percept.members())
+_LONGEST = 5  # times its first duration, after which a run whose end is put off again and again is cut off
 _EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
 _FRAME_EVERY = round(1.0 / (FRAME_RATE * PHYSICS_PERIOD))
 
@@ -58,6 +59,7 @@ class _Result:
     ticks_us: list[float]
     wall_time: float
     skipped: dict[str, int]
+    overrun: tuple[float, float] | None
 
 
 class Simulation:
@@ -191,8 +193,9 @@ class Simulation:
         ticks: list[float] = []
         skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
         began = shown = clock.perf_counter()
-        k = 0
-        while k < math.ceil(self.end / PHYSICS_PERIOD):  # a replan may make it later
+        k, last = 0, math.ceil(self.end / PHYSICS_PERIOD)
+        longest = _LONGEST * last
+        while k < min(last, longest):
             feet = None
             if k % sensors.skin_every == 0:
                 feet = sensors.read_skins(controller.proximity_sides, everything)
@@ -205,6 +208,7 @@ class Simulation:
                 command = controller.step(reading)
                 joints = servos.command(command)
                 ticks.append(1e6 * (clock.perf_counter() - start))
+                last = math.ceil(self.end / PHYSICS_PERIOD)  # a change of the plan may make it later
                 skipped["percept_members"] += _compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.update(command.footholds)
@@ -243,7 +247,8 @@ class Simulation:
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
-        return _Result(ticks, clock.perf_counter() - began, skipped)
+        overrun = (float(data.time), longest * PHYSICS_PERIOD / _LONGEST) if k >= longest else None
+        return _Result(ticks, clock.perf_counter() - began, skipped, overrun)
 
     def _identity(self) -> dict[str, object]:
         return {
@@ -273,6 +278,7 @@ class Simulation:
             heading=yaw if self.speeds is None else None,
             tilt=upright,
             pushes=(balance.get("recovered", 0), len(balance.get("pushes", ()))),
+            overrun=result.overrun,
         )
         why = reasons(ending, judge.legs, judge.joints)
         landings = [x.time for x in judge.landings]

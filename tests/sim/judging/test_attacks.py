@@ -121,6 +121,15 @@ def test_a_controller_that_cuts_its_plan_misses_the_goal() -> None:
     assert summary["final"]["position_error_m"] == pytest.approx(0.4, abs=0.02)
 
 
+def test_a_controller_that_never_comes_to_its_end_is_cut_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    simulation = Simulation(load_scene("flat", ["steps=1", "start=0.2", "settle=0.1"]), 0)
+    end = simulation.end
+    monkeypatch.setattr(type(simulation), "end", property(lambda run: float(run.world.data.time) + end))
+    summary = simulation.run()
+    assert summary["sim_time_s"] == pytest.approx(5.0 * end, rel=0.01)
+    assert "overrun" in criteria(summary)
+
+
 def test_steps_at_other_places_than_planned_do_not_count() -> None:
     summary = walked_otherwise(4, 0.14)
     assert {"steps", "position"} <= criteria(summary)
