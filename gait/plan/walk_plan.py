@@ -182,6 +182,7 @@ class WalkPlan:
         if times and times[0] <= first:  # no step at all
             del times[0], points[0]
         self._vrps = VrpPlan([first - 1.0, first, *times], [start, start, *points], omega)
+        self._asked = (-math.inf, self._vrps, self._vrps.at(-math.inf))
 
     @property
     def view(self) -> PlanView:
@@ -205,7 +206,11 @@ class WalkPlan:
 
     def at(self, time: float) -> LipReference:
         """The plan at a time in s (see `VrpPlan.at`)."""
-        return self._vrps.at(time)
+        last, vrps, reference = self._asked
+        if last != time or vrps is not self._vrps:  # a tick asks more than once, and seldom changes the plan in between
+            reference = self._vrps.at(time)
+            self._asked = (time, self._vrps, reference)
+        return reference
 
     @property
     def end(self) -> NDArray[np.float64]:

@@ -35,6 +35,10 @@ class JointLimits:
         speeds = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
         self._per_limit = 1.0 / speeds
         self._velocity, self._dofs = world.data.qvel, world.joint_qvel
+        first = int(self._dofs[0])
+        in_order = np.array_equal(self._dofs, np.arange(first, first + k))
+        self._view = self._velocity[first : first + k] if in_order else None  # without a copy at each step
+        self._shares = np.empty(k)
         self._force, self._servos = world.data.actuator_force, world.servos
         limited = model.actuator_forcelimited[world.servos] > 0
         limits = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
@@ -47,8 +51,9 @@ class JointLimits:
         """After each physics step: speeds."""
         if not self.limited:
             return
-        shares = self._velocity.take(self._dofs) * self._per_limit
-        if max(map(abs, shares.tolist())) > 1.0:
+        velocity = self._velocity.take(self._dofs) if self._view is None else self._view
+        shares = np.multiply(velocity, self._per_limit, out=self._shares)
+        if shares.dot(shares) > 1.0 and max(map(abs, shares.tolist())) > 1.0:  # no square is above the sum of them
             np.abs(shares, out=shares)
             self._over = np.where(shares > 1.0, self._over + PHYSICS_PERIOD, 0.0)
             np.maximum(self.longest, self._over, out=self.longest)
