@@ -44,6 +44,8 @@ class ComAdmittance:
         Args:
             error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
         """
+        # Keeps the noise of the taxels out of the CoM's reference.
         self._error += self._share * (error - self._error)
+        # The second term brings the CoM back onto the plan; without it a bias of the ZMP would add up to a drift.
         self.rate = self._zmp_gain * self._error - self._com_gain * self.offset
         self.offset = self.offset + self._period * self.rate

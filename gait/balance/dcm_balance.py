@@ -71,8 +71,11 @@ class DcmBalance:
         Returns:
             Desired ZMP (2,) in m.
         """
+        # At xi = xi_r this is the planned VRP; a DCM that is off has its error driven to zero at the rate k_xi (T
+        # 4.28).
         wanted = reference.vrp - (1.0 + self.gains.dcm_gain / self.omega) * (reference.dcm - dcm)
         nearest = closest_point(region, wanted)
+        # No foot can press beside its contact: what is wanted there is cut to what the ground can give (T Algorithm 1).
         return wanted if nearest is None else nearest
 
     def update(
@@ -100,6 +103,8 @@ class DcmBalance:
             zmp_desired=desired,
             com=com,
             com_velocity=reference.com_velocity + self._admittance.rate,
+            # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset
+            # above.
             com_acceleration=self.omega**2 * (com - desired),
         )
 

@@ -89,12 +89,15 @@ class FootAdmittance:
         for side in SIDES:
             foot = self.corrections[side]
             if side not in wanted:
+                # A foot in the air has no load to compare with, and its filter must begin anew at touchdown.
                 self._measured[side] = None
                 keep = max(0.0, 1.0 - g.foot_release * dt)
                 foot.roll, foot.pitch, foot.shift = keep * foot.roll, keep * foot.pitch, keep * foot.shift
+                # An exponential never ends: below what any servo resolves the correction is exactly none.
                 if abs(foot.roll) + abs(foot.pitch) + abs(foot.shift) < 1e-7:
                     foot.roll = foot.pitch = foot.shift = 0.0
                 continue
+            # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
             _, _, *now, _ = measured[side].tolist()
             last = self._measured[side]
             fz, tx, ty = (
@@ -105,6 +108,8 @@ class FootAdmittance:
             foot.roll = self._moved(foot.roll, g.foot_turn_gain * (tx - wanted_tx), g.largest_turn)
             foot.pitch = self._moved(foot.pitch, g.foot_turn_gain * (ty - wanted_ty), g.largest_turn)
             errors[side] = fz - wanted_fz
+        # Foot force difference control: one foot goes up as much as the other goes down, so that the body keeps its
+        # height.
         if len(errors) == 2:
             rate = 0.5 * g.foot_lift_gain * (errors["left"] - errors["right"])
             for side, sign in (("left", 1.0), ("right", -1.0)):

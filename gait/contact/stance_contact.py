@@ -137,10 +137,13 @@ class StanceContact:
         if reading.time <= self._time or load < s.minimum_load:
             return False
         self._time = reading.time
+        # A dead taxel is a taxel without load, not a fault of the foothold.
         force = np.where(np.isfinite(reading.force), reading.force, 0.0)
         self._count += 1
         self._sum = s.forgetting * self._sum + force
+        # The sum of the weights, for a mean that is right from the first reading on.
         self._weight = s.forgetting * self._weight + 1.0
+        # The first reading begins the mean; from zero it would take long to rise.
         share = s.smoothing if self._count > 1 else 1.0
         self._mean += share * (force - self._mean)
         if self._count >= s.settle_readings:
@@ -161,12 +164,14 @@ class StanceContact:
         self._seen_time = reading.time
         sound = distance > -np.inf
         near = distance[np.isfinite(distance)]
+        # From a few distances the height of the nearest ground is no more than noise.
         if len(near) < self.settings.least_seen:
             return
         # Relative to the nearest ground: the foot is on its way down.
         ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
         depth = np.minimum(np.maximum(distance - ground, -0.05), self.settings.deep)
         self._looks += 1
+        # Where nothing was known the first sight counts whole.
         share = self.settings.sight if self._depth is not None else 1.0
         before = np.zeros(len(depth)) if self._depth is None else self._depth
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
@@ -186,6 +191,8 @@ class StanceContact:
         lines = self._from_sight()
         if lines is None or not len(lines):
             return None
+        # The ground stays and the sole goes on: in the sole's frame as it lands the edges lie back by what is still
+        # ahead.
         lines = np.column_stack([lines[:, :2], lines[:, 2] - lines[:, :2] @ ahead])
         polygon = self._fit.polygon(lines)
         if len(polygon) < 3 or area(polygon) > self.settings.full_ratio * self._whole_area:
@@ -223,6 +230,7 @@ class StanceContact:
         # A foot that still settles presses on a corner or a line; once it stands, the loads say where the edges are.
         if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
             largest = float(mean.max())
+            # Noise shrinks with the readings summed, what the model of the sole leaves out does not.
             noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * largest)
             found = self._fit.update(mean, self._carried, noise, start=lines)
             if found.residual < s.model_error * largest:
@@ -232,6 +240,7 @@ class StanceContact:
         if len(polygon) < 3:
             return first
         ratio = area(polygon) / self._whole_area
+        # A sliver that is missing is an edge that was not found well, and not worth a change of the plan.
         if ratio > s.full_ratio or not len(lines):
             polygon, ratio = self.layout.outline, 1.0
         self.area_ratio, self.polygon_in_sole = ratio, polygon
@@ -239,6 +248,7 @@ class StanceContact:
 
     def _over(self, lines: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Taxels (n,) of which lines leave a part."""
+        # Half the width of a hexagonal cell, which is 1.07 to 1.24 sqrt(A) for an area A.
         reach = 0.6 * math.sqrt(self.layout.cell_area)
         return np.asarray((self.layout.positions[:, :2] @ lines[:, :2].T < lines[:, 2] + reach).all(axis=1))
 
@@ -258,5 +268,6 @@ class StanceContact:
             return None
         expected = self._fit.expected(load, cop, lines)
         silent = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
+        # Three at least: a dead taxel is silent, too.
         wrong = int(silent.sum()) >= 3 and float(expected[silent].sum()) > s.least_wrong * load
         return silent if wrong else None

@@ -74,9 +74,11 @@ class SupportStrip:
         """
         place, lateral = self.coordinates(centroid)
         if self._footholds and self._footholds[-1][0] == step:
+            # Found again, and better, in the same stance.
             self._footholds.pop()
         if self._footholds:
             last_step, last_side, _, _ = self._footholds[-1]
+            # One foothold has no direction yet: the strip is taken to run along the walk.
             expected = self.lateral(place) if self.known else self._footholds[-1][3]
             if step != last_step + 1 or side == last_side or abs(lateral - expected) > self.agreement:
                 self.clear()

@@ -73,6 +73,7 @@ class AnkleSensor:
         """
         force = self.rotation.dot(measured[:3])
         lift = (self.mass * GRAVITY) * rotation_sole_to_world[2]  # what carries the weight, in the sole frame
+        # Written out: `np.cross` is slow on single vectors, and this runs at every tick.
         fx, fy, fz = force.tolist()
         gx, gy, gz = lift.tolist()
         px, py, pz = self.position.tolist()

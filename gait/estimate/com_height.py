@@ -39,6 +39,8 @@ class CoMHeight:
             Height in m of the ground to stand above now.
         """
         w = self._frequency
+        # Damping ratio 1: a step of the ground neither overshoots nor jumps in speed, which the legs would have to
+        # follow.
         self.rate += self._period * (w * w * (target - self.ground) - 2.0 * w * self.rate)
         self.ground += self._period * self.rate
         return self.ground

@@ -57,6 +57,7 @@ class CommandFrame:
             [1.0, 2.0]
         """
         dx, dy = (point - self.anchor[:2] - self.offset[:2]).tolist()
+        # Heights are not turned: the frame turns about the vertical axis alone.
         x, y, _ = self.anchor.tolist()
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([x + c * dx + s * dy, y - s * dx + c * dy])

@@ -154,8 +154,10 @@ class FloatingBaseEstimator:
         """
         posture = self.kinematics.posture(joint_positions)
         if airborne is not None:
+            # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
+        # Ground never pulls; what the tare leaves below zero is noise.
         loads: dict[str, float] = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in SIDES}
         cops = {s: soles[s].position_cop_in_sole for s in SIDES}
         if self._rotation is None or self._last is None:
@@ -191,10 +193,12 @@ class FloatingBaseEstimator:
 
     def _start(self, posture: Posture, accelerometer: NDArray[np.float64]) -> None:
         """Level the base by gravity, head it along the feet, and stand on the known footholds."""
+        # The robot stands still at the start, so the specific force is gravity alone.
         up = accelerometer / float(np.linalg.norm(accelerometer))
         forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
         forward /= float(np.linalg.norm(forward))
         level = np.vstack([forward, np.cross(up, forward), up])
+        # Mean of two headings as a mean of unit vectors: that of the angles is wrong across +-pi.
         turn = math.atan2(
             sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
             sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
@@ -223,6 +227,7 @@ class FloatingBaseEstimator:
         if planned_acceleration is not None:
             specific[:2] -= planned_acceleration
         size = math.sqrt(float(specific.dot(specific)))
+        # An impact says nothing of what is up.
         if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
             x, y, _ = specific.tolist()
             tilt = np.array([y / size, -x / size, 0.0])  # specific x up
@@ -241,12 +246,16 @@ class FloatingBaseEstimator:
             yaw = heading(rotation.dot(posture.rotations[side]))
             held = self._heading[side]
             if held is None:
+                # The heading that the foot has when it comes to carry is held against the gyro, which drifts about the
+                # vertical.
                 self._heading[side] = held = yaw
+            # Weights begin at zero, so that a foot joins and leaves without a jump.
             weight = loads[side] - self.gains.minimum_load
             error += weight * math.remainder(held - yaw, 2.0 * math.pi)
             total += weight
         if total > 0.0:
             rate += (self.gains.yaw * error / total) * rotation[2]
+        # Rounding would make the product of thousands of rotations shrink or shear.
         self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
 
     def _move(
@@ -264,6 +273,8 @@ class FloatingBaseEstimator:
             weight = loads[side] - self.gains.minimum_load
             if cop is None or weight <= 0.0:
                 continue
+            # The point of the sole that carries does not move while it rolls over the ground: its apparent move is the
+            # base's.
             before = self._last.positions[side] + self._last.rotations[side][:, :2].dot(cop)
             now = posture.positions[side] + posture.rotations[side][:, :2].dot(cop)
             shift += weight * (self._last_rotation.dot(before) - self._rotation.dot(now))
@@ -271,15 +282,18 @@ class FloatingBaseEstimator:
         if total > 0.0:
             self._position = self._position + shift / total
         else:
+            # No foot carries: the body goes on as it went.
             self._position = self._position + self.period * self._velocity
 
     def _observe(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> None:
         acceleration = np.zeros(3)
         if zmp is not None:
+            # Predicted by the pendulum over the measured ZMP; the kinematics corrects it.
             acceleration[:2] = self.omega**2 * (self._com[:2] - zmp)
         self._com = self._com + self.period * self._velocity
         self._velocity = self._velocity + self.period * acceleration
         error = com - self._com
+        # Both poles of the observer lie at -b: gains 2 b and b^2.
         b = self.gains.observer
         self._com = self._com + min(1.0, 2.0 * b * self.period) * error
         self._velocity = self._velocity + min(1.0, b * b * self.period) * error

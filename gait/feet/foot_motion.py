@@ -223,6 +223,7 @@ class FootMotion:
         """Advance a foot that does not see the ground."""
         assert self._swing is not None
         if phase.swing is not None:
+            # On its way up a sole still carries what the ground that it leaves gives back.
             if self.comes_down and load > self._landing.contact_force:
                 self.landed = True
             if not self.landed:
@@ -259,6 +260,7 @@ class FootMotion:
         """Begin the swing of a step, from and until some times in s."""
         side = target.side
         if self._swing is not None:
+            # Where the other foot found the ground is the best guess of where this one will.
             landed = float(self.footholds[other_side(side)][0][2])
             self._expected += _GROUND_SHARE * (landed - self._expected)
         position, yaw = self.footholds[side]
@@ -289,6 +291,7 @@ class FootMotion:
     def _retake(self, time: float, touchdown: float, target: Footstep, frame: CommandFrame) -> None:
         """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
+        # It has to clear only what it has just met, in what is left of the step.
         self._height = min(height, _RETAKE_HEIGHT)
         self._begin(self._step, (time, touchdown), target, frame)
         self._expected, self._height = expected, height

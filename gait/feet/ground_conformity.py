@@ -112,6 +112,7 @@ class FootTurn:
         if away <= g.nearly:
             self.hold(center_of_pressure)
             return np.zeros(2)
+        # Begins at zero where "nearly" ends, so that the turn does not start and stop at that distance.
         rate = (1.0 - g.nearly / away) * self._rate(load, center_of_pressure, target)
         return self._turn(rate, center_of_pressure, target)
 
@@ -142,6 +143,7 @@ class FootTurn:
         away = math.dist(center_of_pressure, target)
         if len(past) != past.maxlen or away <= g.nearly:
             return False
+        # On firm ground a turn moves the load at once; one that does not rolls over an edge or a bump.
         turned = sum(turn for _, turn in past)
         moved = float((past[0][0] - center_of_pressure) @ (center_of_pressure - target)) / away
         return turned > g.least_turn and moved < g.follows * turned

@@ -54,10 +54,12 @@ class LandingCompliance:
             center_of_pressure: Where that acts (2,) in the sole frame in m.
             target: Where it shall act (2,) in the sole frame in m.
         """
+        # The foot carries the body now: turning it would push the body, and its edge no longer hides the ground.
         if force > self.largest_force:
             return
         dx, dy = (center_of_pressure - target).tolist()
         gain = self.admittance * force
+        # A moment about x lies along y: the turn is the lever rotated by a quarter.
         rate = np.array([gain * dy, -gain * dx])
         size = math.hypot(*rate.tolist())
         if size > self.largest_rate:

@@ -73,9 +73,11 @@ class PostureCompensation:
             Corrections of the sole's position (3,) in m and orientation (rotation vector (3,) in rad), command frame.
         """
         step = self.period / self.fade
+        # Fades: at lift-off and touchdown the foot is on the ground, and a jump of its target would push it.
         self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
         lean = rotation_command.dot(rotation_estimated.T)
         shift = com_command + lean.dot(position_in_world - com_estimated) - position
+        # The sine instead of the angle: the leans are small, and it has no singularity to guard.
         turn = sine_vector(lean)
         share = min(1.0, self.period / self.time_constant)
         self.shift = self.shift + share * (self._weight * _limited(shift, self.largest_shift) - self.shift)

@@ -49,6 +49,7 @@ class _Clock:
             return self.shows
         length = self.until - self.since
         s = max(0.0, time - self.since) / length
+        # Integral of a rate that rises linearly and then stays: no jump in speed, whatever the plan changed.
         ramp = 0.5 * s * s / _RAMP if s < _RAMP else s - 0.5 * _RAMP
         return self.shown + length * (self.rate * s + (self.last - self.rate) * ramp)
 
@@ -72,6 +73,7 @@ class _Course:
         """The course from a position, velocity and acceleration (3,) to rest at an end (3,)."""
         t, (p, v, a) = until - since, start
         v, a, way = t * v, t * t * a, end - p
+        # The fifth-order polynomial in s = 0..1 with speed and acceleration given at its start and zero at its end.
         third = 10.0 * way - 6.0 * v - 1.5 * a
         fourth = -15.0 * way + 8.0 * v + 1.5 * a
         fifth = 6.0 * way - 3.0 * v - 0.5 * a
@@ -80,6 +82,7 @@ class _Course:
     def at(self, time: float) -> NDArray[np.float64]:
         s = min(1.0, max(0.0, (time - self.since) / (self.until - self.since)))
         value = np.zeros(3)
+        # Horner's rule.
         for c in self.coefficients[::-1]:
             value = value * s + c
         return value

@@ -123,6 +123,7 @@ class StepGuard:
             return None
         if phase.step != self._step:
             self._begin(phase, side, tick)
+        # For some ticks on end, so that one noisy height does not hold a walk up.
         self._surprised = self._surprised + 1 if tick.feet.surprise > self.rules.surprise else 0
         if self._state is _State.WALKING and self._surprised >= _LASTING:
             self._state = _State.DOUBTING
@@ -163,6 +164,7 @@ class StepGuard:
         """Let the probe read what the foot presses on, once it presses."""
         assert self._probe is not None
         rules, reading, load, time = self.rules, tick.readings[side], tick.loads[side], tick.time
+        # The rule reads a foot that has its load; where that does not come, what there is after the time for it.
         if self._since == math.inf and (load > 0.7 * rules.probe_force or time > self._began + rules.probe_limit):
             self._since = time
         if time > self._since + 0.5 * rules.probe_time and reading.time > self._reading_time:
