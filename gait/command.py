@@ -73,7 +73,7 @@ class Command:
         zmp_desired: Desired ZMP (2,) in m.
         state: Estimated state.
         dcm: Estimated DCM (2,) in m.
-        percepts: What each sole feels.
+        percepts: What each sole senses.
         ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
         footholds: What feet have been found to stand on at this tick.
         moved_steps: Footsteps that were planned anew at another place at this tick.

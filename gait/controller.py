@@ -99,7 +99,7 @@ class ControllerSettings(Settings):
         contact: How contact polygons are found from the taxels.
         foothold: When what is found moves the plan.
         feedback: False walks the plan in open loop, for comparison.
-        zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
             "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
@@ -390,13 +390,13 @@ class WalkingController:
     def _damp(self, phase: Phase, sensed: _Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
         """Foot damping of feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment
         on the best of ground."""
-        feel: dict[Side, tuple[SoleLoad, float]] = {}
+        damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks:
             coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
-            feel = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
+            damped = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
         if self.guard is not None and self.guard.probing and phase.swing is not None:
-            feel[phase.swing] = (sensed.soles[phase.swing], _PROBING)
-        for side, (sole, least) in feel.items():
+            damped[phase.swing] = (sensed.soles[phase.swing], _PROBING)
+        for side, (sole, least) in damped.items():
             cop = sole.position_cop_in_sole
             if cop is not None and state.loads[side] > least:
                 self._damping[side].update(state.loads[side], cop, self.contacts.center(side))

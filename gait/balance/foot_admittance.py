@@ -77,8 +77,8 @@ class FootAdmittance:
         """One control tick.
 
         Args:
-            wanted: Wrench (6,) that each standing foot shall feel in its sole frame, by the world on the robot.
-            measured: Wrench (6,) that it feels, for the same feet.
+            wanted: Wrench (6,) that each standing foot shall carry in its sole frame, by the world on the robot.
+            measured: Wrench (6,) that it carries, for the same feet.
 
         Returns:
             Correction of each foot; that of a foot in the air fades.

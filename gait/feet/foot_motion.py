@@ -18,6 +18,7 @@ from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
+from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
 from plantar.settings.schema import Settings, number
 from plantar.sides import SIDES, Side, other_side
@@ -246,7 +247,7 @@ class FootMotion:
         if self._swing is None or phase.swing is None or phase.step != self._step:
             return
         moves = target != self._target
-        if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < 1e-9):
+        if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < SAME_TIME):
             return
         if self.landed:
             self._retake(time, phase.touchdown, target, frame)

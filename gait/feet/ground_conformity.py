@@ -201,7 +201,7 @@ class GroundConformity:
             incoming: The standing foot that takes the weight over now; None at the two ends of the walk.
             zmp_desired: Desired ZMP (2,) in the world in m.
             state: Estimated state.
-            percepts: What each sole feels.
+            percepts: What each sole senses.
             landed: Whether the swing foot has touched the ground.
 
         Returns:

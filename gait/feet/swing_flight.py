@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.feet.swing import SwingTrajectory
+from plantar.mechanics.same_time import SAME_TIME
 
 __all__ = ["LEAST_TIME", "SwingFlight"]
 
@@ -151,7 +152,7 @@ class SwingFlight:
         shown = self.progress(time)
         rate = (self.progress(time + _STEP) - shown) / _STEP
         clock = self._clock
-        if abs(duration - self.duration) > 1e-9:
+        if abs(duration - self.duration) > SAME_TIME:
             clock = _Clock.to(time, shown, rate, duration, self.path.duration)
         end = np.array([place[0], place[1], self.end[2]])
         flight = replace(self, duration=duration, end=end, _clock=clock)

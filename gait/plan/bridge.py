@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.geometry.polygon import closest_point
+from plantar.mechanics.same_time import SAME_TIME
 
 __all__ = ["bridged"]
 
@@ -69,9 +70,9 @@ def _with_bridge(
     bridge: list[int] = []
     length = window[1] - window[0]
     if length >= _LEAST_BRIDGE:
-        before = [i for i, t in enumerate(times) if t <= window[0] + 1e-9]
+        before = [i for i, t in enumerate(times) if t <= window[0] + SAME_TIME]
         for i in before:
-            if times[i] > now[0] + 1e-9:
+            if times[i] > now[0] + SAME_TIME:
                 head_times.append(times[i])
                 head.append(points[i])
         del times[: len(before)], points[: len(before)]
@@ -80,7 +81,7 @@ def _with_bridge(
         for share in (_RAMP, 1.0 - _RAMP):
             head_times.append(window[0] + share * length)
             head.append(head[bridge[0] - 1] + share * (ahead - head[bridge[0] - 1]))
-        if times and times[0] > window[1] + 1e-9:  # a bridge inside a stance ends where the stance's VRP is
+        if times and times[0] > window[1] + SAME_TIME:  # a bridge inside a stance ends where the stance's VRP is
             head_times.append(window[1])
             head.append(ahead)
     fresh = [i for i, t in enumerate(times) if t > head_times[-1] + 1e-6]

@@ -24,6 +24,7 @@ from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.plan.plan_change import AppliedChange, MovedStep, PlanChange
 from gait.plan.vrp_plan import LipReference, VrpPlan
 from plantar.errors import InputError
+from plantar.mechanics.same_time import SAME_TIME
 from plantar.sides import Side, other_side
 
 __all__ = ["PlanView", "PlannedStep", "WalkPlan", "vrp_of_step"]
@@ -336,7 +337,7 @@ class WalkPlan:
             last = n
         times, points = self._view.knots(time, last)
         if delay:
-            times = [t + delay if t >= window[1] - delay - 1e-9 else t for t in times]
+            times = [t + delay if t >= window[1] - delay - SAME_TIME else t for t in times]
         kept = len(self._vrps.times) - (0 if last == n else 2 * (n - last) + 2)
         self._vrps, gap = bridged(self._vrps, (times, points), (time, now), window, region, (kept, shift, delay + late))
         return gap

@@ -93,7 +93,7 @@ class Foothold:
 
 
 class FootholdProbe:
-    """Gathers what a foot feels that presses on something unexpected.
+    """Gathers what a foot senses that presses on something unexpected.
 
     Args:
         layout: Its sole, n taxels.

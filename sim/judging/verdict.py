@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from plantar.mechanics.same_time import SAME_TIME
 from sim.judging.joint_limits import JointLimits
 from sim.judging.leg_contact import LegContact
 
@@ -81,7 +82,7 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"
         add("collision", round(legs.duration, 4), 0.0, text)
     longest = float(joints.longest.max())
-    if longest > FASTER_FOR + 1e-9:
+    if longest > FASTER_FOR + SAME_TIME:
         k = int(joints.longest.argmax())
         share = float(joints.fastest[k])
         text = f"{joints.names[k]} was faster than its limit for {longest:.3f} s, by {share:.2f} times at most"

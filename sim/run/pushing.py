@@ -8,6 +8,7 @@ import numpy as np
 
 from gait.plan.phases import WalkSchedule
 from plantar.errors import SceneError
+from plantar.mechanics.same_time import SAME_TIME
 from sim.model.shove import Shove
 from sim.model.world import World
 from sim.run.scene import Push
@@ -65,7 +66,7 @@ class Pusher:
         """Set the external force on the torso for the next physics step."""
         if self._next >= len(self.shoves):
             return
-        shove, time = self.shoves[self._next], world.data.time + 1e-9
+        shove, time = self.shoves[self._next], world.data.time + SAME_TIME
         if time < shove.start:
             return
         fx, fy, fz = shove.force(time).tolist()

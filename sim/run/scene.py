@@ -156,7 +156,7 @@ class Control(Settings):
 
     Attributes:
         feedback: False walks the plan in open loop.
-        zmp_source: What feels the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
+        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole; "force" goes by the
             taxels' forces, "skin" by what they see before they touch, too.
         pfc: Preemptive foot compliance: proximity stops the swing before the impact and turns the sole to the ground.

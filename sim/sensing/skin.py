@@ -20,6 +20,7 @@ from plantar.errors import InputError, RobotError
 from plantar.kernels.contact_sums import pair_loads
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.reading import Reading
 from sim.model.contact_truth import REACH, ContactSet, foot_contacts
 from sim.sensing.proximity import ProximitySensor
@@ -193,7 +194,7 @@ class SkinSensor:
         now = float(data.time)
         if not self._queue:
             self._start, self._taken = now, 0
-        if now >= self._start + self._taken * self.period - 1e-9:
+        if now >= self._start + self._taken * self.period - SAME_TIME:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)

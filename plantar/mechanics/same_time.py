@@ -1,0 +1,8 @@
+"""The tolerance of times."""
+
+from __future__ import annotations
+
+__all__ = ["SAME_TIME"]
+
+SAME_TIME = 1e-9
+"""Times in s that are nearer to each other than this are one: sums of periods differ in their last bits."""
