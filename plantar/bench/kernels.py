@@ -11,16 +11,20 @@ from numpy.typing import NDArray
 from plantar.bench import references as exact
 from plantar.bench import rivals
 from plantar.bench.comparison import Reference, Result, Route, compare
+from plantar.bench.random_cells import random_outline
 from plantar.bench.soles import Contact, contacts
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.geometry.outline import Outline, concave_outline
 
-__all__ = ["OFFSET", "compare_shapes"]
+__all__ = ["OFFSET", "RANDOM", "compare_random_cells", "compare_shapes"]
 
 Array = NDArray[np.float64]
 
 OFFSET = 0.01
 """Distance in m of the inner offset that is measured."""
+
+RANDOM = (250, 1000, 5000)
+"""Cells, active by chance, of the outlines in which rectangles at any angle are measured."""
 
 
 def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
@@ -54,6 +58,29 @@ def compare_shapes(size: str, rounds: int = 9) -> Iterator[tuple[str, list[Resul
     for name, make in measures:
         routes, reference = make()
         yield name, compare(name, size, routes, reference, rounds)
+
+
+def compare_random_cells(rounds: int = 9) -> Iterator[tuple[str, list[Result]]]:
+    """Measure the largest rectangle at any angle in outlines of cells at random, and how far off its proven bound is.
+
+    Args:
+        rounds: Rounds to take the median over.
+
+    Yields:
+        Name of the kernel and the results of its routes, for each number of cells.
+    """
+    name = "rectangle in the outline, any angle, random cells"
+    for cells in RANDOM:
+        outlines = [random_outline(cells, share, 0) for share in (0.3, 0.5, 0.6, 0.7, 0.9)]
+        call = inscribed.rectangle_in_outline_any_angle
+        along = inscribed.rectangle_in_outline
+        routes = [
+            Route("plantar", call, outlines, lambda r: _size(r.corners), ours=True),
+            Route("plantar, its proven bound", call, outlines, lambda r: _size(r.corners) * (1.0 + r.gap), ours=True),
+            Route("plantar, along the axes", along, outlines, _size, approximate=True),
+        ]
+        wanted = [_size(call(o, np.inf).corners) for o in outlines]
+        yield name, compare(name, f"{cells} random", routes, Reference(wanted), rounds)
 
 
 def _size(ring: Array) -> float:

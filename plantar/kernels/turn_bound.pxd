@@ -7,6 +7,7 @@ cdef Py_ssize_t _LINES
 cdef Py_ssize_t _CHAIN
 cdef int _STEPS
 cdef double _TOUCH
+cdef double _WIDER
 cdef double _INF
 
 @cython.final
@@ -75,6 +76,9 @@ cdef class TurnBound:
 
     @cython.locals(k=Py_ssize_t)
     cdef void _find_middles(self, double[::1] box, double[::1] around) noexcept
+
+    @cython.locals(k=Py_ssize_t, more=double)
+    cdef void _widen_middles(self) noexcept
 
     cdef void forget(self) noexcept
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from plantar.bench.stress.fields import FIELD_CHECKS
 from plantar.bench.stress.force import FORCE_CHECKS, LAST_CHECKS
+from plantar.bench.stress.random_cells import RANDOM_CHECKS
 from plantar.bench.stress.shapes import SHAPE_CHECKS
 from plantar.bench.stress.soles import blocks_of, stress_soles
 from plantar.bench.stress.tally import Tally, Tested
@@ -24,6 +25,7 @@ CALLED_BY: dict[str, str] = {
     "fit_ground_plane": "Percept.ground_plane_in_sole",
     "preemptive_polygon": "Percept.preemptive_polygon_in_sole",
     "rectangle_in_outline": "Percept.outline_rectangle_in_sole",
+    "rectangle_in_outline_any_angle": "Percept.outline_rectangle_any_angle_in_sole",
     **{
         name: f"Percept.{name}_in_sole"
         for name in (
@@ -115,7 +117,7 @@ def stress(
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for block in blocks_of(stress_soles(), readings, seed):
-            for check in (*FORCE_CHECKS, *SHAPE_CHECKS, *FIELD_CHECKS, *LAST_CHECKS):
+            for check in (*FORCE_CHECKS, *SHAPE_CHECKS, *FIELD_CHECKS, *RANDOM_CHECKS, *LAST_CHECKS):
                 tally.run(check, block)
             done += len(block)
             del block  # its memory, still in the cache, is what the next block takes

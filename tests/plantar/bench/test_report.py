@@ -13,6 +13,7 @@ import pytest
 from plantar.bench import references as exact
 from plantar.bench import rivals
 from plantar.bench.comparison import Reference, Result, Route, compare
+from plantar.bench.random_cells import random_outline
 from plantar.bench.report import copy_share, targets, write_kernel_report
 
 TRIANGLE = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
@@ -47,6 +48,14 @@ def test_the_reference_in_an_outline_sees_holes_and_upright_edges():
     hole = 0.25 + 0.5 * SQUARE[::-1]
     assert exact.outline_rectangle_area([SQUARE, hole]) == pytest.approx(0.25, rel=1e-12)
     assert exact.outline_rectangle_area([SQUARE, SQUARE + np.array([1.5, 0.0])]) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_random_outlines_have_the_cells_that_were_asked_for():
+    for active, share in ((250, 0.3), (1000, 0.9)):
+        outline = random_outline(active, share, 1)
+        assert outline.area == pytest.approx(active * 1e-5, rel=0.2)
+        assert np.array_equal(outline.points, random_outline(active, share, 1).points)
+        assert not np.array_equal(outline.points, random_outline(active, share, 2).points)
 
 
 def test_rivals_are_right_where_they_should_be():
