@@ -328,7 +328,7 @@ def list_(
 
     Example: plantar list settings estimator
     """
-    from plantar.structured_text import described_files, packaged_files
+    from plantar.files.structured_text import described_files, packaged_files
 
     if name is not None and what != "settings":
         raise InputError(f"'list {what}' takes no name, got '{name}'; allowed: plantar list settings NAME")

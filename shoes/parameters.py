@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError
-from plantar.structured_text import read_json, read_toml
+from plantar.files.structured_text import read_json, read_toml
 from shoes.materials import MATERIALS, Material
 
 __all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]

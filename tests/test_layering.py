@@ -24,19 +24,7 @@ ALLOWED = {
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
         *("errors", "sides", "kernels", "arguments", "arrays", "plane_points", "lazy", "atomic", "console"),
-        *(
-            "input_file",
-            "structured_text",
-            "zip_archive",
-            "xml_file",
-            "model_files",
-            "optional_library",
-            "confined",
-            "settings",
-            "mechanics",
-            "layouts",
-            "plotting",
-        ),
+        *("optional_library", "files", "settings", "mechanics", "layouts", "plotting"),
         *("geometry", "sensing", "percepts", "recordings", "formats", "bench"),
     ),
     "gait": (

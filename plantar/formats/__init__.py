@@ -9,10 +9,10 @@ from pathlib import Path
 
 from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
+from plantar.files.input_file import check_input, is_file, open_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.plausibility import doubts
 from plantar.formats.units import find_unit
-from plantar.input_file import check_input, is_file, open_input
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import RATES, PressureRecording
 

@@ -23,17 +23,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, LayoutError
+from plantar.files.input_file import open_input
+from plantar.files.structured_text import JSON_MOST
+from plantar.files.zip_archive import open_archive
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.input_file import open_input
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES
-from plantar.structured_text import JSON_MOST
-from plantar.zip_archive import open_archive
 
 __all__ = ["FORMAT"]
 

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.confined import confined
 from plantar.errors import DependencyError, FormatError
+from plantar.files.confined import confined
+from plantar.files.input_file import check_input, open_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.units import FORCES, LENGTHS
-from plantar.input_file import check_input, open_input
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate
 

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, InputError
+from plantar.files.input_file import read_input
 from plantar.formats.format import Format
 from plantar.formats.image_size import stated_size
-from plantar.input_file import read_input
 from plantar.optional_library import optional_library
 
 __all__ = ["FORMAT", "FootprintImage", "Print", "read_footprints"]

@@ -16,17 +16,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.confined import confined
 from plantar.errors import DependencyError, FormatError
+from plantar.files.confined import confined
+from plantar.files.input_file import check_input, is_file
+from plantar.files.structured_text import JSON_MOST
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
-from plantar.input_file import check_input, is_file
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, sampling
 from plantar.sides import SIDES
-from plantar.structured_text import JSON_MOST
 
 __all__ = ["FORMAT", "read_bag", "series_of_bag"]
 

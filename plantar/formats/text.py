@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
-from plantar.input_file import open_input
+from plantar.files.input_file import open_input
 
 __all__ = ["blocks_of_lines", "encoding_of", "number", "number_in", "open_text", "row_of_numbers", "seconds_of_clock"]
 

@@ -13,8 +13,8 @@ import numpy as np
 
 from plantar.atomic import write_text
 from plantar.errors import LayoutError
+from plantar.files.structured_text import read_json
 from plantar.layouts.layout import Side, SoleLayout
-from plantar.structured_text import read_json
 
 __all__ = ["SCHEMA", "layout_from_dict", "layout_to_dict", "read_layout", "write_layout"]
 

@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError, LayoutError
+from plantar.files.structured_text import JSON_MOST
+from plantar.files.zip_archive import ALLOWED, is_bomb
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import FrameTable
-from plantar.structured_text import JSON_MOST
-from plantar.zip_archive import ALLOWED, is_bomb
 
 __all__ = ["MCAP_MAGIC", "McapContent"]
 

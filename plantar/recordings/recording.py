@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from plantar.atomic import output_folder, replacing
 from plantar.errors import FormatError
-from plantar.input_file import open_input
+from plantar.files.input_file import open_input
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.recordings.mcap_content import MCAP_MAGIC, McapContent

@@ -1,4 +1,4 @@
-"""DXF drawings through ezdxf: called in a process of its own, see `plantar.confined`."""
+"""DXF drawings through ezdxf: called in a process of its own, see `plantar.files.confined`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Triangle meshes from files: STL, OBJ and 3MF read here, PLY and OFF through trimesh, STEP through OpenCascade.
 
-The libraries are called in a process of its own whose memory and time have limits (`plantar.confined`).
+The libraries are called in a process of its own whose memory and time have limits (`plantar.files.confined`).
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from typing import Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.confined import confined
 from plantar.errors import DependencyError, FootError
-from plantar.input_file import check_input, read_input
+from plantar.files.confined import confined
+from plantar.files.input_file import check_input, read_input
 from shoes.foot.obj_file import triangles_of_obj
 from shoes.foot.package_3mf import triangles_of_3mf
 from shoes.foot.stl_file import triangles_of_stl

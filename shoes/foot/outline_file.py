@@ -12,10 +12,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.confined import confined
 from plantar.errors import DependencyError, FootError, InputError
-from plantar.input_file import check_input
-from plantar.structured_text import read_json
+from plantar.files.confined import confined
+from plantar.files.input_file import check_input
+from plantar.files.structured_text import read_json
 from shoes.foot.foot import Foot, foot_from_outline
 from shoes.foot.foot_mesh import unit_scale
 from shoes.foot.mesh_file import Unit

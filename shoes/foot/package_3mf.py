@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.zip_archive import open_archive
+from plantar.files.zip_archive import open_archive
 
 __all__ = ["triangles_of_3mf"]
 

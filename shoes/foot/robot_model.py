@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from plantar.arrays import is_finite
 from plantar.errors import FootError
+from plantar.files.model_files import folders_of_model, mesh_of_urdf, named_file, parsed_model
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.model_files import folders_of_model, mesh_of_urdf, named_file, parsed_model
 from shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from shoes.geometry.primitives import primitive
 from shoes.geometry.transforms import Pose, mjcf_rotation

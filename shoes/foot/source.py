@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, cast
 
 from plantar.errors import InputError, RobotError
+from plantar.files.structured_text import packaged_files, read_toml
 from plantar.sides import SIDES
-from plantar.structured_text import packaged_files, read_toml
 from shoes.foot.foot import Foot, foot_from_dimensions
 from shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
 from shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing

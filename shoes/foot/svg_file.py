@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.input_file import read_input
+from plantar.files.input_file import read_input
+from plantar.files.xml_file import XML_MOST, parse_xml
 from plantar.optional_library import optional_library
-from plantar.xml_file import XML_MOST, parse_xml
 from shoes.foot.mesh_file import Unit
 
 __all__ = ["MOST_POINTS", "Lines", "lines_of_svg"]

@@ -1,4 +1,4 @@
-"""PLY and OFF files through trimesh: called in a process of its own, see `plantar.confined`."""
+"""PLY and OFF files through trimesh: called in a process of its own, see `plantar.files.confined`."""
 
 from __future__ import annotations
 

@@ -13,8 +13,8 @@ import mujoco
 import numpy as np
 
 from plantar.errors import RobotError
+from plantar.files.model_files import check_model
 from plantar.mechanics.lip import GRAVITY
-from plantar.model_files import check_model
 from plantar.sides import SIDES
 from sim.robots.leg_shapes import add_leg_shapes
 from sim.robots.robot import LegNames, Robot

@@ -11,13 +11,13 @@ from typing import Any
 from gait.balance.balance_laws import balance_gains
 from gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.errors import InputError, LayoutError, RobotError
-from plantar.input_file import check_input, is_file
+from plantar.files.input_file import check_input, is_file
+from plantar.files.model_files import named_file
+from plantar.files.structured_text import read_json, read_toml
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
-from plantar.model_files import named_file
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sides import SIDES, Side
-from plantar.structured_text import read_json, read_toml
 from sim.robots.biped import BipedParameters
 from sim.robots.robot import FootShape, LegNames, Robot
 from sim.robots.robot_tables import RobotTables

@@ -18,10 +18,10 @@ import numpy as np
 from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.errors import InputError, SceneError
-from plantar.input_file import is_file
+from plantar.files.input_file import is_file
+from plantar.files.structured_text import parse_toml, read_toml
 from plantar.settings.schema import Settings, choice, number, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.structured_text import parse_toml, read_toml
 from sim.sensing.settings import Sensing
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
 

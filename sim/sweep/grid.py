@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from plantar.errors import InputError
-from plantar.structured_text import parse_toml
+from plantar.files.structured_text import parse_toml
 
 __all__ = ["canonical", "is_word", "split_values"]
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from plantar import __version__
 from plantar.errors import PlantarError, RobotError, SceneError
-from plantar.input_file import is_file, open_input
+from plantar.files.input_file import is_file, open_input
+from plantar.files.structured_text import read_toml
 from plantar.sides import SIDES
-from plantar.structured_text import read_toml
 from sim.robots import load_robot
 from sim.run.scene import scene_file
 

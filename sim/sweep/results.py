@@ -14,7 +14,7 @@ from typing import Any
 
 from plantar.atomic import write_text
 from plantar.errors import InputError
-from plantar.structured_text import read_json
+from plantar.files.structured_text import read_json
 from sim.sweep.grid import canonical, is_word
 from sim.sweep.inputs import changes
 from sim.sweep.lock import locked

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import FootError, FormatError, PlantarError
-from plantar.input_file import check_input, is_file, open_input, read_input
+from plantar.files.input_file import check_input, is_file, open_input, read_input
 
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="pipes, devices and /proc as on Linux")
 

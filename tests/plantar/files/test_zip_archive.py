@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from plantar.errors import FormatError
+from plantar.files.zip_archive import open_archive
 from plantar.formats import ReadOptions, read_recording
-from plantar.zip_archive import open_archive
 
 Within = Callable[..., AbstractContextManager[None]]
 SIDE = ReadOptions(side="left")

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import BinaryIO
 
 from plantar.errors import PlantarError
-from plantar.input_file import open_input
+from plantar.files.input_file import open_input
 
 __all__ = ["ALLOWED", "is_bomb", "open_archive"]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError, PlantarError
-from plantar.input_file import read_input
+from plantar.files.input_file import read_input
 
 __all__ = ["JSON_MOST", "TOML_MOST", "described_files", "packaged_files", "parse_toml", "read_json", "read_toml"]
 

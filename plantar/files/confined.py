@@ -24,7 +24,7 @@ from plantar.errors import PlantarError
 
 __all__ = ["confined"]
 
-_CODE = "from plantar.confined import _called_on_file; _called_on_file()"
+_CODE = "from plantar.files.confined import _called_on_file; _called_on_file()"
 _LARGEST_FILE = 1_000_000_000  # bytes that the process may write of a temporary file
 
 

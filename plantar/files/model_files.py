@@ -19,8 +19,8 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from plantar.errors import PlantarError
-from plantar.input_file import read_input
-from plantar.xml_file import XML_MOST, parse_xml
+from plantar.files.input_file import read_input
+from plantar.files.xml_file import XML_MOST, parse_xml
 
 __all__ = ["VARIABLE", "check_model", "folders_of_model", "mesh_of_urdf", "named_file", "parsed_model"]
 

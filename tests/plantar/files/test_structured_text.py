@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import InputError
-from plantar.structured_text import (
+from plantar.files.structured_text import (
     JSON_MOST,
     TOML_MOST,
     described_files,
@@ -97,7 +97,7 @@ def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
 
 def test_the_files_of_a_package_are_found_without_loading_it():
     code = (
-        "import sys\nfrom plantar.structured_text import packaged_files\n"
+        "import sys\nfrom plantar.files.structured_text import packaged_files\n"
         "found = [p.name for p in packaged_files('sim', 'scenes/*.toml')]\n"
         "assert found == sorted(found) and 'beam.toml' in found\nassert 'sim' not in sys.modules"
     )

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from plantar.errors import RobotError
-from plantar.model_files import VARIABLE, check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
-from plantar.xml_file import parse_xml
+from plantar.files.model_files import VARIABLE, check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
+from plantar.files.xml_file import parse_xml
 
 Within = Callable[..., AbstractContextManager[None]]
 

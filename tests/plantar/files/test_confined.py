@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar.confined import confined
 from plantar.errors import FormatError
+from plantar.files.confined import confined
 
 LIBRARY = """
 import ctypes, os, sys, time
@@ -77,7 +77,7 @@ def test_what_goes_wrong_is_one_line(library: Path, name: str, reason: str) -> N
 def test_what_never_ends_is_ended(library: Path, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
-    monkeypatch.setattr("plantar.confined._LARGEST_FILE", 50_000_000)
+    monkeypatch.setattr("plantar.files.confined._LARGEST_FILE", 50_000_000)
     start = time.monotonic()
     with pytest.raises(FormatError, match=r"it takes longer than 1 s|Errno 27|SIGXFSZ"):
         call(name, library, seconds=1.0)
