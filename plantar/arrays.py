@@ -17,6 +17,7 @@ from plantar.kernels.limits import points_within, values_within
 
 __all__ = [
     "array",
+    "held_numbers",
     "integers",
     "is_finite",
     "mask",
@@ -56,12 +57,34 @@ def numbers(value: object, name: str, error: type[PlantarError] = InputError) ->
     """
     if type(value) is np.ndarray and value.dtype is _FLOAT:
         return value
+    given = held_numbers(value, name, error)
+    with np.errstate(over="ignore"):  # a longer float than float64 holds is inf
+        return np.asarray(given, dtype=_FLOAT)
+
+
+def held_numbers(value: object, name: str, error: type[PlantarError] = InputError) -> NDArray[Any]:
+    """Real numbers in the type that holds them, an array of any shape: for one that is too large to convert.
+
+    Args:
+        value: What a caller handed over, for example a memory-mapped array.
+        name: What it is, the subject of an error.
+        error: Which error to raise.
+
+    Returns:
+        The very array where it is one.
+
+    Raises:
+        PlantarError: If these are not real numbers, rows differ in length, or values are masked.
+
+    Example:
+        >>> held_numbers(np.zeros(2, dtype=np.float32), "forces").dtype
+        dtype('float32')
+    """
     given = _given(value, name, error)
     if given.dtype.kind not in "fiub":
         what = "None" if value is None else _KINDS.get(given.dtype.kind, str(given.dtype))
         raise error(f"{does(name, 'are')} not numeric: {what}; expected real numbers")
-    with np.errstate(over="ignore"):  # a longer float than float64 holds is inf
-        return np.asarray(given, dtype=_FLOAT)
+    return given
 
 
 def array(

@@ -5,10 +5,33 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arrays import array
 from plantar.kernels.cut_cells import cut_cells
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["CellCutter"]
+__all__ = ["CellCutter", "half_planes"]
+
+
+def half_planes(lines: ArrayLike, name: str = "lines") -> NDArray[np.float64]:
+    """Half-planes as a caller hands them over; an empty list is none.
+
+    Args:
+        lines: Half-planes (m, 3) n . x <= h.
+        name: What they are, the subject of an error.
+
+    Returns:
+        Half-planes (m, 3), not copied where they are an array of float64.
+
+    Raises:
+        InputError: If these are not (m, 3) finite numbers.
+
+    Example:
+        >>> half_planes([]).shape, half_planes([[1, 0, 0.5]]).tolist()
+        ((0, 3), [[1.0, 0.0, 0.5]])
+    """
+    if isinstance(lines, list | tuple) and not len(lines):
+        return np.empty((0, 3))
+    return array(lines, name, ("m", 3), finite=True)
 
 
 class CellCutter:
@@ -39,8 +62,11 @@ class CellCutter:
         Returns:
             Area in m^2 of what is left of each cell and its first moments in m^3 about the sole frame's origin, (n, 3),
             and the chords (n, m, 3) along which lines cut: length in m, and middle (x, y) in m.
+
+        Raises:
+            InputError: If these are not (m, 3) finite numbers.
         """
-        lines = np.ascontiguousarray(lines, dtype=np.float64).reshape(-1, 3)
+        lines = np.ascontiguousarray(half_planes(lines))
         n = len(self._start) - 1
         measure, chords = np.empty((n, 3)), np.empty((n, len(lines), 3))
         while not cut_cells(self.points, self._start, lines, self._scratch, self._tags, measure, chords):

@@ -8,8 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.errors import InputError
 from plantar.kernels import is_compiled
 from plantar.kernels.outline import EdgeTable
+from plantar.plane_points import plane_points
 
 __all__ = ["WELD", "EdgeTable", "cells_overlap", "edge_table"]
 
@@ -30,13 +32,18 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
     Returns:
         The table; None where cells overlap, so that no walk along unshared edges gives their outline.
 
+    Raises:
+        InputError: If the points are not (v, 2) finite numbers, or a cell names one that is not there.
+
     Example:
         >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]], [[0, 1, 2, 3], [1, 4, 5, 2]])
         >>> points, starts, areas = table.walk(bytes([1, 1]))
         >>> sorted(points.tolist()), starts, areas
         ([[0.0, 0.0], [0.0, 1.0], [2.0, 0.0], [2.0, 1.0]], [0, 4], [2.0])
     """
-    xy = np.asarray(vertices, dtype=float).reshape(-1, 2)
+    xy = plane_points(vertices, "vertices")
+    if any(not 0 <= i < len(xy) for cell in corners for i in cell):
+        raise InputError(f"corners of cells name vertices beyond the {len(xy)} vertices; allowed: 0 to {len(xy) - 1}")
     rings = [_counter_clockwise(xy, list(cell)) for cell in corners]
     lengths = [math.dist(xy[a], xy[b]) for ring in rings for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
     tolerance = WELD * float(np.median(lengths)) if lengths else 0.0

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, items, number
-from plantar.arrays import array, integers, numbers
+from plantar.arrays import array, integers, is_finite, numbers
 from plantar.errors import InputError, LayoutError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.plane_points import plane_points
@@ -222,7 +222,7 @@ def _ring(points: ArrayLike, what: str) -> NDArray[np.float64]:
         ring = numbers(points, what)
     except InputError as problem:
         raise LayoutError(f"{what} is not a list of (x, y) points ({problem})") from None
-    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not np.isfinite(ring).all():
+    if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not is_finite(ring):
         raise LayoutError(f"{what} is not a list of 3 or more finite (x, y) points")
     return ring
 

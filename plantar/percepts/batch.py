@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arrays import held_numbers
 from plantar.errors import ReadingError
 from plantar.kernels import frames as _kernel
 from plantar.layouts.layout import SoleLayout
@@ -306,9 +307,7 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
 
 def _forces(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> NDArray[np.float64]:
     """The forces as an array of numbers, not copied, of the layout's width."""
-    array = np.asanyarray(force)
-    if array.dtype.kind not in "fiub":
-        raise ReadingError(f"{name} are not numeric")
+    array = held_numbers(force, name, ReadingError)
     if array.ndim != 2 or array.shape[1] != len(layout):
         raise ReadingError(f"{name} have shape {array.shape}; expected (frames, {len(layout)})")
     return array

@@ -7,10 +7,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import InputError, ReadingError
+from plantar.arguments import number
+from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_values
+from plantar.plane_points import plane_point
 
 __all__ = ["FootTick", "walking_tick"]
+
+_FLOAT = np.dtype(np.float64)
 
 
 class FootTick(NamedTuple):
@@ -67,7 +72,7 @@ def walking_tick(
 
     Raises:
         ReadingError: If the forces are not numeric, or their number is not that of the taxels.
-        InputError: If the offset is below 0 or not a number.
+        InputError: If the offset is below 0, or it, the threshold or the aim's two are no numbers.
 
     Example:
         >>> from plantar import hex_layout
@@ -76,17 +81,21 @@ def walking_tick(
         >>> foot.clamped.round(9).tolist(), round(foot.wrench[2]), walking_tick(layout, np.zeros(37), (0, 0)).clamped
         ([0.08, 0.0], 370, None)
     """
-    if not offset >= 0.0:
+    # What comes as it should is looked at here: calls for it would take a twentieth of the tick.
+    distance = offset if type(offset) is float else number(offset, "offset of the safe polygon", nan=True)
+    if not distance >= 0.0:
         raise InputError(f"offset of the safe polygon is {offset} m; allowed: 0 or more")
-    try:
-        readings = np.asarray(force, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ReadingError("forces are not numeric") from None
-    if readings.shape != (len(layout.corners),):
-        raise ReadingError(f"forces have shape {readings.shape}; layout '{layout.name}' has {len(layout)} taxels")
-    level = layout.force_threshold if threshold is None else threshold
+    plain = type(force) is np.ndarray and force.dtype is _FLOAT and force.shape == (len(layout.corners),)
+    readings = force if plain else taxel_values(layout, force)
+    level = layout.force_threshold if threshold is None else number(threshold, "force threshold")
+    if type(aim) is tuple and len(aim) == 2 and type(aim[0]) is type(aim[1]) is float:
+        at_x, at_y = aim
+    elif type(aim) is np.ndarray and aim.dtype is _FLOAT and aim.shape == (2,):
+        at_x, at_y = aim.tolist()
+    else:
+        at_x, at_y = plane_point(aim, "aim")
     active, sums, hull, area, x, y, safe, nearest = layout.kernel.tick(
-        readings, level, layout.force_limit, offset, aim[0], aim[1]
+        readings, level, layout.force_limit, distance, at_x, at_y
     )
     contact = len(hull) > 0
     return FootTick(

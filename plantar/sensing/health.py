@@ -230,7 +230,7 @@ def fill_from_neighbours(
     out = taxel_frames(layout, values, "readings").copy()
     bad = mask(faulty, "mask of faulty taxels", (...,), ReadingError)
     if bad.shape != out.shape:
-        if bad.shape != out.shape[1:]:
+        if bad.shape != out.shape[-1:]:
             raise ReadingError(f"mask of faulty taxels has shape {bad.shape}; expected ({len(layout)},) or {out.shape}")
         bad = np.broadcast_to(bad, out.shape)
     *frame, taxel = bad.nonzero()

@@ -20,11 +20,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.errors import ReadingError
-from plantar.geometry.cell_cutting import CellCutter
+from plantar.arguments import LARGEST, number
+from plantar.arrays import array
+from plantar.geometry.cell_cutting import CellCutter, half_planes
 from plantar.geometry.polygon import closest_point, convex_hull, inner_offset
 from plantar.kernels.clean import clean_ring, extent, turning
 from plantar.layouts.layout import SoleLayout
+from plantar.layouts.taxel_values import taxel_mask, taxel_values
 from plantar.sensing.proximity import cells_polygon
 
 __all__ = ["GroundEdges", "PartialContact"]
@@ -96,6 +98,9 @@ class PartialContact:
 
         Returns:
             Area in m^2 and moments in m^3 about the sole frame's origin, (n, 3).
+
+        Raises:
+            InputError: If these are not (m, 3) finite numbers.
         """
         return self._cells.cut(lines)[0]
 
@@ -112,9 +117,13 @@ class PartialContact:
 
         Returns:
             Forces (n,) in N, none negative.
+
+        Raises:
+            InputError: If the load, the point or a line is not finite numbers of its shape.
         """
-        measure = self.cover(np.asarray(lines, dtype=np.float64).reshape(-1, 3))
-        field, on = self._field(measure, load, np.asarray(center_of_pressure, dtype=np.float64))
+        place = array(center_of_pressure, "center of pressure", (2,), finite=True)
+        measure = self.cover(lines)
+        field, on = self._field(measure, number(load, "load", finite=True), place)
         return np.where(on, np.maximum(measure @ field, 0.0), 0.0)
 
     def _field(
@@ -160,20 +169,21 @@ class PartialContact:
 
         Raises:
             ReadingError: If load or mask has not n values.
+            InputError: If the lines to start from are not (m, 3) finite numbers.
         """
-        force, mask = np.asarray(load, dtype=np.float64), np.asarray(active, dtype=bool)
-        if force.shape != (len(self.layout),) or mask.shape != force.shape:
-            raise ReadingError(f"load and mask have shapes {force.shape} and {mask.shape}; allowed: (n,) taxels")
-        sound = np.isfinite(force)
+        force = taxel_values(self.layout, load, "loads")
+        mask = taxel_mask(self.layout, active, "mask of active taxels")
+        given = None if start is None else half_planes(start, "lines to start from")
+        sound = np.abs(force) <= LARGEST
         mask = mask & sound & (force > 0.0)
         if not mask.any():
             self.edges = None
             return GroundEdges(np.empty((0, 3)), np.empty((0, 2)), np.empty(0), 0.0)
-        if start is None:
+        if given is None:
             strong = self._strong(force, mask)
             first = self.between(strong, sound & ~strong)
         else:
-            first = np.asarray(start, dtype=np.float64).reshape(-1, 3)
+            first = given
         lines = first
         if self.edges is not None and len(self.edges.lines) == len(first) > 0:
             order = np.argmax(first[:, :2] @ self.edges.lines[:, :2].T, axis=1)
@@ -201,9 +211,13 @@ class PartialContact:
 
         Returns:
             Half-planes (m, 3), the side with the most idle cells first; m up to 4.
+
+        Raises:
+            ReadingError: If a mask is not one of n truth values.
         """
-        inner, outer = self._centers[np.asarray(supported, dtype=bool)], self._centers[np.asarray(idle, dtype=bool)]
-        hull = cells_polygon(self.layout, supported)
+        over = taxel_mask(self.layout, supported, "mask of supported taxels")
+        inner, outer = self._centers[over], self._centers[taxel_mask(self.layout, idle, "mask of idle taxels")]
+        hull = cells_polygon(self.layout, over)
         if len(hull) < 3 or not len(outer):
             return np.empty((0, 3))
         after = np.roll(hull, -1, axis=0) - hull
@@ -233,9 +247,12 @@ class PartialContact:
 
         Returns:
             Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
+
+        Raises:
+            InputError: If these are not (m, 3) finite numbers.
         """
         left = self._hull
-        for nx, ny, h in np.asarray(lines, dtype=np.float64).reshape(-1, 3).tolist():
+        for nx, ny, h in half_planes(lines).tolist():
             left = _clipped(left, nx, ny, h)
         return left
 

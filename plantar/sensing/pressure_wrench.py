@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
-from plantar.arrays import array, numbers
+from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames
@@ -62,7 +62,7 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         Wrench in the shape of `wrench` in N and N m; zero where the contact area is 0.
 
     Raises:
-        InputError: If the reference area is not a finite value above 0, or there is not one area a wrench.
+        InputError: If the reference area is not a finite value above 0, or there is not one finite area a wrench.
 
     Example:
         >>> scaled_by_area([0, 0, 60.0, 0, 0, 0], 2e-3, 1e-3).tolist()
@@ -73,8 +73,9 @@ def scaled_by_area(wrench: ArrayLike, contact_area: ArrayLike, reference_area: f
         raise InputError(f"reference area is {reference_area} m^2; allowed: a finite value above 0")
     given = array(wrench, "wrench", (..., 6))
     if isinstance(contact_area, float) and given.ndim == 1:  # one reading: without arrays for one number
-        return np.asarray(given * (reference / contact_area if contact_area > 0.0 else 0.0))
-    area = numbers(contact_area, "contact area")
+        one = number(contact_area, "contact area", finite=True)
+        return np.asarray(given * (reference / one if one > 0.0 else 0.0))
+    area = array(contact_area, "contact area", (...,), finite=True)
     if area.shape != given.shape[:-1]:
         raise InputError(f"contact area has shape {area.shape}; expected one a wrench, {given.shape[:-1]}")
     with np.errstate(over="ignore", invalid="ignore"):  # of forces that are not finite
