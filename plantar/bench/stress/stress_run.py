@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from plantar.bench.stress.arguments import ARGUMENT_CHECKS
 from plantar.bench.stress.fields import FIELD_CHECKS
 from plantar.bench.stress.force import FORCE_CHECKS, LAST_CHECKS
 from plantar.bench.stress.random_cells import RANDOM_CHECKS
@@ -66,7 +67,7 @@ class StressResult:
         met: dict[str, int] = {}
         for name, tested in self.functions.items():
             function = name.split(":")[0].split(",")[0]
-            if function == "Percept":
+            if function in ("Percept", "wrong arguments"):
                 continue
             function = CALLED_BY.get(function, function)
             met[function] = max(met.get(function, 0), tested.readings)
@@ -96,7 +97,7 @@ def stress(
     """Throw readings at every public function of the perception.
 
     A warning of numpy counts as a failure, since the code means to do without; so does what raises, hangs, gives NaN
-    unasked, or leaves its bound.
+    unasked, or leaves its bound. With each block of readings some functions are called with wrong arguments, too.
 
     Args:
         readings: How many at least, 1 or more.
@@ -117,7 +118,14 @@ def stress(
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for block in blocks_of(stress_soles(), readings, seed):
-            for check in (*FORCE_CHECKS, *SHAPE_CHECKS, *FIELD_CHECKS, *RANDOM_CHECKS, *LAST_CHECKS):
+            for check in (
+                *FORCE_CHECKS,
+                *SHAPE_CHECKS,
+                *FIELD_CHECKS,
+                *RANDOM_CHECKS,
+                *ARGUMENT_CHECKS,
+                *LAST_CHECKS,
+            ):
                 tally.run(check, block)
             done += len(block)
             del block  # its memory, still in the cache, is what the next block takes

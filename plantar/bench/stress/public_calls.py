@@ -1,0 +1,674 @@
+"""Public functions of the perception that take arrays, each with a right call: what wrong calls are made of."""
+
+from __future__ import annotations
+
+import inspect
+import pkgutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry import contact_rectangle, enclosing, inscribed, outline, polygon
+from plantar.geometry.cell_cutting import CellCutter, half_planes
+from plantar.geometry.convex_shapes import points_of
+from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, tiling
+from plantar.layouts.hex_lattice import HexLattice
+from plantar.layouts.layout import SoleLayout
+from plantar.mechanics import lip, wrench, zmp
+from plantar.percepts import batch, foot_tick, sole_pose, support
+from plantar.percepts.percept import Percept
+from plantar.sensing import (
+    activation,
+    body_skin,
+    clipping,
+    force,
+    ground_plane,
+    health,
+    partial_contact,
+    pressure_wrench,
+    proximity,
+    temperature,
+    virtual_wrench,
+)
+from plantar.sensing.reading import Reading
+
+__all__ = ["INNER", "Argument", "Call", "array_functions", "public_calls"]
+
+Array = NDArray[Any]
+
+ROOMS = ("geometry", "layouts", "mechanics", "percepts", "sensing")
+"""Rooms whose functions take arrays from callers."""
+
+INNER: frozenset[str] = frozenset(
+    {
+        # Called some hundred times a control tick with arrays that the library made; they take float64 of their shape.
+        *(f"rotation.{name}" for name in ("heading", "orthonormalised", "rotation_error", "rotation_from_vector")),
+        *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
+        *("wrench.wrench_in_frame", "wrench.Wrench.of", "contact.Contact", "contact.Contact.wrench_in_world"),
+        *("base_state.BaseState", "cell_edges.cells_overlap", "taxel_values.without_dead"),
+        # What functions return; nobody else makes them.
+        *("batch.GroundPlanes", "batch.Loads", "batch.SupportPolygons", "partial_contact.GroundEdges"),
+        *("health.TaxelHealth", "ground_plane.GroundPlane", "proximity.HeightContour", "inscribed.Circle"),
+        *("foot_tick.FootTick",),
+        # Hands views of what it is given to the caller, who may pass a memory map.
+        "batch.blocks",
+    }
+)
+"""Functions that take no arrays from callers, though they take arrays."""
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An array that a function takes.
+
+    Attributes:
+        value: A right one.
+        shape: What its shape may be: numbers, letters for any length (the same letter, the same length), `...` in front
+            for any axes.
+        called: Words of which an error has one.
+        nan: Whether values that are not finite are allowed, as of a taxel that is dead.
+        optional: Whether None is allowed.
+        truth: Whether it holds truth values.
+        least: Rows that it needs.
+    """
+
+    value: Any
+    shape: tuple[Any, ...]
+    called: str
+    nan: bool = False
+    optional: bool = False
+    truth: bool = False
+    least: int = 0
+
+    def fits(self, shape: tuple[int, ...]) -> bool:
+        """Whether a shape may be one of this argument by itself."""
+        wanted = self.shape
+        if wanted and wanted[0] is ...:
+            wanted = wanted[1:]
+            shape = shape[len(shape) - len(wanted) :] if len(shape) >= len(wanted) else (-1,)
+        if shape == (0,) and not self.least and (len(wanted) == 2 or self.shape == (..., 2)):
+            return True  # an empty list is no points
+        same = len(shape) == len(wanted)
+        return same and all(isinstance(w, str) or w == s for w, s in zip(wanted, shape, strict=True))
+
+    def letters(self, shape: tuple[int, ...]) -> dict[str, int]:
+        """Length that a shape gives each letter."""
+        last = [w for w in self.shape if w is not ...]
+        return {w: s for w, s in zip(last, shape[len(shape) - len(last) :], strict=False) if isinstance(w, str)}
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function and right arguments.
+
+    Attributes:
+        name: Module and name of the function.
+        function: Takes the arrays by name.
+        arrays: The arrays.
+        others: What else it takes.
+    """
+
+    name: str
+    function: Callable[..., Any]
+    arrays: dict[str, Argument]
+    others: dict[str, Any] = field(default_factory=dict)
+
+    def __call__(self, **changed: Any) -> Any:
+        """What the function gives, some arrays changed."""
+        return self.function(**{k: a.value for k, a in self.arrays.items()} | self.others | changed)
+
+    def taken(self, name: str, shape: tuple[int, ...]) -> bool:
+        """Whether a shape of one array goes with the others.
+
+        Args:
+            name: The array.
+            shape: A shape for it.
+
+        Returns:
+            Whether it does.
+        """
+        if not self.arrays[name].fits(shape):
+            return False
+        known: dict[str, int] = {}
+        for other, argument in self.arrays.items():
+            if other != name and argument.value is not None:
+                known |= argument.letters(np.shape(argument.value))
+        return all(known.get(k, n) == n for k, n in self.arrays[name].letters(shape).items())
+
+
+def array_functions() -> Iterator[str]:
+    """Module and name of every public function, constructor and method of the rooms that takes an array.
+
+    Yields:
+        Names such as "polygon.area", "reading.Reading" and "outline.Outline.moved".
+
+    Example:
+        >>> "polygon.area" in set(array_functions())
+        True
+    """
+    for room in ROOMS:
+        package = import_module(f"plantar.{room}")
+        for found in pkgutil.iter_modules(package.__path__):
+            module = import_module(f"plantar.{room}.{found.name}")
+            for name in getattr(module, "__all__", ()):
+                value = getattr(module, name)
+                if getattr(value, "__module__", None) != module.__name__:
+                    continue
+                members = {"": value}
+                if inspect.isclass(value):
+                    members |= {f".{k}": getattr(value, k) for k in vars(value) if not k.startswith("_")}
+                yield from (f"{found.name}.{name}{k}" for k, member in members.items() if _takes_array(member))
+
+
+def _takes_array(function: Any) -> bool:
+    if not callable(function):
+        return False
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    return any(word in str(p.annotation) for p in parameters for word in ("ArrayLike", "NDArray"))
+
+
+def public_calls() -> list[Call]:
+    """A right call of every function that takes arrays, made anew.
+
+    Returns:
+        The calls.
+
+    Example:
+        >>> {call.name for call in public_calls()} | INNER >= set(array_functions())
+        True
+    """
+    sole = tiling.hex_layout(_OUTLINE, cell_area=900e-6)
+    return [
+        *_of_polygons(sole),
+        *_of_layouts(sole),
+        *_of_mechanics(),
+        *_of_readings(sole),
+        *_of_fields(sole),
+        *_of_batches(sole),
+        *_of_objects(sole),
+    ]
+
+
+_OUTLINE = np.array([[-0.125, -0.0625], [0.125, -0.0625], [0.125, 0.0625], [-0.125, 0.0625]])
+_RING = np.array([[0.0, 0.0], [0.25, 0.0], [0.25, 0.125], [0.125, 0.25], [0.0, 0.125]])
+_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+_WRENCH = np.array([1.0, -2.0, 64.0, 0.5, -0.25, 0.125])
+
+
+def _force(n: int) -> Array:
+    return np.arange(n) % 5 * 4.0
+
+
+def _distance(n: int) -> Array:
+    return 0.015625 + 0.0078125 * (np.arange(n) % 4)
+
+
+def _polygon(called: str = "polygon", nan: bool = False) -> Argument:
+    return Argument(_RING, ("k", 2), called, nan=nan)
+
+
+def _of_polygons(sole: SoleLayout) -> list[Call]:
+    point = Argument(np.array([0.5, 0.25]), (2,), "point", nan=True)
+    active = Argument(_force(len(sole)) > 4.0, (len(sole),), "mask", truth=True)
+    shapes = [  # of the convex hull of what is finite
+        *(enclosing.enclosing_parallelogram, enclosing.oriented_box),
+        *(inscribed.inscribed_circle, inscribed.inscribed_parallelogram, inscribed.inscribed_rectangle),
+        *(inscribed.inscribed_rectangle_any_angle, inscribed.inscribed_triangle),
+    ]
+    found = [Call(_name(f), f, {"polygon": _polygon(nan=True)}) for f in shapes]
+    found += [Call(_name(f), f, {"polygon": _polygon()}) for f in (polygon.area, polygon.centroid)]
+    clouds = (polygon.convex_hull, enclosing.bounding_box, points_of)
+    found += [Call(_name(f), f, {"points": _polygon("points polygon", nan=True)}) for f in clouds]
+    pairs = [polygon.closest_point, polygon.signed_margin]
+    found += [Call(_name(f), f, {"polygon": _polygon(), "point": point}) for f in pairs]
+    frame = {
+        "polygon_in_sole": _polygon(),
+        "rotation_sole_to_world": Argument(_TURN, (3, 3), "rotation"),
+        "position_sole_in_world": Argument(np.array([1.0, 2.0, 0.5]), (3,), "position"),
+    }
+    return [
+        *found,
+        Call(_name(polygon.inner_offset), polygon.inner_offset, {"polygon": _polygon()}, {"distance": 0.03125}),
+        Call(
+            _name(contact_rectangle.safe_rectangle),
+            contact_rectangle.safe_rectangle,
+            {"polygon": _polygon(nan=True)},
+            {"offset": 0.03125},
+        ),
+        Call(_name(outline.concave_outline), lambda active: outline.concave_outline(sole, active), {"active": active}),
+        Call(_name(support.polygon_in_world), support.polygon_in_world, frame),
+        Call(
+            _name(support.feet_support_polygon),
+            lambda polygon: support.feet_support_polygon([polygon, _RING]),
+            {"polygon": _polygon()},
+        ),
+        Call("cell_cutting.half_planes", half_planes, {"lines": Argument(_LINES, ("k", 3), "lines")}),
+        Call("cell_cutting.CellCutter.cut", CellCutter(sole).cut, {"lines": Argument(_LINES, ("k", 3), "lines")}),
+    ]
+
+
+_LINES = np.array([[1.0, 0.0, 0.03125], [0.0, 1.0, 0.015625]])
+
+
+def _name(function: Any) -> str:
+    return f"{function.__module__.rpartition('.')[2]}.{function.__qualname__}"
+
+
+def _of_layouts(sole: SoleLayout) -> list[Call]:
+    rim = Argument(_OUTLINE, ("k", 2), "outline polygon", least=3)
+    lattice = HexLattice(0.0009765625)
+    axial = Argument(np.array([[0, 0], [1, -1], [2, 3]]), (..., 2), "axial cells")
+    keys = Argument(lattice.centre_keys(axial.value), (..., 2), "keys")
+    corner = Argument(np.array([-0.125, -0.0625]), (2,), "lower upper corner box bounds")
+    cells = [np.array([[i, 0.0], [i + 1.0, 0.0], [i + 1.0, 1.0], [i, 1.0]]) * 0.125 for i in range(3)]
+    cell = Argument(cells[1], ("k", 2), "cell ring polygon", least=3)
+    vertices = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    return [
+        Call("tiling.hex_layout", lambda outline: tiling.hex_layout(outline, cell_area=900e-6), {"outline": rim}),
+        Call(
+            "tiling.grid_layout",
+            lambda outline: tiling.grid_layout(outline, pitch=(0.03125, 0.03125)),
+            {"outline": rim},
+        ),
+        Call(
+            "hex_lattice.HexLattice.cells_near",
+            lattice.cells_near,
+            {"lower": corner, "upper": Argument(-corner.value, (2,), corner.called)},
+        ),
+        *(
+            Call(f"hex_lattice.HexLattice.{name}", getattr(lattice, name), {"axial": axial})
+            for name in ("centre_keys", "centres", "corner_keys", "corners")
+        ),
+        Call("hex_lattice.HexLattice.position_of_keys", lattice.position_of_keys, {"keys": keys}),
+        Call(
+            "cell_layout.layout_of_cells",
+            lambda cell: cell_layout.layout_of_cells([cells[0], cell, cells[2]]),
+            {"cell": cell},
+        ),
+        Call(
+            "cell_layout.joined_layout",
+            lambda outline: cell_layout.joined_layout([sole], outline=outline),
+            {"outline": Argument(_OUTLINE, ("k", 2), "outline polygon", optional=True, least=3)},
+        ),
+        Call(
+            "cell_layout.shared_vertices",
+            lambda ring: cell_layout.shared_vertices([cells[0], ring], 1e-9),
+            {"ring": _polygon("ring")},
+        ),
+        Call(
+            "cell_edges.edge_table",
+            lambda vertices: cell_edges.edge_table(vertices, [(0, 1, 2, 3)]),
+            {"vertices": Argument(vertices, ("k", 2), "vertices")},
+        ),
+        Call(
+            "curved_sole.rotations_to_normals",
+            curved_sole.rotations_to_normals,
+            {"normals": Argument(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]]), ("k", 3), "normals directions taxel")},
+        ),
+        Call("layout.SoleLayout", lambda **arrays: _layout_with(sole, arrays), _arrays_of(sole)),
+        Call(
+            "taxel_values.taxel_frames",
+            lambda values: taxel_values.taxel_frames(sole, values),
+            {"values": _reading(sole, frames=True)},
+        ),
+        Call(
+            "taxel_values.taxel_values",
+            lambda values: taxel_values.taxel_values(sole, values),
+            {"values": _reading(sole)},
+        ),
+        Call("taxel_values.taxel_mask", lambda values: taxel_values.taxel_mask(sole, values), {"values": _mask(sole)}),
+    ]
+
+
+def _reading(sole: SoleLayout, called: str = "force", frames: bool = False) -> Argument:
+    n = len(sole)
+    value = np.stack([_force(n), _force(n)[::-1]]) if frames else _force(n)
+    return Argument(value, (..., n) if frames else (n,), called, nan=True)
+
+
+def _far(sole: SoleLayout, frames: bool = False) -> Argument:
+    n = len(sole)
+    value = np.stack([_distance(n), _distance(n)[::-1]]) if frames else _distance(n)
+    return Argument(value, (..., n) if frames else (n,), "distance proximit", nan=True)
+
+
+def _mask(sole: SoleLayout, optional: bool = False) -> Argument:
+    return Argument(_force(len(sole)) > 4.0, (len(sole),), "mask taxels faulty", truth=True, optional=optional)
+
+
+def _arrays_of(sole: SoleLayout) -> dict[str, Argument]:
+    n = len(sole)
+    return {
+        "positions": Argument(sole.positions, (n, 3), "positions"),
+        "rotations": Argument(sole.rotations, (n, 3, 3), "rotations"),
+        "vertices": Argument(sole.vertices, ("v", 3), "vertices vertex"),
+        "areas": Argument(sole.areas, (n,), "areas"),
+        "outline": Argument(sole.outline, ("k", 2), "outline", least=3),
+        "ids": Argument(sole.ids, (n,), "ids"),
+    }
+
+
+def _layout_with(sole: SoleLayout, arrays: dict[str, Any]) -> SoleLayout:
+    known = {"name": sole.name, "side": sole.side, "corners": sole.corners, "neighbours": sole.neighbours}
+    return SoleLayout(**(known | arrays))
+
+
+def _of_mechanics() -> list[Call]:
+    whole = Argument(_WRENCH, (..., 6), "wrench", nan=True)
+    one = Argument(_WRENCH, (6,), "wrench", nan=True)
+    com = Argument(np.array([0.5, 0.25, 1.0]), (..., 3), "com velocity")
+    return [
+        Call(
+            "wrench.wrench_at",
+            wrench.wrench_at,
+            {"wrench": whole, "point": Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")},
+        ),
+        Call(
+            "lip.divergent_component",
+            lip.divergent_component,
+            {
+                "com": Argument(com.value, (...,), "com", nan=True),
+                "com_velocity": Argument(com.value, (...,), "velocity com", nan=True),
+            },
+            {"omega": 4.0},
+        ),
+        Call("zmp.zmp_of_wrench", zmp.zmp_of_wrench, {"wrench": one}),
+        Call("zmp.zmp_in_plane", zmp.zmp_in_plane, {"wrench": one}),
+        Call("zmp.zero_moment_wrench", zmp.zero_moment_wrench, {"wrench": one}),
+        Call(
+            "zmp.centroidal_moment_pivot",
+            zmp.centroidal_moment_pivot,
+            {
+                "force": Argument(_WRENCH[:3], (3,), "force", nan=True),
+                "com": Argument(com.value, (3,), "com", nan=True),
+            },
+        ),
+        Call(
+            "zmp.zmp_of_feet",
+            lambda point: zmp.zmp_of_feet([point, None], [64.0, 0.0]),
+            {"point": Argument(np.array([0.5, 0.25]), (2,), "point zmp", optional=True)},
+        ),
+    ]
+
+
+def _of_readings(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    frames, one = _reading(sole, frames=True), _reading(sole)
+    free = Argument(frames.value, (..., "n"), "force value", nan=True)
+    anything = Argument(frames.value, (...,), "force value mean reading", nan=True)
+    times = Argument(np.arange(2.0), ("f",), "times")
+    return [
+        Call("force.center_of_pressure", lambda force_: force.center_of_pressure(sole, force_), {"force_": one}),
+        Call(
+            "force.ground_reaction_wrench",
+            lambda force_: force.ground_reaction_wrench(sole, force_),
+            {"force_": frames},
+        ),
+        Call("activation.active_taxels", activation.active_taxels, {"force": free}, {"threshold": 4.0}),
+        Call("activation.hysteresis", activation.hysteresis, {"values": free}, {"high": 8.0, "low": 4.0}),
+        Call(
+            "activation.TaxelActivation.update",
+            lambda force_: activation.TaxelActivation(4.0).update(force_),
+            {"force_": Argument(one.value, ("n",), "force", nan=True)},
+        ),
+        Call("health.dead_taxels", health.dead_taxels, {"values": anything}),
+        Call("health.saturated_taxels", health.saturated_taxels, {"values": anything}, {"highest": 8.0}),
+        Call(
+            "health.stuck_taxels",
+            health.stuck_taxels,
+            {"times": times, "values": Argument(frames.value, ("f", "n"), "values readings", nan=True)},
+        ),
+        Call(
+            "health.StuckMonitor.update",
+            lambda values: health.StuckMonitor().update(0.0, values),
+            {"values": Argument(one.value, ("n",), "values readings", nan=True)},
+        ),
+        Call(
+            "health.fill_from_neighbours",
+            lambda values, faulty: health.fill_from_neighbours(sole, values, faulty),
+            {"values": Argument(frames.value, (..., n), "readings", nan=True), "faulty": _mask(sole)},
+        ),
+        Call("clipping.clipped_mean", clipping.clipped_mean, {"force": anything}, {"noise": 1.0}),
+        Call("clipping.unclipped_mean", clipping.unclipped_mean, {"mean": anything}, {"noise": 1.0}),
+        Call(
+            "pressure_wrench.joint_torque",
+            pressure_wrench.joint_torque,
+            {
+                "jacobian": Argument(np.arange(12.0).reshape(6, 2), (6, "j"), "jacobian"),
+                "rotation_to_base": Argument(_TURN, (3, 3), "rotation"),
+                "wrench": Argument(_WRENCH, (..., 6), "wrench", nan=True),
+            },
+        ),
+        Call(
+            "pressure_wrench.pressure_driven_wrench",
+            lambda force_: pressure_wrench.pressure_driven_wrench(sole, force_, 0.015625),
+            {"force_": frames},
+        ),
+        Call(
+            "pressure_wrench.scaled_by_area",
+            pressure_wrench.scaled_by_area,
+            {
+                "wrench": Argument(np.stack([_WRENCH, _WRENCH]), (..., 6), "wrench", nan=True),
+                "contact_area": Argument(np.array([0.5, 0.25]), ("f",), "area"),
+            },
+            {"reference_area": 0.25},
+        ),
+        Call(
+            "reading.Reading",
+            lambda **a: Reading(time=0.0, **a),
+            {
+                "force": Argument(one.value, ("n",), "force reading", nan=True),
+                "proximity": Argument(_distance(n), ("n",), "proximity", nan=True, optional=True),
+                "temperature": Argument(one.value, ("n",), "temperature", nan=True, optional=True),
+                "acceleration": Argument(np.zeros((n, 3)), ("n", 3), "acceleration", nan=True, optional=True),
+            },
+        ),
+    ]
+
+
+def _of_fields(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    one, far = _reading(sole, "temperature"), _far(sole)
+    free = Argument(_far(sole, frames=True).value, (...,), "distance", nan=True)
+    warm = Argument(_reading(sole, frames=True).value, (...,), "temperature", nan=True)
+    touch = {
+        "force": Argument(_force(n), ("n",), "force proximity", nan=True),
+        "proximity": Argument(_distance(n), ("n",), "force proximity", nan=True),
+    }
+    pair = {
+        "contact": Argument(np.stack([_WRENCH] * 3), ("f", 6), "contact wrench", nan=True),
+        "virtual": Argument(np.stack([_WRENCH] * 3), ("f", 6), "virtual wrench", nan=True),
+    }
+    single = {k: Argument(_WRENCH, (6,), "wrench", nan=True) for k in pair}
+    return [
+        Call("proximity.near_taxels", proximity.near_taxels, {"distance": free}, {"threshold": 0.02}),
+        Call("proximity.proximity_measure", proximity.proximity_measure, {"distance": free}, {"sensing_range": 0.125}),
+        Call(
+            "proximity.preemptive_polygon",
+            lambda distance: proximity.preemptive_polygon(sole, distance, 0.02),
+            {"distance": far},
+        ),
+        Call(
+            "proximity.height_contours",
+            lambda distance: proximity.height_contours(sole, distance, [0.02, 0.03]),
+            {"distance": far},
+        ),
+        Call("proximity.cells_polygon", lambda taxels: proximity.cells_polygon(sole, taxels), {"taxels": _mask(sole)}),
+        Call(
+            "ground_plane.fit_ground_plane",
+            lambda distance: ground_plane.fit_ground_plane(sole, distance),
+            {"distance": far},
+        ),
+        Call(
+            "ground_plane.ground_points",
+            lambda distance: ground_plane.ground_points(sole, distance),
+            {"distance": _far(sole, frames=True)},
+        ),
+        Call(
+            "ground_plane.GroundPlane.height_at",
+            lambda points: _plane(sole).height_at(points),
+            {"points": Argument(_RING, (..., 2), "points", nan=True)},
+        ),
+        Call("temperature.warm_taxels", temperature.warm_taxels, {"temperature": warm}, {"threshold": 4.0}),
+        Call(
+            "temperature.temperature_measure",
+            temperature.temperature_measure,
+            {"temperature": warm},
+            {"threshold": 4.0},
+        ),
+        Call(
+            "temperature.temperature_footprint",
+            lambda temperature_: temperature.temperature_footprint(sole, temperature_, 4.0),
+            {"temperature_": one},
+        ),
+        Call(
+            "temperature.temperature_wrench",
+            lambda temperature_: temperature.temperature_wrench(sole, temperature_, 4.0),
+            {"temperature_": _reading(sole, "temperature", frames=True)},
+        ),
+        Call(
+            "virtual_wrench.virtual_ground_reaction_wrench",
+            lambda distance: virtual_wrench.virtual_ground_reaction_wrench(sole, distance, 50.0),
+            {"distance": _far(sole, frames=True)},
+        ),
+        Call(
+            "virtual_wrench.early_stop",
+            virtual_wrench.early_stop,
+            {"virtual_wrench": Argument(np.stack([_WRENCH] * 2), (..., 6), "wrench", nan=True)},
+            {"threshold": 8.0},
+        ),
+        Call("virtual_wrench.sole_wrenches", virtual_wrench.sole_wrenches, pair, {"threshold": 32.0}),
+        Call(
+            "virtual_wrench.SoleWrenchSwitch.update",
+            lambda contact, virtual: virtual_wrench.SoleWrenchSwitch(32.0).update(contact, virtual),
+            single,
+        ),
+        Call(
+            "body_skin.active_cells",
+            body_skin.active_cells,
+            touch,
+            {"force_threshold": 4.0, "proximity_threshold": 0.02},
+        ),
+        Call("body_skin.patch_signal", body_skin.patch_signal, touch, {"weight": 0.5}),
+        Call("body_skin.pseudo_force", body_skin.pseudo_force, touch, {"force_weight": 1.0, "proximity_weight": 2.0}),
+        Call(
+            "body_skin.skin_wrench",
+            body_skin.skin_wrench,
+            {
+                "positions": Argument(sole.positions, ("n", 3), "positions"),
+                "rotations": Argument(sole.rotations, ("n", 3, 3), "rotations"),
+                "signal": Argument(_force(n), (..., "n"), "signal", nan=True),
+            },
+        ),
+    ]
+
+
+def _plane(sole: SoleLayout) -> ground_plane.GroundPlane:
+    found = ground_plane.fit_ground_plane(sole, np.full(len(sole), 0.03125))
+    assert found is not None
+    return found
+
+
+def _of_batches(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    frames = Argument(_reading(sole, frames=True).value, ("f", n), "force", nan=True)
+    far = Argument(_far(sole, frames=True).value, ("f", n), "distance", nan=True)
+    return [
+        Call("batch.loads", lambda force_: batch.loads(sole, force_), {"force_": frames}),
+        Call("batch.wrenches", lambda force_: batch.wrenches(sole, force_), {"force_": frames}),
+        Call(
+            "batch.support_polygons",
+            lambda force_: batch.support_polygons(sole, force_, vertices=True),
+            {"force_": frames},
+        ),
+        Call("batch.ground_planes", lambda distance: batch.ground_planes(sole, distance), {"distance": far}),
+        Call(
+            "foot_tick.walking_tick",
+            lambda force_, aim: foot_tick.walking_tick(sole, force_, aim, 0.0078125),
+            {"force_": _reading(sole), "aim": Argument(np.array([0.015625, 0.0]), (2,), "aim point", nan=True)},
+        ),
+    ]
+
+
+def _of_objects(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    active = Argument(_mask(sole).value, (n,), "mask", truth=True, optional=True)
+    place = Argument(np.array([1.0, 2.0, 0.5]), (3,), "position sole pose")
+    turn = Argument(_TURN, (3, 3), "rotation sole pose")
+    pose = sole_pose.SolePose(_TURN, place.value)
+    shape = outline.Outline.of_rings([_RING])
+    fit = partial_contact.PartialContact(sole)
+    lines = Argument(_LINES, ("m", 3), "lines")
+    feet = {"wrench": Argument(_WRENCH, (6,), "wrench", nan=True)}
+    given = Reading(time=0.0, force=_force(n))
+    return [
+        Call(
+            "percept.Percept",
+            lambda active, stuck: _seen(Percept(sole, given, active=active, stuck=stuck)),
+            {"active": active, "stuck": active},
+        ),
+        Call("sole_pose.SolePose", lambda turn, place: sole_pose.SolePose(turn, place), {"turn": turn, "place": place}),
+        Call("sole_pose.SolePose.polygon_to_world", pose.polygon_to_world, {"polygon": _polygon()}),
+        Call(
+            "sole_pose.SolePose.to_world",
+            pose.to_world,
+            {"points": Argument(np.arange(6.0).reshape(2, 3), (..., 3), "points", nan=True)},
+        ),
+        Call(
+            "sole_pose.SolePose.wrench_to_world",
+            pose.wrench_to_world,
+            {"wrench": Argument(_WRENCH, (..., 6), "wrench", nan=True)},
+        ),
+        Call(
+            "sole_pose.wrench_of_feet", lambda wrench: sole_pose.wrench_of_feet([wrench, _WRENCH], [pose, pose]), feet
+        ),
+        Call("sole_pose.zmp_of_soles", lambda wrench: sole_pose.zmp_of_soles([wrench, _WRENCH], [pose, pose]), feet),
+        Call(
+            "outline.Outline",
+            lambda points: outline.Outline(points, [0, 5], shape.ring_areas),
+            {"points": Argument(_RING, (5, 2), "points outline")},
+        ),
+        Call(
+            "outline.Outline.of_rings", lambda ring: outline.Outline.of_rings([_RING, ring]), {"ring": _polygon("ring")}
+        ),
+        Call(
+            "outline.Outline.moved",
+            shape.moved,
+            {
+                "rotation": Argument(_TURN[:2, :2], (2, 2), "rotation"),
+                "translation": Argument(np.array([1.0, 2.0]), ("2 or 3",), "translation"),
+            },
+        ),
+        Call(
+            "partial_contact.PartialContact.between",
+            fit.between,
+            {"supported": _mask(sole), "idle": Argument(~_mask(sole).value, (n,), "mask taxels", truth=True)},
+        ),
+        Call("partial_contact.PartialContact.cover", fit.cover, {"lines": lines}),
+        Call("partial_contact.PartialContact.polygon", fit.polygon, {"lines": lines}),
+        Call(
+            "partial_contact.PartialContact.expected",
+            lambda point, lines: fit.expected(64.0, point, lines),
+            {"point": Argument(np.array([0.0, 0.0]), (2,), "center centre point pressure"), "lines": lines},
+        ),
+        Call(
+            "partial_contact.PartialContact.update",
+            lambda **a: partial_contact.PartialContact(sole).update(**a),
+            {
+                "load": _reading(sole, "load"),
+                "active": _mask(sole),
+                "start": Argument(_LINES, ("m", 3), "lines", optional=True),
+            },
+        ),
+    ]
+
+
+def _seen(percept: Percept) -> tuple[Any, ...]:
+    return percept.wrench_in_sole, percept.contact_area, percept.active
