@@ -120,3 +120,35 @@ def test_a_run_that_is_ended_leaves_nothing_and_says_so(
     assert words in err
     assert err.count("\n") == 1
     assert [p.name for p in tmp_path.iterdir() if p.name != "run.mcap"] == []  # a recording is kept as far as it went
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["sim", "x" * 300],
+        ["sim", "flat", "--robot", "x" * 300],
+        ["analyze", "x" * 300],
+        ["shoe", "x" * 300 + ".stl"],
+        ["shoe", "--dimensions", "240x100", "--layout-only", "-o", "x" * 300],
+        ["sweep", "x" * 300],
+        ["list", "settings", "x" * 300],
+    ],
+)
+def test_an_argument_of_any_length_is_one_line(
+    arguments: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert called(monkeypatch, *arguments) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert list(tmp_path.iterdir()) == []
+
+
+@linux
+def test_a_recording_goes_into_a_folder_that_is_made_for_it(tmp_path: Path) -> None:
+    done = shell(f"cd {tmp_path} && plantar sim flat --set steps=1 --record a/b/run.mcap --json")
+    assert done.returncode in (0, 1), done.stderr  # whatever the judge says of so short a walk
+    assert (tmp_path / "a" / "b" / "run.mcap").stat().st_size > 1000
+    done = shell(f"cd {tmp_path} && plantar sim nosuch --record c/d/run.mcap")
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert not (tmp_path / "c").exists()
