@@ -52,7 +52,13 @@ INNER: frozenset[str] = frozenset(
         *("base_state.BaseState", "cell_edges.cells_overlap", "taxel_values.without_dead"),
         # What functions return; nobody else makes them.
         *("batch.GroundPlanes", "batch.Loads", "batch.SupportPolygons", "partial_contact.GroundEdges"),
-        *("health.TaxelHealth", "ground_plane.GroundPlane", "proximity.HeightContour", "inscribed.Circle"),
+        *(
+            "health.TaxelHealth",
+            "ground_plane.GroundPlane",
+            "proximity.HeightContour",
+            "inscribed.Circle",
+            "inscribed.BoundedRectangle",
+        ),
         *("foot_tick.FootTick",),
         # Hands views of what it is given to the caller, who may pass a memory map.
         "batch.blocks",
