@@ -99,12 +99,25 @@ cdef class OutlineRectangles:
     cpdef double clear(self, double angle, double half, double target, double[::1] out) except -1
 
     @cython.locals(
-        slabs=Py_ssize_t, first="Py_ssize_t[::1]", line="double[::1]", slab="Py_ssize_t[::1]", stack="double[::1]",
-        path="Py_ssize_t[::1]", reach="double[::1]", left="double[::1]", right="double[::1]", trapezoid="double[::1]",
-        count=Py_ssize_t, k=Py_ssize_t, start=Py_ssize_t, t=Py_ssize_t, i=Py_ssize_t, top=Py_ssize_t, exact=bint,
-        x=double, width=double, height=double, left_low=double, left_high=double, low_y=double, high_y=double
+        slabs=Py_ssize_t, line="double[::1]", slab="Py_ssize_t[::1]", trapezoid="double[::1]", count=Py_ssize_t,
+        reach="double[::1]", left="double[::1]",
+        start=Py_ssize_t, i=Py_ssize_t, exact=bint, below=double, above=double, low_right=double, high_right=double
     )
     cdef double _enumerate(self, double angle, double floor, double[::1] out) except -1
+
+    @cython.locals(
+        least=double, k=Py_ssize_t, t=Py_ssize_t, start=Py_ssize_t, far=double, bottom_y=double,
+        top_y=double, wide=double
+    )
+    cdef int _find_ways(self, Py_ssize_t slabs, double floor) except -1
+
+    @cython.locals(
+        i=Py_ssize_t, k=Py_ssize_t, t=Py_ssize_t, top=Py_ssize_t, x=double, width=double, height=double,
+        left_low=double, left_high=double, low_y=double, high_y=double, below=double, above=double, low_right=double,
+        high_right=double, bottom_y=double, top_y=double
+    )
+    cdef void _walk(self, Py_ssize_t start, Py_ssize_t slabs, bint exact) noexcept
+
     @cython.locals(area=double)
     cdef bint _may_hold(self, double width, double height) noexcept
     cdef void _offer(self, double x1, double x2, double y1, double y2) noexcept
@@ -123,14 +136,28 @@ cdef class OutlineRectangles:
     ) noexcept
 
     @cython.locals(
-        m=Py_ssize_t, points="double[::1]", xs="double[::1]", ys="double[::1]", order="Py_ssize_t[::1]",
-        rank="Py_ssize_t[::1]", line="double[::1]", first="Py_ssize_t[::1]", start="Py_ssize_t[::1]",
-        filled="Py_ssize_t[::1]", edge="double[::1]", trapezoid="double[::1]", slab="Py_ssize_t[::1]", gap=Py_ssize_t,
-        lines=Py_ssize_t, slabs=Py_ssize_t, total=Py_ssize_t, across=Py_ssize_t, count=Py_ssize_t, i=Py_ssize_t,
-        j=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
-        low=Py_ssize_t, high=Py_ssize_t, bottom=Py_ssize_t, end=Py_ssize_t, moved=Py_ssize_t
+        m=Py_ssize_t, ys="double[::1]", rank="Py_ssize_t[::1]",
+        line="double[::1]", first="Py_ssize_t[::1]", start="Py_ssize_t[::1]", filled="Py_ssize_t[::1]",
+        edge="double[::1]", slabs=Py_ssize_t, total=Py_ssize_t, across=Py_ssize_t,
+        i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, r=Py_ssize_t, a=Py_ssize_t, b=Py_ssize_t,
+        low=Py_ssize_t, high=Py_ssize_t, side=double, left=double, right=double, moved=Py_ssize_t
     )
     cdef Py_ssize_t _cut(self, double angle) except -1
+
+    @cython.locals(m=Py_ssize_t, lines=Py_ssize_t, tolerance=double, k=Py_ssize_t, i=Py_ssize_t)
+    cdef Py_ssize_t _rank(self) noexcept
+
+    @cython.locals(
+        m=Py_ssize_t, cosine=double, sine=double, gap=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t,
+        key=double
+    )
+    cdef void _turn(self, double angle) noexcept
+
+    @cython.locals(
+        count=Py_ssize_t, k=Py_ssize_t, p=Py_ssize_t, q=Py_ssize_t, bottom=Py_ssize_t, end=Py_ssize_t, depth=double,
+        middle=double
+    )
+    cdef void _pair_edges(self, Py_ssize_t slabs) noexcept
 
     @cython.locals(ring="double[::1]", trapezoid="double[::1]", cut=bint, gone=bint, other_gone=bint, has_two=bint)
     cdef Py_ssize_t _octagon(

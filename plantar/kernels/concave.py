@@ -353,49 +353,13 @@ class OutlineRectangles:
         slabs = self._cut(angle)
         if slabs < 1:
             return floor
-        first = self.first
+        self._find_ways(slabs, floor)
         line = self.line
         slab = self.slab
-        stack = self.stack
-        path = self.path
         reach = self.reach
-        trapezoid = self.trapezoid
         left = self.left
-        right = self.right
-        count = first[slabs]
-        # How far to the right a rectangle can get from a trapezoid, if it is high enough for more than the floor. And
-        # the widest ways through its sides: what passes there unhindered goes on, and need not start or end here.
-        least = floor / (line[slabs] - line[0])
-        for t in range(first[0], first[1]):
-            left[2 * t] = 1.0
-            left[2 * t + 1] = 0.0
-        for k in range(slabs - 1, -1, -1):
-            if k + 1 < slabs:
-                for t in range(first[k + 1], first[k + 2]):
-                    left[2 * t] = 1.0
-                    left[2 * t + 1] = 0.0
-            if k + 1 < slabs:
-                self._count((first[k + 1] - first[k]) * (first[k + 2] - first[k + 1]))
-            for start in range(first[k], first[k + 1]):
-                far = line[k + 1]
-                right[2 * start] = 1.0
-                right[2 * start + 1] = 0.0
-                if k + 1 < slabs:
-                    for t in range(first[k + 1], first[k + 2]):
-                        bottom_y = max(trapezoid[4 * t], trapezoid[4 * start + 2])
-                        top_y = min(trapezoid[4 * t + 1], trapezoid[4 * start + 3])
-                        wide = top_y - bottom_y
-                        if wide <= 0.0:
-                            continue
-                        if wide > least and reach[t] > far:
-                            far = reach[t]
-                        if wide > left[2 * t + 1] - left[2 * t]:
-                            left[2 * t] = bottom_y
-                            left[2 * t + 1] = top_y
-                        if wide > right[2 * start + 1] - right[2 * start]:
-                            right[2 * start] = bottom_y
-                            right[2 * start + 1] = top_y
-                reach[start] = far
+        trapezoid = self.trapezoid
+        count = self.first[slabs]
         self.best = floor
         self.found = False
         # First pass: rectangles between lines, a good start. Second pass: whatever two trapezoids may still give.
@@ -415,56 +379,100 @@ class OutlineRectangles:
                         self._solve(i, i, min(below, low_right), max(above, high_right), start, start)
                     else:
                         self._offer(line[i], line[i + 1], max(below, low_right), min(above, high_right))
-                top = 0
-                left_low = left[2 * start]
-                left_high = left[2 * start + 1]
-                if low_right >= left_low and high_right <= left_high:
-                    continue
-                x = line[i]
-                if self._may_hold(reach[start] - x, high_right - low_right):
-                    path[0] = start
-                    stack[0] = low_right
-                    stack[1] = high_right
-                    top = 1
-                while top > 0:
-                    top -= 1
-                    k = slab[path[top]] + 1
-                    low_y = stack[2 * top]
-                    high_y = stack[2 * top + 1]
-                    if k >= slabs:
-                        continue
-                    width = line[k + 1] - x
-                    for t in range(first[k], first[k + 1]):
-                        bottom_y = max(low_y, trapezoid[4 * t])
-                        top_y = min(high_y, trapezoid[4 * t + 1])
-                        height = top_y - bottom_y
-                        self.spent += 1
-                        if height <= 0.0:
-                            continue
-                        if bottom_y >= left_low and top_y <= left_high:
-                            continue
-                        if self._may_hold(width, height):
-                            if exact:
-                                if bottom_y < right[2 * t] or top_y > right[2 * t + 1]:
-                                    self._solve(i, k, bottom_y, top_y, start, t)
-                            else:
-                                self._offer(x, line[k], max(bottom_y, below), min(top_y, above))
-                        bottom_y = max(bottom_y, trapezoid[4 * t + 2])
-                        top_y = min(top_y, trapezoid[4 * t + 3])
-                        height = top_y - bottom_y
-                        if height <= 0.0:
-                            continue
-                        if not exact:
-                            self._offer(line[i + 1], line[k + 1], bottom_y, top_y)
-                            self._offer(x, line[k + 1], max(bottom_y, below), min(top_y, above))
-                        if self._may_hold(reach[t] - x, height):
-                            path[top] = t
-                            stack[2 * top] = bottom_y
-                            stack[2 * top + 1] = top_y
-                            top += 1
+                if (low_right < left[2 * start] or high_right > left[2 * start + 1]) and self._may_hold(
+                    reach[start] - line[i], high_right - low_right
+                ):
+                    self._walk(start, slabs, exact)
         if self.found:
             rectangle.write_corners(out, math.cos(angle), math.sin(angle), self.x1, self.x2, self.y1, self.y2)
         return self.best
+
+    def _find_ways(self, slabs, floor):
+        """Find how far to the right a rectangle can get from each trapezoid, and the widest ways through its sides."""
+        # How far to the right a rectangle can get from a trapezoid, if it is high enough for more than the floor. And
+        # the widest ways through its sides: what passes there unhindered goes on, and need not start or end here.
+        least = floor / (self.line[slabs] - self.line[0])
+        for t in range(self.first[0], self.first[1]):
+            self.left[2 * t] = 1.0
+            self.left[2 * t + 1] = 0.0
+        for k in range(slabs - 1, -1, -1):
+            if k + 1 < slabs:
+                for t in range(self.first[k + 1], self.first[k + 2]):
+                    self.left[2 * t] = 1.0
+                    self.left[2 * t + 1] = 0.0
+            if k + 1 < slabs:
+                self._count((self.first[k + 1] - self.first[k]) * (self.first[k + 2] - self.first[k + 1]))
+            for start in range(self.first[k], self.first[k + 1]):
+                far = self.line[k + 1]
+                self.right[2 * start] = 1.0
+                self.right[2 * start + 1] = 0.0
+                if k + 1 < slabs:
+                    for t in range(self.first[k + 1], self.first[k + 2]):
+                        bottom_y = max(self.trapezoid[4 * t], self.trapezoid[4 * start + 2])
+                        top_y = min(self.trapezoid[4 * t + 1], self.trapezoid[4 * start + 3])
+                        wide = top_y - bottom_y
+                        if wide <= 0.0:
+                            continue
+                        if wide > least and self.reach[t] > far:
+                            far = self.reach[t]
+                        if wide > self.left[2 * t + 1] - self.left[2 * t]:
+                            self.left[2 * t] = bottom_y
+                            self.left[2 * t + 1] = top_y
+                        if wide > self.right[2 * start + 1] - self.right[2 * start]:
+                            self.right[2 * start] = bottom_y
+                            self.right[2 * start + 1] = top_y
+                self.reach[start] = far
+
+    def _walk(self, start, slabs, exact):
+        """Walk from a trapezoid to all those to the right in which a rectangle that starts in it may end."""
+        i = self.slab[start]
+        below = self.trapezoid[4 * start]
+        above = self.trapezoid[4 * start + 1]
+        low_right = self.trapezoid[4 * start + 2]
+        high_right = self.trapezoid[4 * start + 3]
+        left_low = self.left[2 * start]
+        left_high = self.left[2 * start + 1]
+        x = self.line[i]
+        self.path[0] = start
+        self.stack[0] = low_right
+        self.stack[1] = high_right
+        top = 1
+        while top > 0:
+            top -= 1
+            k = self.slab[self.path[top]] + 1
+            low_y = self.stack[2 * top]
+            high_y = self.stack[2 * top + 1]
+            if k >= slabs:
+                continue
+            width = self.line[k + 1] - x
+            for t in range(self.first[k], self.first[k + 1]):
+                bottom_y = max(low_y, self.trapezoid[4 * t])
+                top_y = min(high_y, self.trapezoid[4 * t + 1])
+                height = top_y - bottom_y
+                self.spent += 1
+                if height <= 0.0:
+                    continue
+                if bottom_y >= left_low and top_y <= left_high:
+                    continue
+                if self._may_hold(width, height):
+                    if exact:
+                        if bottom_y < self.right[2 * t] or top_y > self.right[2 * t + 1]:
+                            self._solve(i, k, bottom_y, top_y, start, t)
+                    else:
+                        self._offer(x, self.line[k], max(bottom_y, below), min(top_y, above))
+                bottom_y = max(bottom_y, self.trapezoid[4 * t + 2])
+                top_y = min(top_y, self.trapezoid[4 * t + 3])
+                height = top_y - bottom_y
+                if height <= 0.0:
+                    continue
+                if not exact:
+                    self._offer(self.line[i + 1], self.line[k + 1], bottom_y, top_y)
+                    self._offer(x, self.line[k + 1], max(bottom_y, below), min(top_y, above))
+                if self._may_hold(self.reach[t] - x, height):
+                    self.path[top] = t
+                    self.stack[2 * top] = bottom_y
+                    self.stack[2 * top + 1] = top_y
+                    top += 1
 
     def _may_hold(self, width, height):
         """Whether a box may hold more than the best so far, or what turns into more than the target."""
@@ -560,43 +568,14 @@ class OutlineRectangles:
 
     def _cut(self, angle):
         """Cut the part, turned back by an angle, into trapezoids; the number of slabs."""
+        self._turn(angle)
         m = self.m
-        points = self.points
-        xs = self.xs
         ys = self.ys
-        order = self.order
         rank = self.rank
         line = self.line
         first = self.first
         start = self.start
-        cosine = math.cos(angle)
-        sine = math.sin(angle)
-        for i in range(m):
-            xs[i] = cosine * points[2 * i] + sine * points[2 * i + 1]
-            ys[i] = cosine * points[2 * i + 1] - sine * points[2 * i]
-        # Shell's sort, from the order of the angle before: almost in order where that was near.
-        gap = 1
-        while 3 * gap + 1 < m:
-            gap = 3 * gap + 1
-        while gap > 0:
-            for i in range(gap, m):
-                p = order[i]
-                key = xs[p]
-                k = i
-                while k >= gap and xs[order[k - gap]] > key:
-                    order[k] = order[k - gap]
-                    k -= gap
-                order[k] = p
-            gap //= 3
-        lines = 0
-        tolerance = 1e-14 * (xs[order[m - 1]] - xs[order[0]])
-        for k in range(m):
-            i = order[k]
-            if k == 0 or xs[i] - line[lines - 1] > tolerance:
-                line[lines] = xs[i]
-                lines += 1
-            rank[i] = lines - 1
-        slabs = lines - 1
+        slabs = self._rank() - 1
         if slabs < 1:
             return 0
         # Of each slab the edges across it, from the lowest: y on its left and right, and +1 below or -1 above the area.
@@ -660,35 +639,73 @@ class OutlineRectangles:
                     self._count(moved)
                     moved = 0
         self._count(moved)
+        self._pair_edges(slabs)
+        return slabs
+
+    def _turn(self, angle):
+        """Turn the vertices back by an angle, and order them by x."""
+        m = self.m
+        cosine = math.cos(angle)
+        sine = math.sin(angle)
+        for i in range(m):
+            self.xs[i] = cosine * self.points[2 * i] + sine * self.points[2 * i + 1]
+            self.ys[i] = cosine * self.points[2 * i + 1] - sine * self.points[2 * i]
+        # Shell's sort, from the order of the angle before: almost in order where that was near.
+        gap = 1
+        while 3 * gap + 1 < m:
+            gap = 3 * gap + 1
+        while gap > 0:
+            for i in range(gap, m):
+                p = self.order[i]
+                key = self.xs[p]
+                k = i
+                while k >= gap and self.xs[self.order[k - gap]] > key:
+                    self.order[k] = self.order[k - gap]
+                    k -= gap
+                self.order[k] = p
+            gap //= 3
+
+    def _rank(self):
+        """Find the lines across through the vertices, and which each vertex is on; the number of lines."""
+        m = self.m
+        lines = 0
+        tolerance = 1e-14 * (self.xs[self.order[m - 1]] - self.xs[self.order[0]])
+        for k in range(m):
+            i = self.order[k]
+            if k == 0 or self.xs[i] - self.line[lines - 1] > tolerance:
+                self.line[lines] = self.xs[i]
+                lines += 1
+            self.rank[i] = lines - 1
+        return lines
+
+    def _pair_edges(self, slabs):
+        """Make trapezoids of the edges between which the area lies."""
         # Trapezoids: bottom and top on the left, bottom and top on the right.
-        trapezoid = self.trapezoid
-        slab = self.slab
         count = 0
         for k in range(slabs):
             depth = 0.0
-            p = first[k]
-            q = first[k + 1]
-            first[k] = count
+            p = self.first[k]
+            q = self.first[k + 1]
+            self.first[k] = count
             bottom = p
             while p < q:
-                if depth <= 0.0 and depth + edge[3 * p + 2] > 0.0:
+                if depth <= 0.0 and depth + self.edge[3 * p + 2] > 0.0:
                     bottom = p
-                elif depth > 0.0 and depth + edge[3 * p + 2] <= 0.0:
-                    trapezoid[4 * count] = edge[3 * bottom]
-                    trapezoid[4 * count + 1] = edge[3 * p]
-                    trapezoid[4 * count + 2] = edge[3 * bottom + 1]
-                    trapezoid[4 * count + 3] = edge[3 * p + 1]
+                elif depth > 0.0 and depth + self.edge[3 * p + 2] <= 0.0:
+                    self.trapezoid[4 * count] = self.edge[3 * bottom]
+                    self.trapezoid[4 * count + 1] = self.edge[3 * p]
+                    self.trapezoid[4 * count + 2] = self.edge[3 * bottom + 1]
+                    self.trapezoid[4 * count + 3] = self.edge[3 * p + 1]
                     for end in range(0, 4, 2):  # where near-duplicates let the edges cross, they meet
-                        if trapezoid[4 * count + end] > trapezoid[4 * count + end + 1]:
-                            middle = 0.5 * (trapezoid[4 * count + end] + trapezoid[4 * count + end + 1])
-                            trapezoid[4 * count + end] = middle
-                            trapezoid[4 * count + end + 1] = middle
-                    slab[count] = k
+                        if self.trapezoid[4 * count + end] > self.trapezoid[4 * count + end + 1]:
+                            middle = 0.5 * (self.trapezoid[4 * count + end] + self.trapezoid[4 * count + end + 1])
+                            self.trapezoid[4 * count + end] = middle
+                            self.trapezoid[4 * count + end + 1] = middle
+                    self.slab[count] = k
                     count += 1
-                depth += edge[3 * p + 2]
+                depth += self.edge[3 * p + 2]
                 p += 1
-        first[slabs] = count
-        return slabs
+        self.first[slabs] = count
 
     def _octagon(self, i, k, low, high, start, end):
         """What a rectangle may use that starts in one trapezoid and ends in another: a window, cut by their slants.
