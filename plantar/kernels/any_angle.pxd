@@ -1,10 +1,9 @@
 # C types of any_angle.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport concave, rectangle, work_arrays
+from . cimport bracket, concave, rectangle, work_arrays
 
 cdef double _QUARTER
-cdef double _GOLDEN
 cdef double _LEAST
 cdef double _SLIM
 cdef int _STEPS
@@ -16,12 +15,6 @@ cdef double _STRIDE
 cdef double _LONGEST
 cdef double _PROVEN
 cdef double _INF
-cdef double _ASIDE
-cdef int _PARABOLA
-cdef int _CROSSING
-cdef int _BESIDE
-cdef double _SLACK
-cdef int _SECTION
 
 @cython.final
 cdef class AnyAngle:
@@ -38,6 +31,7 @@ cdef class AnyAngle:
     cdef double[::1] work
     cdef double[::1] room
     cdef readonly concave.OutlineRectangles outline
+    cdef bracket.Bracket bracket
 
 
     cpdef double in_ring(self, double[::1] ring, Py_ssize_t n, double[::1] work, double[::1] out) except -1
@@ -60,12 +54,9 @@ cdef class AnyAngle:
     cdef void march(self, double[::1] out) except *
     cdef double _behind(self, double angle, double most, double[::1] out) except -1
 
-    # All of them: where one is a Python object, so is whatever it meets.
     @cython.locals(
-        way=int, beyond=bint, mine=double, at=double, side=double, beside=double, low=double, at_low=double,
-        beyond_low=double, at_beyond_low=double, reach=double, high=double, at_high=double, beyond_high=double,
-        at_beyond_high=double, missed=double, steep=double, width=double, angle=double, promised=double, summit=double,
-        p=double, q=double, bend=double, trial=double, least=double, here=double, there=double, gap=double
+        bracket=bracket.Bracket, mine=double, at=double, side=double, beside=double, reach=double, angle=double,
+        trial=double
     )
     cdef void climb(self, double middle, double area, double[::1] out) except *
     cdef double _lower(self, double area, double turn) noexcept

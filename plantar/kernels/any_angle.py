@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import math
 
-from . import rectangle, work_arrays
+from . import bracket, rectangle, work_arrays
 
 __all__ = ["AnyAngle"]
 
 _QUARTER = 0.5 * math.pi
-_GOLDEN = 0.3819660112501051
 _LEAST = 1e-10  # rad of the least step: summits that are narrower are looked for at edges alone
 _SLIM = 1e2  # times its area over its diameter squared a ring is slim below 1, and all angles are as much finer
 _STEPS = 1000  # steps along a ring's angles; some 20 are the rule, needles may want more
@@ -24,9 +23,6 @@ _CLOSE = 8e-7  # share of the area that is not looked for
 _SECTIONS = 48
 _STEP = 1e-6  # rad to either side by which a summit is told
 _STRIDE = 5e-3  # rad of the first step uphill
-_PARABOLA, _CROSSING, _BESIDE, _SECTION = range(4)  # ways to a summit
-_SLACK = 1e-7  # share of the area that a summit may stand higher than what is taken for it
-_ASIDE = 0.02  # share of a bracket that a summit is looked for beside where it is known
 _INF = math.inf
 _PROVEN = 1e-6  # share of the area that is not looked for, with what least steps and rounding leave
 _LONGEST = 0.5  # rad of a step along the angles of a convex ring
@@ -61,6 +57,7 @@ class AnyAngle:
         self.best = 0.0
         self.best_angle = 0.0
         self.fine = 1.0
+        self.bracket = bracket.Bracket()
         self.room = work_arrays.numbers(512, self.lists)
         self.direction = work_arrays.numbers(_SEEDS + 2, self.lists)
 
@@ -215,119 +212,26 @@ class AnyAngle:
             side = middle - _STEP * self.fine
             beside = self.largest(side, area, out)
         if beside > area:  # else the summit itself, as edges and corners that touch make them
-            low = middle
-            at_low = area
-            beyond_low = middle  # the one before low, and likewise: with low the slope on that side
-            at_beyond_low = area
-            at = side
-            mine = beside
+            bracket = self.bracket
+            bracket.begin(middle, area, side, beside)
             reach = _STRIDE * self.fine if side > middle else -_STRIDE * self.fine
-            high = at + reach
-            at_high = self.largest(high, self._lower(mine, high - at), out)
-            while at_high > mine and abs(reach) < _QUARTER:
-                beyond_low = low
-                at_beyond_low = at_low
-                low = at
-                at_low = mine
-                at = high
-                mine = at_high
+            angle = side + reach
+            trial = self.largest(angle, self._lower(beside, angle - side), out)
+            while trial > bracket.mine and abs(reach) < _QUARTER:
+                bracket.stride(angle, trial)
                 reach *= 2.0
-                high = at + reach
-                at_high = self.largest(high, self._lower(mine, high - at), out)
-            beyond_high = high
-            at_beyond_high = at_high
-            # The summit of the parabola through the three; where that does not halve the bracket, the crossing of the
-            # slopes on both sides as long as it comes closer to what it promises, then a golden section.
-            way = _PARABOLA
-            missed = _INF
-            steep = 1.0
+                angle = bracket.at + reach
+                trial = self.largest(angle, self._lower(bracket.mine, angle - bracket.at), out)
+            bracket.close(angle, trial)
             for _ in range(_SECTIONS):
-                width = abs(high - low)
-                if width < 3e-8 * self.fine or mine - min(at_low, at_high) < _SLACK * mine:
+                if bracket.is_closed(3e-8 * self.fine):
                     break
-                angle = at + _GOLDEN * ((high if abs(high - at) > abs(at - low) else low) - at)
-                promised = 0.0
-                summit = 0.0
-                if way == _PARABOLA:
-                    p = (at_low - mine) / (low - at)
-                    q = (at_high - mine) / (high - at)
-                    bend = (p - q) / (low - high)
-                    p -= bend * (low - at)
-                    if bend < 0.0:
-                        trial = at - 0.5 * p / bend
-                        summit = mine - 0.25 * p * p / bend
-                        least = _ASIDE * width  # beside where it is known already
-                        if abs(trial - at) < least:
-                            trial = at + (least if high - at > at - low else -least)
-                        if min(low, high) < trial < max(low, high):
-                            angle = trial
-                            promised = mine + (p + bend * (trial - at)) * (trial - at)
-                elif way == _CROSSING and beyond_low != low and beyond_high != high:
-                    p = (at_low - at_beyond_low) / (low - beyond_low)
-                    q = (at_high - at_beyond_high) / (high - beyond_high)
-                    here = at_low + p * (at - low)
-                    there = at_high + q * (at - high)
-                    if abs(here - mine) < abs(there - mine):  # which of the two slopes it stands on
-                        here = mine
-                        p = (mine - at_low) / (at - low)
-                        there = at_high + q * (at - high)
-                    else:
-                        there = mine
-                        q = (mine - at_high) / (at - high)
-                    if p != q:
-                        trial = at + (there - here) / (p - q)
-                        if min(low, high) < trial < max(low, high) and trial != at:
-                            angle = trial
-                            promised = here + p * (trial - at)
-                            summit = promised
-                            steep = max(abs(p), abs(q))
-                elif way == _BESIDE:
-                    least = min(_SLACK * mine / steep, 0.5 * abs(angle - at))
-                    angle = at + (least if high - at > at - low else -least)
-                trial = self.largest(angle, self._lower(mine, angle - at), out)
-                beyond = (angle > at) == (high > at)
-                if trial > mine:
-                    if beyond:
-                        beyond_low = low
-                        at_beyond_low = at_low
-                        low = at
-                        at_low = mine
-                    else:
-                        beyond_high = high
-                        at_beyond_high = at_high
-                        high = at
-                        at_high = mine
-                    at = angle
-                    mine = trial
-                elif beyond:
-                    beyond_high = high
-                    at_beyond_high = at_high
-                    high = angle
-                    at_high = trial
-                else:
-                    beyond_low = low
-                    at_beyond_low = at_low
-                    low = angle
-                    at_low = trial
-                gap = abs(promised - trial)
-                if way == _BESIDE:
-                    if trial < mine:
-                        break
-                    way = _SECTION
-                elif gap < 0.1 * _SLACK * mine and summit < (1.0 + _SLACK) * mine:
-                    if way == _PARABOLA:
-                        break
-                    way = _BESIDE  # a slope that is known from afar only may rise on
-                elif way == _CROSSING and promised > 0.0:
-                    way = _CROSSING if gap < 0.25 * missed else _SECTION
-                    missed = gap
-                elif abs(high - low) <= 0.5 * width:
-                    way = _PARABOLA
-                elif way == _PARABOLA:
-                    way = _CROSSING
-                    missed = _INF
-                else:
-                    way = _PARABOLA
+                bracket.propose()
+                trial = self.largest(bracket.angle, self._lower(bracket.mine, bracket.angle - bracket.at), out)
+                if bracket.take(trial):
+                    break
+            at = bracket.at
+            mine = bracket.mine
         if mine > self.best:
             self.best = mine
             self.best_angle = at
