@@ -44,6 +44,9 @@ cdef class SoleKernel:
     cdef double[:, :, ::1] rings
     cdef double[:, ::1] lines
 
+    cdef int _check(self, const double[:] force) except -1
+    cdef int _check_mask(self, const unsigned char[:] active) except -1
+
     cpdef active(self, const double[:] force, double threshold, double saturation)
 
     @cython.locals(i=Py_ssize_t)

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from plantar.errors import ReadingError
+
 from . import convex, hull
 
 __all__ = ["SoleKernel"]
@@ -118,8 +120,21 @@ class SoleKernel:
         Returns:
             Mask (n,).
         """
+        self._check(force)
         self._activate(force, threshold, saturation, self.mask)
         return self.mask_room.copy()
+
+    def _check(self, force):
+        """Refuse forces that are not one a taxel: a loop over the taxels would read past them."""
+        if force is None or force.shape[0] != self.taxels:
+            raise ReadingError(f"{_count(force)} forces for {self.taxels} taxels; expected one each")
+        return 0
+
+    def _check_mask(self, active):
+        """Refuse a mask likewise."""
+        if active is None or active.shape[0] != self.taxels:
+            raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
+        return 0
 
     def _activate(self, force, threshold, saturation, out):
         """`active` into an array."""
@@ -136,6 +151,7 @@ class SoleKernel:
         Returns:
             Masks (n,): taxels that read NaN or inf, and saturated ones.
         """
+        self._check(force)
         for i in range(self.taxels):
             finite = -_INFINITE < force[i] < _INFINITE
             self.mask[i] = not finite
@@ -155,6 +171,8 @@ class SoleKernel:
         Returns:
             (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
         """
+        self._check(force)
+        self._check_mask(active)
         self._loads(force, active, self.sums)
         return self.sums_room.copy()
 
@@ -193,6 +211,7 @@ class SoleKernel:
         Returns:
             Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
         """
+        self._check_mask(active)
         size = self.find_hull(active)
         area, x, y = self.measure_hull(size)
         return self.hulls[size].copy(), area, x, y
@@ -213,6 +232,7 @@ class SoleKernel:
             Mask (n,); (9,) of `loads`; polygon (k, 2) in m, its area in m^2, x and y of its centroid in m; the smaller
             polygon (m, 2) in m; the closest point (2,) in m. Coordinates are NaN without contact.
         """
+        self._check(force)
         self._activate(force, threshold, saturation, self.mask)
         self._loads(force, self.mask, self.sums)
         size = self.find_hull(self.mask)
@@ -313,6 +333,10 @@ class SoleKernel:
         if size == 0:
             return 0.0, _NONE, _NONE
         return convex.area_and_centroid(self.polygon[:size])
+
+
+def _count(values):
+    return "no" if values is None else values.shape[0]
 
 
 def _rows_of_copies(cells, tolerance):

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import HexLattice, hex_layout
+from plantar import HexLattice, ReadingError, hex_layout
 from plantar.geometry.polygon import area, centroid, convex_hull
+from plantar.kernels import python_form
 from plantar.kernels.sole import SoleKernel
 from plantar.sensing.health import dead_taxels, saturated_taxels
 
@@ -139,3 +140,29 @@ def test_faults_are_the_dead_and_the_saturated_taxels(limit):
     dead, saturated = layout.kernel.faults(force, limit)
     assert dead.tolist() == dead_taxels(force).tolist()
     assert saturated.tolist() == saturated_taxels(force, limit).tolist()
+
+
+@pytest.mark.parametrize("form", ["compiled or not", "interpreted"])
+def test_arrays_of_another_length_are_refused_and_not_read_past(form):
+    layout = LAYOUTS["whole"]
+    cells = (layout.vertices[:, :2], layout.corner_start, layout.corner_vertex)
+    arguments = (layout.positions, layout.rotations[:, :, 2], layout.areas, *cells)
+    kernel = layout.kernel if form != "interpreted" else python_form("sole").SoleKernel(*arguments)
+    n = len(layout)
+    force, mask = np.ones(n), np.ones(n, dtype=np.uint8)
+    for size in (0, 1, n - 1, n + 1):
+        few, some = np.ones(size), np.ones(size, dtype=np.uint8)
+        for call in (
+            lambda few=few: kernel.active(few, 0.0, 9.0),
+            lambda few=few: kernel.faults(few, 9.0),
+            lambda few=few: kernel.loads(few, mask),
+            lambda few=few: kernel.tick(few, 0.0, 9.0, 0.0, 0.0, 0.0),
+        ):
+            with pytest.raises(ReadingError, match=f"{size} forces for {n} taxels"):
+                call()
+        for call in (lambda some=some: kernel.loads(force, some), lambda some=some: kernel.hull(some)):
+            with pytest.raises(ReadingError, match=f"mask has {size} values for {n} taxels"):
+                call()
+    for call in (lambda: kernel.loads(None, mask), lambda: kernel.loads(force, None), lambda: kernel.hull(None)):
+        with pytest.raises(ReadingError, match="no"):
+            call()
