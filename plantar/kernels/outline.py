@@ -104,11 +104,8 @@ class EdgeTable:
     """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
 
     Args:
-        cell_start: Offsets (n + 1,) of each cell's edges.
-        cell: Cell (h,) of each edge.
-        twin: The same edge seen from the neighbour (h,), -1 where there is none.
-        after: The cell's next edge (h,).
-        origin: Vertex (h,) an edge starts at.
+        edges: Offsets (n + 1,) of each cell's edges and, for each edge, its cell (h,), the same edge seen from the
+            neighbour (h,), -1 where there is none, the cell's next edge (h,) and the vertex (h,) it starts at.
         vertices: Coordinates of the v vertices, flat (2 v,), in m.
         straight: A vertex whose neighbours' line passes within this distance in m is no corner.
         reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
@@ -120,27 +117,24 @@ class EdgeTable:
         (([0, 4], [1.0]), ([0], []))
     """
 
-    def __init__(self, cell_start, cell, twin, after, origin, vertices, straight, reuse):
-        self.cell_start = cell_start
-        self.cell = cell
-        self.twin = twin
-        self.after = after
-        self.origin = origin
+    def __init__(self, edges, vertices, straight, reuse):
+        self.cell_start, self.cell, self.twin, self.after, self.origin = edges
         self.vertices = vertices
         self.straight = straight
         self.reuse = reuse
-        self.mark = bytearray(len(cell))
-        self.path = np.empty(len(cell), dtype=np.intp)
+        self.mark = bytearray(len(self.cell))
+        self.path = np.empty(len(self.cell), dtype=np.intp)
         self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
         self.leaving = bytearray(len(vertices) // 2)
-        self.room = np.empty((len(cell), 2))
+        self.room = np.empty((len(self.cell), 2))
         self.points = self.room
-        self.copies = [self.room[:k].copy for k in range(min(len(cell), _SHORT) + 1)]  # the cheapest new arrays
+        self.copies = [self.room[:k].copy for k in range(min(len(self.cell), _SHORT) + 1)]  # the cheapest new arrays
 
     def __reduce__(self):
         """Rebuild from the arguments, so that a layout crosses to another process."""
-        tables = [self.cell_start, self.cell, self.twin, self.after, self.origin, self.vertices]
-        return type(self), (*(np.array(t) for t in tables), self.straight, self.reuse)
+        tables = [self.cell_start, self.cell, self.twin, self.after, self.origin]
+        edges = tuple([np.array(t) for t in tables])
+        return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
 
     def walk(self, active):
         """Rings around the active cells, the contact on their left.

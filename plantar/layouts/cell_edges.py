@@ -68,11 +68,10 @@ def edge_table(vertices: ArrayLike, corners: Sequence[Sequence[int]]) -> EdgeTab
     origin = np.array([a for a, _ in directed], dtype=np.intp)
     flat = np.ascontiguousarray(xy).reshape(-1)
     if is_compiled("outline"):
-        return EdgeTable(start, cell, twin, after, origin, flat, straight, True)
+        return EdgeTable((start, cell, twin, after, origin), flat, straight, True)
     # Without C, lists are faster to read than arrays.
-    return EdgeTable(
-        start.tolist(), cell.tolist(), twin.tolist(), after.tolist(), origin.tolist(), flat.tolist(), straight, False
-    )
+    lists = tuple(numbers.tolist() for numbers in (start, cell, twin, after, origin))
+    return EdgeTable(lists, flat.tolist(), straight, False)
 
 
 def _counter_clockwise(xy: NDArray[np.float64], ring: list[int]) -> list[int]:
