@@ -197,6 +197,7 @@ def public_calls() -> list[Call]:
         *_of_mechanics(),
         *_of_readings(sole),
         *_of_fields(sole),
+        *_of_wrenches(sole),
         *_of_batches(sole),
         *_of_objects(sole),
     ]
@@ -480,19 +481,11 @@ def _of_readings(sole: SoleLayout) -> list[Call]:
 
 
 def _of_fields(sole: SoleLayout) -> list[Call]:
-    n = len(sole)
-    one, far = _reading(sole, "temperature"), _far(sole)
-    free = Argument(_far(sole, frames=True).value, (...,), "distance", nan=True)
-    warm = Argument(_reading(sole, frames=True).value, (...,), "temperature", nan=True)
-    touch = {
-        "force": Argument(_force(n), ("n",), "force proximity", nan=True),
-        "proximity": Argument(_distance(n), ("n",), "force proximity", nan=True),
-    }
-    pair = {
-        "contact": Argument(np.stack([_WRENCH] * 3), ("f", 6), "contact wrench", nan=True),
-        "virtual": Argument(np.stack([_WRENCH] * 3), ("f", 6), "virtual wrench", nan=True),
-    }
-    single = {k: Argument(_WRENCH, (6,), "wrench", nan=True) for k in pair}
+    far, free = _far(sole), Argument(_far(sole, frames=True).value, (...,), "distance", nan=True)
+    one, warm = (
+        _reading(sole, "temperature"),
+        Argument(_reading(sole, frames=True).value, (...,), "temperature", nan=True),
+    )
     return [
         Call("proximity.near_taxels", proximity.near_taxels, {"distance": free}, {"threshold": 0.02}),
         Call("proximity.proximity_measure", proximity.proximity_measure, {"distance": free}, {"sensing_range": 0.125}),
@@ -539,6 +532,21 @@ def _of_fields(sole: SoleLayout) -> list[Call]:
             lambda temperature_: temperature.temperature_wrench(sole, temperature_, 4.0),
             {"temperature_": _reading(sole, "temperature", frames=True)},
         ),
+    ]
+
+
+def _of_wrenches(sole: SoleLayout) -> list[Call]:
+    n = len(sole)
+    touch = {
+        "force": Argument(_force(n), ("n",), "force proximity", nan=True),
+        "proximity": Argument(_distance(n), ("n",), "force proximity", nan=True),
+    }
+    pair = {
+        "contact": Argument(np.stack([_WRENCH] * 3), ("f", 6), "contact wrench", nan=True),
+        "virtual": Argument(np.stack([_WRENCH] * 3), ("f", 6), "virtual wrench", nan=True),
+    }
+    single = {k: Argument(_WRENCH, (6,), "wrench", nan=True) for k in pair}
+    return [
         Call(
             "virtual_wrench.virtual_ground_reaction_wrench",
             lambda distance: virtual_wrench.virtual_ground_reaction_wrench(sole, distance, 50.0),
