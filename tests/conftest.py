@@ -16,9 +16,12 @@ from hypothesis import settings
 
 from plantar import SoleLayout, hex_layout
 
-# Started in the background of a shell, Ctrl-C is ignored, here and in all that is started from here; tests send it.
+# Started in the background of a shell Ctrl-C is ignored, and under nohup SIGHUP, here and in all that is started from
+# here; tests send both.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # A slow or busy machine is no failure, and the same examples come each time. To search for new ones:
 # pytest --hypothesis-profile=search
