@@ -17,8 +17,6 @@ from plantar.layouts.tiling import hex_layout
 PERIOD = 0.005
 GAINS = ConformityGains()
 
-GAINS = (ComplianceGains(), TouchdownGains(), GroundMapSettings())
-
 
 def test_an_incoming_sole_on_its_toes_turns_its_heel_down_the_faster_the_more_it_carries() -> None:
     slow, fast = (FootTurn(GAINS, PERIOD).incoming(load, np.array([0.1, 0.0]), np.zeros(2)) for load in (100.0, 400.0))
