@@ -180,6 +180,13 @@ def test_no_modules_import_each_other_in_a_circle():
     assert circle(ROOT) == []
 
 
+def plant(root, file, source):
+    """Put a source file into a tree that a check is tried on."""
+    path = root / file
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(source)
+
+
 @pytest.mark.parametrize(
     ("file", "source", "reason"),
     [
@@ -194,9 +201,7 @@ def test_no_modules_import_each_other_in_a_circle():
     ],
 )
 def test_a_planted_arrow_up_is_found(tmp_path, file, source, reason):
-    path = tmp_path / file
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(source)
+    plant(tmp_path, file, source)
     assert any(reason in line for line in arrows_up(tmp_path)), arrows_up(tmp_path)
 
 
@@ -250,9 +255,7 @@ def test_benchmarks_and_examples_do_not_import_the_command_line():
     ],
 )
 def test_a_planted_violation_is_found(tmp_path, file, source, reason):
-    path = tmp_path / file
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(source)
+    plant(tmp_path, file, source)
     found = violations(tmp_path)
     assert any(reason in line for line in found), found
 
@@ -272,7 +275,5 @@ def test_a_planted_violation_is_found(tmp_path, file, source, reason):
     ],
 )
 def test_what_is_allowed_passes(tmp_path, file, source):
-    path = tmp_path / file
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(source)
+    plant(tmp_path, file, source)
     assert violations(tmp_path) == []
