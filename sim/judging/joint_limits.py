@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from sim.model.world import PHYSICS_PERIOD, World
 
@@ -47,12 +48,17 @@ class JointLimits:
         self._any_at_limit = self._ticks = 0
         self._fast = False
 
+    def _speed_shares(self) -> NDArray[np.float64]:
+        """Speed of each joint (k,) now as a share of its limit, with its sign; overwritten by the next call."""
+        velocity = self._velocity.take(self._dofs) if self._view is None else self._view
+        np.multiply(velocity, self._per_limit, out=self._shares)
+        return self._shares
+
     def step(self) -> None:
         """After each physics step: speeds."""
         if not self.limited:
             return
-        velocity = self._velocity.take(self._dofs) if self._view is None else self._view
-        shares = np.multiply(velocity, self._per_limit, out=self._shares)
+        shares = self._speed_shares()
         if shares.dot(shares) > 1.0 and max(map(abs, shares.tolist())) > 1.0:  # no square is above the sum of them
             np.abs(shares, out=shares)
             self._over = np.where(shares > 1.0, self._over + PHYSICS_PERIOD, 0.0)
@@ -67,7 +73,7 @@ class JointLimits:
         """At each control tick: torques."""
         self._ticks += 1
         if self.limited and not self._fast:
-            np.maximum(self.fastest, np.abs(self._velocity.take(self._dofs) * self._per_limit), out=self.fastest)
+            np.maximum(self.fastest, np.abs(self._speed_shares()), out=self.fastest)
         held = np.abs(self._force[self._servos]) >= self._torques
         if held.any():
             self._any_at_limit += 1
