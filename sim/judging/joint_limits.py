@@ -23,7 +23,6 @@ class JointLimits:
 
     Attributes:
         longest: For how long in s without a break each joint (k,) was faster than its limit, at most.
-        fastest: Largest speed of each joint (k,) as a share of its limit; 0 without limits.
     """
 
     def __init__(self, world: World) -> None:
@@ -31,62 +30,80 @@ class JointLimits:
         self.names: Sequence[str] = [*robot.legs["left"].joints, *robot.legs["right"].joints]
         self.limited = bool(robot.velocity_limits)
         k = len(self.names)
-        self.longest, self.fastest = np.zeros(k), np.zeros(k)
-        self._over = np.zeros(k)
-        speeds = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
-        self._per_limit = 1.0 / speeds
-        self._velocity, self._dofs = world.data.qvel, world.joint_qvel
-        first = int(self._dofs[0])
-        in_order = np.array_equal(self._dofs, np.arange(first, first + k))
-        self._view = self._velocity[first : first + k] if in_order else None  # without a copy at each step
-        self._shares = np.empty(k)
+        self.longest = np.zeros(k)
+        self._over, self._high, self._low = np.zeros(k), np.zeros(k), np.zeros(k)
+        limits = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
+        self._per_speed = 1.0 / limits
+        self._least_limit = float(limits.min()) ** 2
+        self._square = self._top = 0.0  # squares: of all joints' speeds now, of the largest speed so far as a share
+        dofs = world.joint_qvel
+        first, end = int(dofs.min()), int(dofs.max()) + 1
+        self._span = world.data.qvel[first:end]  # a view, without a copy at each step; may hold other joints, too
+        self._places = None if np.array_equal(dofs, np.arange(first, end)) else dofs - first
+        self._fast = False
         self._force, self._servos = world.data.actuator_force, world.servos
         limited = model.actuator_forcelimited[world.servos] > 0
-        limits = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
-        self._torques = _AT_LIMIT * limits
+        torques = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
+        self._per_torque = 1.0 / (_AT_LIMIT * torques)
         self._at_limit = np.zeros(k)
         self._any_at_limit = self._ticks = 0
-        self._fast = False
 
-    def _speed_shares(self) -> NDArray[np.float64]:
-        """Speed of each joint (k,) now as a share of its limit, with its sign; overwritten by the next call."""
-        velocity = self._velocity.take(self._dofs) if self._view is None else self._view
-        np.multiply(velocity, self._per_limit, out=self._shares)
-        return self._shares
+    @property
+    def fastest(self) -> NDArray[np.float64]:
+        """Largest speed of each joint (k,) as a share of its limit; 0 without limits.
+
+        Exact for joints that were faster than their limit and for the one with the largest share; of others it may miss
+        speeds below that share.
+        """
+        return np.asarray(np.maximum(self._high, -self._low) * self._per_speed)
+
+    def _velocity(self) -> NDArray[np.float64]:
+        return self._span if self._places is None else np.asarray(self._span.take(self._places))
 
     def step(self) -> None:
         """After each physics step: speeds."""
-        if not self.limited:
+        self._square = float(self._span.dot(self._span))
+        if self._square <= self._least_limit:  # no square is above the sum of them
+            if self._fast:
+                self._over[:] = 0.0
+                self._fast = False
             return
-        shares = self._speed_shares()
-        if shares.dot(shares) > 1.0 and max(map(abs, shares.tolist())) > 1.0:  # no square is above the sum of them
-            np.abs(shares, out=shares)
-            self._over = np.where(shares > 1.0, self._over + PHYSICS_PERIOD, 0.0)
+        velocity = self._velocity()
+        shares = np.abs(velocity) * self._per_speed
+        self._over = np.where(shares > 1.0, self._over + PHYSICS_PERIOD, 0.0)
+        self._fast = bool(self._over.any())
+        if self._fast:
             np.maximum(self.longest, self._over, out=self.longest)
-            np.maximum(self.fastest, shares, out=self.fastest)
-            self._fast = True
-        elif self._fast:
-            self._over[:] = 0.0
-            self._fast = False
+            self._extend(velocity)
+
+    def _extend(self, velocity: NDArray[np.float64]) -> None:
+        np.maximum(self._high, velocity, out=self._high)
+        np.minimum(self._low, velocity, out=self._low)
 
     def tick(self) -> None:
         """At each control tick: torques."""
         self._ticks += 1
-        if self.limited and not self._fast:
-            np.maximum(self.fastest, np.abs(self._speed_shares()), out=self.fastest)
-        held = np.abs(self._force[self._servos]) >= self._torques
+        if self._square > self._top * self._least_limit:
+            self._extend(self._velocity())
+            self._top = float(self.fastest.max()) ** 2
+        shares = self._force.take(self._servos)
+        shares *= self._per_torque
+        if float(shares.dot(shares)) < 1.0:
+            return
+        held = np.abs(shares) >= 1.0
         if held.any():
             self._any_at_limit += 1
             self._at_limit += held
 
     def summary(self) -> dict[str, Any]:
         """Fastest joint, and how often joints were at their torque limits, for a run's summary."""
-        k = int(np.argmax(self.fastest))
+        fastest = self.fastest
+        k = int(fastest.argmax())
         ticks = max(1, self._ticks)
         return {
             "joint_speed": {
                 "joint": self.names[k],
-                "share_of_limit": round(float(self.fastest[k]), 3),
+                "share_of_limit": round(float(fastest[k]), 3),
                 "longest_over_s": round(float(self.longest.max()), 4),
             }
             if self.limited

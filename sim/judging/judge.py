@@ -33,6 +33,7 @@ __all__ = ["Judge", "Landing"]
 
 _TOUCH = 20.0  # N: less than this is no contact, the usual level of force plates in gait analysis
 _AIRBORNE = 0.15  # s without contact before a touch counts as a landing
+_LONG = round(_AIRBORNE / PHYSICS_PERIOD)
 _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
 _SETTLED = 0.6  # s after touchdown in which the contact area is looked for
 _FALLEN_TILT = 40.0  # degrees
@@ -83,8 +84,12 @@ class Judge:
 
     def __post_init__(self) -> None:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in SIDES}
-        self._sensed = self.world.data.sensordata
-        self._air = dict.fromkeys(SIDES, 0)
+        data, torso = self.world.data, self.world.torso
+        self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
+        self._touched = data.sensordata[self.world.touch["left"] : self.world.leg_contact + 1]  # left, right, legs
+        self._soles = [(data.site_xpos[i], data.site_xmat[i]) for i in (self.world.sole_sites[s] for s in SIDES)]
+        self._steps = 0
+        self._last_touch = [0, 0]  # physics step, of each foot
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         mass = float(self.world.model.body_subtreemass[self.world.model.body_rootid[self.world.torso]])
         self.steps = StepCount(self.goal, mass * GRAVITY)
@@ -98,23 +103,28 @@ class Judge:
 
     def update_physics(self) -> None:
         """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
-        self.legs.step()
+        left, right, between = self._touched.tolist()
+        if between > 0.0:
+            self.legs.step()
         self.joints.step()
-        time, sensed = float(self.world.data.time), self._sensed
-        for side, address in self.world.touch.items():
-            force = float(sensed[address])
-            if force < _TOUCH:
-                self._air[side] += 1
-                continue
-            if self._air[side] * PHYSICS_PERIOD >= _AIRBORNE:
-                landing = Landing(side, time, angle=self._angle(side))
-                self.landings.append(landing)
-                self._landing[side] = landing
-                self.steps.touch(side, time)
-            self._air[side] = 0
-            last = self._landing[side]
-            if last is not None and time - last.time <= _IMPACT_WINDOW:
-                last.impact = max(last.impact, force)
+        self._steps += 1
+        if left >= _TOUCH:
+            self._touch("left", 0, left)
+        if right >= _TOUCH:
+            self._touch("right", 1, right)
+
+    def _touch(self, side: Side, i: int, force: float) -> None:
+        """A foot touches the ground at a physics step."""
+        time = float(self.world.data.time)
+        if self._steps - self._last_touch[i] > _LONG:
+            landing = Landing(side, time, angle=self._angle(side))
+            self.landings.append(landing)
+            self._landing[side] = landing
+            self.steps.touch(side, time)
+        self._last_touch[i] = self._steps
+        last = self._landing[side]
+        if last is not None and time - last.time <= _IMPACT_WINDOW:
+            last.impact = max(last.impact, force)
 
     def _angle(self, side: Side) -> float | None:
         """Angle in degrees between a sole and the flat face that carries most of it."""
@@ -147,18 +157,17 @@ class Judge:
         Returns:
             Ground reaction, true ZMP and true support polygon.
         """
-        world, data = self.world, self.world.data
+        data = self.world.data
         if feet is None:
-            feet = feet_contacts(world.model, data, [self._geoms[s] for s in SIDES])
+            feet = feet_contacts(self.world.model, data, [self._geoms[s] for s in SIDES])
         truth = ground_truth(feet)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
             if self.landings:
                 self.landings[-1].margin = min(self.landings[-1].margin, truth.margin)
-        tilt = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
+        tilt = math.degrees(math.acos(min(1.0, self._torso.item(8))))
         self.tilt_max = max(self.tilt_max, tilt)
-        center = data.subtree_com[world.torso]
-        self.estimate_error_max = np.maximum(self.estimate_error_max, np.abs(com - center))
+        np.maximum(self.estimate_error_max, np.abs(com - self._center), out=self.estimate_error_max)
         if zmp is not None and truth.zmp is not None:
             self.zmp_error.append(math.dist(zmp, truth.zmp))
         for side, points in zip(SIDES, truth.points, strict=True):
@@ -167,12 +176,9 @@ class Judge:
                 last.area = max(last.area, area(np.array(small_hull(points))))
         if moved:
             self.goal.hear(float(data.time), moved)
-        for side in SIDES:
-            site = world.sole_sites[side]
-            x, y, _ = data.site_xpos[site].tolist()
-            rotation = data.site_xmat[site]
-            yaw = math.atan2(float(rotation[3]), float(rotation[0]))
-            self.steps.carry(side, float(self._sensed[world.touch[side]]), x, y, yaw)
+        for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=False):
+            x, y, _ = position.tolist()
+            self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
         self.joints.tick()
         if self.fall is None:
             least, height = _FALLEN_HEIGHT * self.standing_height, self.height
@@ -185,6 +191,5 @@ class Judge:
     @property
     def height(self) -> float:
         """Height in m of the CoM above the lower sole."""
-        data, world = self.world.data, self.world
-        ground = min(float(data.site_xpos[world.sole_sites[s], 2]) for s in SIDES)
-        return float(data.subtree_com[world.torso, 2]) - ground
+        (left, _), (right, _) = self._soles
+        return float(self._center.item(2) - min(left.item(2), right.item(2)))

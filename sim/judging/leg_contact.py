@@ -8,8 +8,6 @@ from sim.robots.leg_shapes import COLLIDES
 
 __all__ = ["LegContact", "legs_that_touch"]
 
-_BETWEEN_LEGS = 1  # dimension of a contact between the legs; every contact with the ground has three or more
-
 
 def legs_that_touch(world: World) -> tuple[str, str] | None:
     """Names of the left leg's and the right leg's link that touch each other now, of the first such contact.
@@ -40,12 +38,13 @@ class LegContact:
 
     def __init__(self, world: World) -> None:
         self._world = world
+        self._sensed, self._address = world.data.sensordata, world.leg_contact
         self.duration = 0.0
         self.first: tuple[float, str, str] | None = None
 
     def step(self) -> None:
-        """After each physics step."""
-        if _BETWEEN_LEGS not in self._world.data.contact.dim.tolist():
+        """After a physics step."""
+        if not self._sensed.item(self._address) > 0.0:
             return
         self.duration += PHYSICS_PERIOD
         if self.first is None:

@@ -25,6 +25,7 @@ __all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "check_s
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s."""
 
+_LEG_CONTACT = "truth_leg_contact"
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
 _DIVERGED = (
     int(mujoco.mjtWarning.mjWARN_BADQPOS),
@@ -158,6 +159,21 @@ def _add_touch(spec: Any, sole: Any, name: str) -> None:
     spec.add_sensor(name=name, type=mujoco.mjtSensor.mjSENS_TOUCH, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
 
 
+def _add_leg_contact(spec: Any, robot: Robot) -> None:
+    """Add a sensor of whether anything of one leg touches anything of the other."""
+    left, right = (spec.joint(robot.legs[side].joints[0]).parent for side in SIDES)
+    body = mujoco.mjtObj.mjOBJ_XBODY  # stands for all below it, too
+    spec.add_sensor(
+        name=_LEG_CONTACT,
+        type=mujoco.mjtSensor.mjSENS_CONTACT,
+        objtype=body,
+        objname=left.name,
+        reftype=body,
+        refname=right.name,
+        intprm=[1, 0, 1],  # say whether there are contacts; of one, whichever comes first
+    )
+
+
 @dataclass(frozen=True)
 class World:
     """A compiled world and the addresses of what is read and written in it.
@@ -178,6 +194,7 @@ class World:
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
+        leg_contact: Address in sensordata, after those two, of whether one leg touches the other: above 0; likewise.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
     """
@@ -197,6 +214,7 @@ class World:
     accelerometer: int
     ankle_wrench: dict[Side, tuple[int, int]]
     touch: dict[Side, int]
+    leg_contact: int
     moving_ground: tuple[tuple[int, Solid], ...] = ()
     ground_top: float = math.inf
 
@@ -228,6 +246,7 @@ def build_world(robot: Robot, ground: Ground) -> World:
     ground.add_to(spec)
     for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
+    _add_leg_contact(spec, robot)
     _set_contacts(spec, ground.friction)
     model = _compiled(spec, robot)
     keep_apart(model, robot)
@@ -286,6 +305,7 @@ def _world_of(model: Any, robot: Robot, ground: Ground) -> World:
             for s in SIDES
         },
         touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in SIDES},
+        leg_contact=int(model.sensor(_LEG_CONTACT).adr[0]),
         moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
         ground_top=ground.top,
     )

@@ -87,7 +87,7 @@ def _add_foot(spec: Any, side: Side) -> None:
 
 def _collide(geom: Any, side: Side) -> None:
     geom.contype, geom.conaffinity = COLLIDES[side]
-    geom.condim = 1  # by which the judge tells these contacts from the ground's
+    geom.condim = 1  # no friction: what counts is that they touch
     geom.margin = geom.gap = 0.0
     geom.solref = [0.005, 1.0]
     geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
