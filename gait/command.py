@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,8 +44,7 @@ class Sensors:
     ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class FootTarget:
+class FootTarget(NamedTuple):
     """Where a sole shall be, and what it shall carry.
 
     Attributes:

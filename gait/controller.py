@@ -345,7 +345,9 @@ class WalkingController:
         """Advance the swing foot; where the feet are then, and by how much in m one that has just landed shall carry
         further inside."""
         phase, percepts = self.schedule.at(sensed.time), sensed.percepts
-        senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
+        senses = None
+        if self.settings.compliance is not None:
+            senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press())
         feet, slope = self.motion.view, self.settings.slope
@@ -550,6 +552,6 @@ class WalkingController:
 
     def _com_height(self, phase: Phase) -> float:
         """CoM height above the feet: follows the stance foot, blends in double support."""
-        heights = {side: float(self.motion.footholds[side][0][2]) for side in SIDES}
+        heights = {side: self.motion.footholds[side][0].item(2) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
         return self._ground.update(target) + self.settings.com_height

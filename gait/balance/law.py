@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -22,8 +21,7 @@ from plantar.sides import Side
 __all__ = ["BalanceLaw", "BalanceState", "Feet", "FootAction", "FootState"]
 
 
-@dataclass(frozen=True)
-class BalanceState:
+class BalanceState(NamedTuple):
     """What a balance law decided at one tick, world frame.
 
     Attributes:

@@ -56,9 +56,9 @@ class CommandFrame:
             >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
             [1.0, 2.0]
         """
-        dx, dy = (point - self.anchor[:2] - self.offset[:2]).tolist()
+        (px, py), (x, y, _), (ox, oy, _) = point.tolist(), self.anchor.tolist(), self.offset.tolist()
+        dx, dy = px - x - ox, py - y - oy
         # Heights are not turned: the frame turns about the vertical axis alone.
-        x, y, _ = self.anchor.tolist()
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([x + c * dx + s * dy, y - s * dx + c * dy])
 
@@ -71,6 +71,7 @@ class CommandFrame:
         Returns:
             The same point (3,) in the world in m.
         """
-        dx, dy, dz = (point - self.anchor).tolist()
+        (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self.anchor.tolist(), self.offset.tolist()
+        dx, dy = px - x, py - y
         c, s = math.cos(self.turn), math.sin(self.turn)
-        return np.asarray(self.anchor + self.offset + np.array([c * dx - s * dy, s * dx + c * dy, dz]))
+        return np.array([x + ox + (c * dx - s * dy), y + oy + (s * dx + c * dy), z + oz + (pz - z)])

@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,8 +38,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class Posture:
+class Posture(NamedTuple):
     """Kinematics of a joint configuration in the base (torso) frame.
 
     Attributes:
@@ -174,8 +173,6 @@ class FloatingBaseEstimator:
         rotations: dict[str, NDArray[np.float64]] = {s: rotation.dot(posture.rotations[s]) for s in SIDES}
         points: list[NDArray[np.float64] | None] = []
         for s in SIDES:
-            positions[s] = self._position + rotation.dot(posture.positions[s])
-            rotations[s] = rotation.dot(posture.rotations[s])
             cop = cops[s]
             points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
         zmp = zmp_of_feet(points, [loads[s] for s in SIDES])

@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,8 +30,7 @@ from plantar.errors import InputError
 __all__ = ["LipReference", "VrpPlan"]
 
 
-@dataclass(frozen=True)
-class LipReference:
+class LipReference(NamedTuple):
     """The plan at one time, in the horizontal plane of the world frame.
 
     Attributes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 __all__ = ["BaseState"]
 
 
-@dataclass(frozen=True)
-class BaseState:
+class BaseState(NamedTuple):
     """Estimated state, world frame. Contacts have names, the feet of a biped "left" and "right".
 
     Attributes:

@@ -127,7 +127,7 @@ def rotation_error(wanted: NDArray[np.float64], actual: NDArray[np.float64]) -> 
 
 def heading(rotation: NDArray[np.float64]) -> float:
     """Yaw in rad of a rotation (3, 3) to the world: where its x axis points, seen from above."""
-    return math.atan2(rotation[1, 0], rotation[0, 0])
+    return math.atan2(rotation.item(1, 0), rotation.item(0, 0))
 
 
 def level_rotation(yaw: float) -> NDArray[np.float64]:

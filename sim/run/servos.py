@@ -77,8 +77,9 @@ class LegServos:
         )
         last = joints if self._last is None else self._last
         if self._per_limit is not None:
-            fastest = float(np.abs((joints - last) * self._per_limit).max())
-            if fastest > 1.0:
+            shares = (joints - last) * self._per_limit
+            # No square is above the sum of them, and the sum costs a third of the largest.
+            if not float(shares.dot(shares)) <= 1.0 and (fastest := float(np.abs(shares).max())) > 1.0:
                 joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world
