@@ -34,8 +34,7 @@ class JointLimits:
         self._over, self._high, self._low = np.zeros(k), np.zeros(k), np.zeros(k)
         limits = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
         self._per_speed = 1.0 / limits
-        self._least_limit = float(limits.min()) ** 2
-        self._square = self._top = 0.0  # squares: of all joints' speeds now, of the largest speed so far as a share
+        self._least_limit = float(limits.min()) ** 2  # squared
         dofs = world.joint_qvel
         first, end = int(dofs.min()), int(dofs.max()) + 1
         self._span = world.data.qvel[first:end]  # a view, without a copy at each step; may hold other joints, too
@@ -50,11 +49,7 @@ class JointLimits:
 
     @property
     def fastest(self) -> NDArray[np.float64]:
-        """Largest speed of each joint (k,) as a share of its limit; 0 without limits.
-
-        Exact for joints that were faster than their limit and for the one with the largest share; of others it may miss
-        speeds below that share.
-        """
+        """Largest speed of each joint (k,) as a share of its limit; 0 without limits."""
         return np.asarray(np.maximum(self._high, -self._low) * self._per_speed)
 
     def _velocity(self) -> NDArray[np.float64]:
@@ -62,8 +57,7 @@ class JointLimits:
 
     def step(self) -> None:
         """After each physics step: speeds."""
-        self._square = float(self._span.dot(self._span))
-        if self._square <= self._least_limit:  # no square is above the sum of them
+        if float(self._span.dot(self._span)) <= self._least_limit:  # no square is above the sum of them
             if self._fast:
                 self._over[:] = 0.0
                 self._fast = False
@@ -83,9 +77,7 @@ class JointLimits:
     def tick(self) -> None:
         """At each control tick: torques."""
         self._ticks += 1
-        if self._square > self._top * self._least_limit:
-            self._extend(self._velocity())
-            self._top = float(self.fastest.max()) ** 2
+        self._extend(self._velocity())
         shares = self._force.take(self._servos)
         shares *= self._per_torque
         if float(shares.dot(shares)) < 1.0:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import mujoco
@@ -33,7 +33,7 @@ __all__ = ["Judge", "Landing"]
 
 _TOUCH = 20.0  # N: less than this is no contact, the usual level of force plates in gait analysis
 _AIRBORNE = 0.15  # s without contact before a touch counts as a landing
-_LONG = round(_AIRBORNE / PHYSICS_PERIOD)
+_AIRBORNE_STEPS = round(_AIRBORNE / PHYSICS_PERIOD)
 _IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
 _SETTLED = 0.6  # s after touchdown in which the contact area is looked for
 _FALLEN_TILT = 40.0  # degrees
@@ -90,6 +90,7 @@ class Judge:
         self._soles = [(data.site_xpos[i], data.site_xmat[i]) for i in (self.world.sole_sites[s] for s in SIDES)]
         self._steps = 0
         self._last_touch = [0, 0]  # physics step, of each foot
+        self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         mass = float(self.world.model.body_subtreemass[self.world.model.body_rootid[self.world.torso]])
         self.steps = StepCount(self.goal, mass * GRAVITY)
@@ -107,24 +108,34 @@ class Judge:
         if between > 0.0:
             self.legs.step()
         self.joints.step()
-        self._steps += 1
+        now = self._steps = self._steps + 1
+        last = self._last_touch
         if left >= _TOUCH:
-            self._touch("left", 0, left)
+            if now - last[0] > _AIRBORNE_STEPS:
+                self._land("left")
+            last[0] = now
         if right >= _TOUCH:
-            self._touch("right", 1, right)
+            if now - last[1] > _AIRBORNE_STEPS:
+                self._land("right")
+            last[1] = now
+        if self._fresh:
+            self._follow_impacts({"left": left, "right": right})
 
-    def _touch(self, side: Side, i: int, force: float) -> None:
-        """A foot touches the ground at a physics step."""
+    def _land(self, side: Side) -> None:
+        """A foot touches the ground after it was in the air."""
+        landing = Landing(side, float(self.world.data.time), angle=self._angle(side))
+        self.landings.append(landing)
+        self._landing[side] = landing
+        self._fresh.append(landing)
+        self.steps.touch(side, landing.time)
+
+    def _follow_impacts(self, forces: Mapping[Side, float]) -> None:
+        """Look for the impact of landings that are not long ago."""
         time = float(self.world.data.time)
-        if self._steps - self._last_touch[i] > _LONG:
-            landing = Landing(side, time, angle=self._angle(side))
-            self.landings.append(landing)
-            self._landing[side] = landing
-            self.steps.touch(side, time)
-        self._last_touch[i] = self._steps
-        last = self._landing[side]
-        if last is not None and time - last.time <= _IMPACT_WINDOW:
-            last.impact = max(last.impact, force)
+        self._fresh = [landing for landing in self._fresh if time - landing.time <= _IMPACT_WINDOW]
+        for landing in self._fresh:
+            if forces[landing.side] >= _TOUCH:
+                landing.impact = max(landing.impact, forces[landing.side])
 
     def _angle(self, side: Side) -> float | None:
         """Angle in degrees between a sole and the flat face that carries most of it."""
