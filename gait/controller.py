@@ -380,7 +380,7 @@ class WalkingController:
             phase=phase,
             plan=self.plan.view,
             feet=feet,
-            places={side: self._place(side) for side in SIDES},
+            frame=self._frame.now(),
             readings={side: percept.reading for side, percept in percepts.items()},
             loads=state.loads,
             moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
@@ -402,12 +402,6 @@ class WalkingController:
             cop = sole.position_cop_in_sole
             if cop is not None and state.loads[side] > least:
                 self._damping[side].update(state.loads[side], cop, self.contacts.center(side))
-
-    def _place(self, side: Side) -> Footstep:
-        """Where a foot is commanded, as a level place in the world."""
-        position, yaw = self.motion.footholds[side]
-        x, y, _ = self._frame.to_world(position).tolist()
-        return Footstep(side, x, y, yaw + self._frame.turn)
 
     def _zmp_region(self, phase: Phase, feet: FeetView) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: convex polygon (k, 2) in the world in m."""

@@ -40,8 +40,14 @@ class CommandFrame:
         """
         # The anchor moves as slowly as the rest: a jump from foot to foot would turn the CoM about another point.
         self.anchor = self.anchor + self._share * (commanded - self.anchor)
-        self.offset += self._share * (real - commanded - self.offset)
+        self.offset = self.offset + self._share * (real - commanded - self.offset)
         self.turn += self._share * (turn - self.turn)
+
+    def now(self) -> CommandFrame:
+        """The frame as it is now: `update` of this one leaves it alone."""
+        frame = object.__new__(CommandFrame)
+        frame.__dict__.update(self.__dict__)  # whose arrays are replaced, never written to
+        return frame
 
     def to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
         """A horizontal point of the world in the command frame.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,11 @@ from plantar.sides import Side
 
 __all__ = ["FeetView"]
 
+_THERE = np.zeros(2)
+_THERE.flags.writeable = False
 
-@dataclass(frozen=True)
-class FeetView:
+
+class FeetView(NamedTuple):
     """Commanded feet at one tick.
 
     Attributes:
@@ -34,6 +36,6 @@ class FeetView:
     landed: bool = True
     lift_off: bool = False
     touchdown: bool = False
-    ahead: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
+    ahead: NDArray[np.float64] = _THERE
     surprise: float = 0.0
     distance: NDArray[np.float64] | None = None

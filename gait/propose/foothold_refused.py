@@ -141,7 +141,7 @@ class StepGuard:
     def _begin(self, phase: Phase, side: Side, tick: Tick) -> None:
         """A step begins: it comes back beside the other foot if there is no way on."""
         self._step, self._tries, self._state = phase.step, 0, _State.WALKING
-        origin, stance = tick.places[side], tick.places[other_side(side)]
+        origin, stance = tick.place(side), tick.place(other_side(side))
         ahead = origin.rotation_sole_to_world[:2, 0]
         way = np.array([stance.x, stance.y]) - [origin.x, origin.y]
         dx, dy = (ahead * float(way @ ahead)).tolist()

@@ -8,14 +8,15 @@ proposer whose change was not chosen sees that in `Tick.plan.last` and proposes 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Protocol
+from types import MappingProxyType
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.contact.foot_contacts import FootholdFound, FootholdSeen
+from gait.estimate.command_frame import CommandFrame
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
@@ -38,8 +39,7 @@ class Priority(IntEnum):
     """What a user wants: it can wait for a tick."""
 
 
-@dataclass(frozen=True)
-class Tick:
+class Tick(NamedTuple):
     """All that a proposer gets to know at one tick.
 
     Attributes:
@@ -47,7 +47,7 @@ class Tick:
         phase: Phase of the walk.
         plan: The plan as it stands.
         feet: Where the feet are commanded.
-        places: The same as level places in the world, without their heights.
+        frame: The frame that they are commanded in.
         readings: Reading of each sole.
         loads: Vertical force on each foot in N.
         moments: Moment (2,) at each ankle in N m, where there are force-torque sensors.
@@ -60,13 +60,19 @@ class Tick:
     phase: Phase
     plan: PlanView
     feet: FeetView
-    places: Mapping[Side, Footstep]
-    readings: Mapping[Side, Reading] = field(default_factory=dict)
-    loads: Mapping[str, float] = field(default_factory=dict)
-    moments: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    frame: CommandFrame
+    readings: Mapping[Side, Reading] = MappingProxyType({})
+    loads: Mapping[str, float] = MappingProxyType({})
+    moments: Mapping[Side, NDArray[np.float64]] = MappingProxyType({})
     found: tuple[FootholdFound, ...] = ()
     seen: FootholdSeen | None = None
     inward: float = 0.0
+
+    def place(self, side: Side) -> Footstep:
+        """Where a foot is commanded, as a level place in the world without its height."""
+        position, yaw = self.feet.footholds[side]
+        x, y, _ = self.frame.to_world(position).tolist()
+        return Footstep(side, x, y, yaw + self.frame.turn)
 
 
 class Proposer(Protocol):

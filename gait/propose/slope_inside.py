@@ -63,6 +63,6 @@ class SlopeInside:
         if side is None or tick.inward == 0.0:
             return None
         step = phase.step if phase.swing is not None else phase.step - 1
-        across = tick.places[side].rotation_sole_to_world[:2, 1]
+        across = tick.place(side).rotation_sole_to_world[:2, 1]
         x, y = (tick.plan.vrp(step) + across * tick.inward).tolist()
         return PlanChange("stands inside on a slope", step, vrp=(x, y))

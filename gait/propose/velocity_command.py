@@ -26,7 +26,7 @@ from gait.plan.plan_change import PlanChange
 from gait.propose.proposer import Priority, Tick, was_applied
 from plantar.errors import InputError
 from plantar.settings.schema import Settings, number
-from plantar.sides import Side, other_side
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["STOP", "Legs", "Stride", "Velocity", "VelocityCommand", "VelocityTable", "next_step", "table_of"]
 
@@ -214,7 +214,7 @@ class VelocityCommand:
         if velocity is STOP and phase.step >= plan.count:
             return None  # at rest, or on the way to it
         duration = timing.single_support + timing.double_support
-        feet = {side: self._standing(side, tick) for side in tick.places}
+        feet = {side: self._standing(side, tick) for side in SIDES}
         first = self._first(tick, velocity)
         steps = self._steps(feet[other_side(first)], feet[first], velocity, duration)
         self._proposed = PlanChange("velocity command", phase.step - 1, following=steps)
@@ -236,7 +236,7 @@ class VelocityCommand:
         for k in range(tick.phase.step - 1, max(plan.first, tick.phase.step - 3) - 1, -1):
             if plan.foothold(k).side == side:
                 return plan.foothold(k)
-        return tick.places[side]
+        return tick.place(side)
 
     def _steps(
         self, stance: Footstep, other: Footstep, velocity: Velocity | None, duration: float

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gait.estimate.command_frame import CommandFrame
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import straight_plan
 from gait.plan.phases import Timing
@@ -32,8 +32,9 @@ def _tick_at(plan: WalkPlan, time: float, **known: object) -> Tick:
     for k in range(view.first, phase.step):
         feet[view.foothold(k).side] = view.foothold(k)
     commanded = {side: (feet[side].position, feet[side].yaw) for side in SIDES}
-    tick = Tick(time, phase, view, FeetView(commanded, phase.swing, landed=phase.swing is None), feet)
-    return replace(tick, **known)  # type: ignore[arg-type]
+    in_world = CommandFrame(np.zeros(3), 0.005, 0.3)
+    tick = Tick(time, phase, view, FeetView(commanded, phase.swing, landed=phase.swing is None), in_world)
+    return tick._replace(**known)  # type: ignore[arg-type]
 
 
 @pytest.fixture

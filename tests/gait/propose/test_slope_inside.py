@@ -14,7 +14,7 @@ NOWHERE = np.empty((0, 2))
 
 
 def touchdown(side: Side) -> FeetView:
-    return FeetView({}, side, landed=True, touchdown=True)
+    return FeetView({side: (np.zeros(3), 0.0)}, side, landed=True, touchdown=True)
 
 
 @pytest.mark.parametrize(("side", "sign"), [("left", -1.0), ("right", 1.0)])
