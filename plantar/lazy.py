@@ -34,5 +34,8 @@ else:
             """Compute the member and keep it in the instance, which is where Python looks first from then on."""
             if instance is None:
                 return self
-            value = instance.__dict__[self.attrname] = read_only(self.func(instance))
+            value = self.func(instance)
+            if type(value) is not float:
+                read_only(value)
+            instance.__dict__[self.attrname] = value
             return value

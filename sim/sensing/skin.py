@@ -207,7 +207,8 @@ class SkinSensor:
         if self._rng is not None and self.noise_std > 0.0:
             force = force + self._rng.normal(0.0, self.noise_std, len(force))
         force = np.minimum(np.maximum(force, self.range[0]), self.range[1])
-        force[self.dead] = np.nan
+        if self.dead.size:
+            force[self.dead] = np.nan
         return force
 
 
