@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance.law import BalanceState, Feet, FootAction
+from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import SIDES, Side, other_side
+from plantar.sides import SIDES, Side
 
 __all__ = ["transferred"]
 
@@ -29,16 +29,17 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
     """
     zmp, acceleration = feet.frame.to_command(balanced.zmp_desired), balanced.com_acceleration
     force = mass * np.array([acceleration[0], acceleration[1], GRAVITY])
-    centers: dict[Side, NDArray[np.float64]] = {}
-    for side in SIDES:
-        foot = feet.states[side]
-        centers[side] = foot.position[:2] + foot.rotation[:2, :2].dot(foot.center)
+    left, right = (_center(feet.states[side]) for side in SIDES)
     if feet.stance is not None:
-        share = {feet.stance: 1.0, other_side(feet.stance): 0.0}
+        share = 1.0 if feet.stance == "left" else 0.0
     else:
-        line = centers["left"] - centers["right"]
-        left = float((zmp - centers["right"]) @ line / (line @ line))
-        left = min(1.0, max(0.0, left))
-        share = {"left": left, "right": 1.0 - left}
-    rest = zmp - (share["left"] * centers["left"] + share["right"] * centers["right"])
-    return {side: FootAction(share[side] * force, centers[side] + rest) for side in SIDES}
+        line = left - right
+        share = min(1.0, max(0.0, float((zmp - right) @ line / (line @ line))))
+    other = 1.0 - share
+    rest = zmp - (share * left + other * right)
+    return {"left": FootAction(share * force, left + rest), "right": FootAction(other * force, right + rest)}
+
+
+def _center(foot: FootState) -> NDArray[np.float64]:
+    """Point (2,) of the command frame in m at which a foot is to be loaded."""
+    return np.asarray(foot.position[:2] + foot.rotation[:2, :2].dot(foot.center))
