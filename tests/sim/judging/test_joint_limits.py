@@ -1,0 +1,82 @@
+"""The judge of joint speeds and torques against what is counted joint by joint, step by step."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from sim.judging.joint_limits import JointLimits
+from sim.model.world import PHYSICS_PERIOD, World, build_world
+from sim.robots import Robot
+from sim.terrain import Ground
+
+STEPS, EVERY = 400, 5
+
+
+def swinging(rng: np.random.Generator, limits: np.ndarray) -> np.ndarray:
+    """Speeds (steps, k) of joints that are mostly slow, some for long beyond their limits, in both directions."""
+    time = PHYSICS_PERIOD * np.arange(STEPS)[:, None]
+    rate, phase = rng.uniform(5.0, 40.0, len(limits)), rng.uniform(0.0, 6.0, len(limits))
+    return limits * rng.uniform(0.1, 1.4, len(limits)) * np.sin(rate * time + phase)
+
+
+def longest_run(over: np.ndarray) -> int:
+    most = run = 0
+    for now in over:
+        run = run + 1 if now else 0
+        most = max(most, run)
+    return most
+
+
+@pytest.fixture
+def world(h1: Robot) -> World:
+    return build_world(h1, Ground((), 0.0, 0.8))
+
+
+@pytest.mark.parametrize("order", ["as in the model", "another"])
+@pytest.mark.parametrize("seed", range(5))
+def test_speeds_beyond_the_limits_are_counted_joint_by_joint(world: World, order: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    k = len(world.joint_qvel)
+    if order == "another":
+        world = replace(world, joint_qvel=world.joint_qvel[rng.permutation(k)])
+    judge = JointLimits(world)
+    limits = np.array([*world.robot.velocity_limits] * 2)
+    speeds = swinging(rng, limits)
+    for i, row in enumerate(speeds):
+        world.data.qvel[world.joint_qvel] = row
+        judge.step()
+        if i % EVERY == 0:
+            judge.tick()
+    shares = np.abs(speeds) / limits
+    runs = [longest_run(column > 1.0) for column in shares.T]
+    assert judge.longest == pytest.approx(PHYSICS_PERIOD * np.array(runs), abs=1e-12)
+    seen = np.where(shares > 1.0, shares, 0.0).max(axis=0)
+    at_ticks = shares[::EVERY].max(axis=0)
+    assert judge.fastest[seen > 0.0] == pytest.approx(seen[seen > 0.0], rel=1e-12)
+    assert (judge.fastest >= at_ticks * (1.0 - 1e-12)).all()
+    assert (judge.fastest <= shares.max(axis=0) * (1.0 + 1e-12)).all()
+
+
+def test_ticks_at_a_torque_limit_are_counted(world: World) -> None:
+    rng = np.random.default_rng(0)
+    judge, servos = JointLimits(world), world.servos
+    limits = world.model.actuator_forcerange[servos, 1]
+    torques = limits * rng.uniform(-1.02, 1.02, (300, len(servos))).clip(-1.0, 1.0)
+    for row in torques:
+        world.data.actuator_force[servos] = row
+        judge.tick()
+    held = np.abs(torques) >= 0.999 * limits
+    found = judge.summary()["torque_limit"]
+    assert found["share_of_ticks"] == pytest.approx(held.any(axis=1).mean(), abs=1e-4)
+    wanted = {name: n / 300 for name, n in zip(judge.names, held.sum(axis=0), strict=True) if n}
+    assert found["joints"] == pytest.approx(wanted, abs=1e-4)
+
+
+def test_a_robot_without_limits_is_never_too_fast(world: World, h1: Robot) -> None:
+    judge = JointLimits(replace(world, robot=replace(h1, velocity_limits=())))
+    world.data.qvel[:] = 1e3
+    judge.step()
+    judge.tick()
+    assert judge.longest.max() == 0.0
+    assert judge.summary()["joint_speed"] is None
