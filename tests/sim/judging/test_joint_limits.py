@@ -80,3 +80,14 @@ def test_a_robot_without_limits_is_never_too_fast(world: World, h1: Robot) -> No
     judge.tick()
     assert judge.longest.max() == 0.0
     assert judge.summary()["joint_speed"] is None
+
+
+def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world: World) -> None:
+    limits = np.array([*world.robot.velocity_limits] * 2)
+    for i, limit in enumerate(limits):
+        for share in (0.99, -0.99, 1.01, -1.01):
+            judge = JointLimits(world)
+            world.data.qvel[:] = 0.0
+            world.data.qvel[world.joint_qvel[i]] = share * limit
+            judge.step()
+            assert (judge.longest > 0.0).tolist() == [j == i and abs(share) > 1.0 for j in range(len(limits))]
