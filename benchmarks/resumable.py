@@ -125,7 +125,8 @@ def wanted(benchmark: Benchmark) -> Iterator[tuple[int, Case, int]]:
             if not runs(seed) and not (case.aside and i >= FEW):
                 yield later + i, case, seed
         for seed in range(case.seeds):
-            if is_old(seed) and (seed < AGAIN or changed or not runs(seed)):
+            never = not runs(seed) and not case.aside  # of a comparison some seeds are enough
+            if is_old(seed) and (seed < AGAIN or (changed and runs(seed)) or never):
                 yield later + (seed if seed < AGAIN or changed else 20 + seed), case, seed
 
 
