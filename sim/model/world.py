@@ -162,6 +162,8 @@ def _add_touch(spec: Any, sole: Any, name: str) -> None:
 def _add_leg_contact(spec: Any, robot: Robot) -> None:
     """Add a sensor of whether anything of one leg touches anything of the other."""
     left, right = (spec.joint(robot.legs[side].joints[0]).parent for side in SIDES)
+    for side, link in zip(SIDES, (left, right), strict=True):
+        link.name = link.name or f"{side}_leg"  # a sensor finds it by name, which a model need not give
     body = mujoco.mjtObj.mjOBJ_XBODY  # stands for all below it, too
     spec.add_sensor(
         name=_LEG_CONTACT,
@@ -194,7 +196,7 @@ class World:
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
-        leg_contact: Address in sensordata, after those two, of whether one leg touches the other: above 0; likewise.
+        leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
     """

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import mujoco
 import numpy as np
 import pytest
 
+import sim.model.world
 from plantar.errors import SceneError
 from sim.judging.leg_contact import LegContact, legs_that_touch
 from sim.model.world import World, build_world
@@ -73,6 +75,25 @@ def test_a_leg_that_swings_into_the_other_is_seen(h1: Robot, angle: float, link:
     assert watch.first is not None
     assert watch.first[1:] == (f"left_{link}", f"right_{link}")
     assert watch.duration == pytest.approx(0.002)
+
+
+def test_legs_whose_first_links_have_no_name_are_seen_to_touch(h1: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+    named = sim.model.world.robot_spec
+
+    def unnamed(robot: Robot) -> Any:
+        spec = named(robot)
+        for leg in robot.legs.values():
+            spec.joint(leg.joints[0]).parent.name = ""
+        return spec
+
+    monkeypatch.setattr(sim.model.world, "robot_spec", unnamed)
+    world = build_world(h1, GROUND)
+    placed(world)
+    watch = LegContact(world)
+    world.data.joint("left_hip_roll").qpos[0] = -0.25
+    mujoco.mj_forward(world.model, world.data)
+    watch.step()
+    assert watch.duration == pytest.approx(0.001)
 
 
 def test_hips_that_are_close_together_get_thinner_thighs(h1: Robot) -> None:
