@@ -86,9 +86,9 @@ class Judge:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in SIDES}
         data, torso = self.world.data, self.world.torso
         self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
-        self._touched = data.sensordata[self.world.touch["left"] : self.world.leg_contact + 1]  # left, right, legs
+        self._touched = data.sensordata[self.world.touch["left"] : self.world.touch["right"] + 1]
         self._soles = [(data.site_xpos[i], data.site_xmat[i]) for i in (self.world.sole_sites[s] for s in SIDES)]
-        self._steps = 0
+        self._physics_steps = 0
         self._last_touch = [0, 0]  # physics step, of each foot
         self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
@@ -104,11 +104,10 @@ class Judge:
 
     def update_physics(self) -> None:
         """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
-        left, right, between = self._touched.tolist()
-        if between > 0.0:
-            self.legs.step()
+        self.legs.step()
         self.joints.step()
-        now = self._steps = self._steps + 1
+        left, right = self._touched.tolist()
+        now = self._physics_steps = self._physics_steps + 1
         last = self._last_touch
         if left >= _TOUCH:
             if now - last[0] > _AIRBORNE_STEPS:
@@ -187,7 +186,7 @@ class Judge:
                 last.area = max(last.area, area(np.array(small_hull(points))))
         if moved:
             self.goal.hear(float(data.time), moved)
-        for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=False):
+        for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=True):
             x, y, _ = position.tolist()
             self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
         self.joints.tick()

@@ -43,7 +43,7 @@ class LegContact:
         self.first: tuple[float, str, str] | None = None
 
     def step(self) -> None:
-        """After a physics step."""
+        """After each physics step."""
         if not self._sensed.item(self._address) > 0.0:
             return
         self.duration += PHYSICS_PERIOD
