@@ -17,6 +17,7 @@ from gait.feet.swing_flight import SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
+from plantar.arrays import read_only
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
@@ -140,7 +141,7 @@ class FootMotion:
     def view(self) -> FeetView:
         """The feet at this tick, as a value."""
         for position, _ in self.footholds.values():
-            position.setflags(False)  # type: ignore[call-arg]  # by name it takes twice as long
+            read_only(position)
         return FeetView(
             dict(self.footholds),
             self.last_side,

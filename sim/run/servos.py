@@ -79,7 +79,7 @@ class LegServos:
         if self._per_limit is not None:
             shares = (joints - last) * self._per_limit
             # No square is above the sum of them, and the sum costs a third of the largest.
-            if not float(shares.dot(shares)) <= 1.0 and (fastest := float(np.abs(shares).max())) > 1.0:
+            if float(shares.dot(shares)) > 1.0 and (fastest := float(np.abs(shares).max())) > 1.0:
                 joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,7 +26,7 @@ def _plan_of(count: int = 6, **walk: float) -> WalkPlan:
     return WalkPlan(feet, steps, Timing(), MIDDLES, OMEGA, 1.0)
 
 
-def _tick_at(plan: WalkPlan, time: float, **known: object) -> Tick:
+def _tick_at(plan: WalkPlan, time: float, **known: Any) -> Tick:
     """The tick at a time in s, with the feet where the plan has them."""
     phase, view = plan.schedule.at(time), plan.view
     feet = straight_plan(0)[0]
@@ -34,7 +35,7 @@ def _tick_at(plan: WalkPlan, time: float, **known: object) -> Tick:
     commanded = {side: (feet[side].position, feet[side].yaw) for side in SIDES}
     in_world = CommandFrame(np.zeros(3), 0.005, 0.3)
     tick = Tick(time, phase, view, FeetView(commanded, phase.swing, landed=phase.swing is None), in_world)
-    return tick._replace(**known)  # type: ignore[arg-type]
+    return tick._replace(**known)
 
 
 @pytest.fixture
