@@ -32,7 +32,11 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "controller_tables",
     ),
     "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
-    "sim": ("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "run", "sweep"),
+    "wholebody": ("dynamics", "skin", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
+    "sim": (
+        *("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "companion", "run"),
+        "sweep",
+    ),
     "shoes": (
         *(
             "units",

@@ -1,0 +1,1 @@
+"""Where the taxels of a body are, and what they say together."""

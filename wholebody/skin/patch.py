@@ -1,0 +1,130 @@
+"""Patches of skin on links, and the skin of a whole body as one array of taxels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.arrays import array
+from plantar.errors import InputError, LayoutError
+from plantar.sensing.body_skin import skin_wrench
+
+__all__ = ["BodySkin", "SkinPatch"]
+
+
+@dataclass(frozen=True)
+class SkinPatch:
+    """Taxels on one link (T 3.14-3.15). A taxel's z axis points into the body.
+
+    Attributes:
+        name: Name of the patch.
+        link: Link that it is mounted on.
+        positions: Taxel positions (t, 3) in the link's frame in m.
+        rotations: Rotations (t, 3, 3) from each taxel's to the link's frame.
+        areas: Area (t,) of each taxel in m^2.
+        force_threshold: epsilon_f of T 3.23: force in N from which a taxel is active.
+        proximity_range: d_range of T 3.30: distance in m up to which a taxel sees; 0 for a patch that does not.
+
+    Raises:
+        LayoutError: If an array has another shape or is not finite, an area is not above 0, or a threshold or range is
+            negative; the message names the patch.
+    """
+
+    name: str
+    link: str
+    positions: NDArray[np.float64]
+    rotations: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    force_threshold: float = 0.15
+    proximity_range: float = 0.05
+
+    def __post_init__(self) -> None:
+        where = f"patch '{self.name}'"
+        positions = array(self.positions, f"{where}: positions", ("t", 3), LayoutError, finite=True)
+        count = len(positions)
+        rotations = array(self.rotations, f"{where}: rotations", (count, 3, 3), LayoutError, finite=True)
+        areas = array(self.areas, f"{where}: areas", (count,), LayoutError, finite=True)
+        if count == 0:
+            raise LayoutError(f"{where} has no taxels; it needs one at least")
+        if not (areas > 0.0).all():
+            raise LayoutError(f"{where}: an area is {areas.min():g} m^2; allowed: above 0")
+        if not np.allclose(rotations @ rotations.transpose(0, 2, 1), np.eye(3), atol=1e-6):
+            raise LayoutError(f"{where}: a rotation is not orthonormal")
+        for label, value, unit in (
+            ("force threshold", self.force_threshold, "N"),
+            ("proximity range", self.proximity_range, "m"),
+        ):
+            if not (np.isfinite(value) and value >= 0.0):
+                raise LayoutError(f"{where}: {label} is {value} {unit}; allowed: 0 or more")
+        for name, checked in (("positions", positions), ("rotations", rotations), ("areas", areas)):
+            object.__setattr__(self, name, checked)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+
+class BodySkin:
+    """All taxels of a body in one order: link by link, so that what is felt on a link is one slice.
+
+    Args:
+        patches: The patches, any number a link.
+
+    Attributes:
+        patches: The patches, sorted by link.
+        links: Links that have skin.
+        link_of: Index (N,) of each taxel's link in `links`.
+        slices: Taxels of each patch by its name.
+        positions: Taxel positions (N, 3) in their link's frame in m.
+        normals: Direction (N, 3) into the body in the link's frame: where a force on the taxel pushes.
+        areas: Taxel areas (N,) in m^2.
+        thresholds: Force threshold (N,) in N.
+        ranges: Proximity range (N,) in m.
+        unit_wrenches: Wrench (N, 6) about the link's origin of 1 N on each taxel (T 3.16), in the link's frame.
+
+    Raises:
+        LayoutError: If there is no patch, or two have one name.
+    """
+
+    def __init__(self, patches: Sequence[SkinPatch]) -> None:
+        if not patches:
+            raise LayoutError("a skin has no patches; it needs one at least")
+        self.patches = tuple(sorted(patches, key=lambda p: p.link))
+        names = [p.name for p in self.patches]
+        for name in names:
+            if names.count(name) > 1:
+                raise LayoutError(f"two patches are called '{name}'; each needs a name of its own")
+        self.links = tuple(dict.fromkeys(p.link for p in self.patches))
+        counts = [len(p) for p in self.patches]
+        self.link_of = np.repeat([self.links.index(p.link) for p in self.patches], counts)
+        ends = np.cumsum(counts).tolist()
+        self.slices = {
+            p.name: slice(end - count, end) for p, end, count in zip(self.patches, ends, counts, strict=True)
+        }
+        self.positions = np.vstack([p.positions for p in self.patches])
+        rotations = np.vstack([p.rotations for p in self.patches])
+        self.normals = np.ascontiguousarray(rotations[:, :, 2])
+        self.areas = np.hstack([p.areas for p in self.patches])
+        self.thresholds = np.repeat([p.force_threshold for p in self.patches], counts)
+        self.ranges = np.repeat([p.proximity_range for p in self.patches], counts)
+        self.unit_wrenches = skin_wrench(self.positions, rotations, np.eye(len(self.positions)))
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def taxels_of(self, patches: Sequence[str] | None) -> NDArray[np.bool_]:
+        """Mask (N,) of the taxels of some patches; of all where None.
+
+        Raises:
+            InputError: If there is no patch of a name.
+        """
+        if patches is None:
+            return np.ones(len(self), dtype=bool)
+        found = np.zeros(len(self), dtype=bool)
+        for name in patches:
+            if name not in self.slices:
+                raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")
+            found[self.slices[name]] = True
+        return found
