@@ -58,12 +58,23 @@ class RobotDynamics(Protocol):
             link: Name of the link.
             point: Point (3,) in the link's frame in m; its origin where None.
 
+        Returns:
+            The Jacobian in the world frame.
+
         Raises:
             InputError: If there is no such link.
         """
 
     def drift(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
-        """J' q' (6,) of that Jacobian: the point's acceleration while q'' = 0, in m/s^2 and rad/s^2."""
+        """J' q' (6,) of the Jacobian of that link and point.
+
+        Args:
+            link: Name of the link.
+            point: Point (3,) in the link's frame in m; its origin where None.
+
+        Returns:
+            The point's acceleration while q'' = 0, in m/s^2 and rad/s^2.
+        """
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """The centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import SkinReading
+from wholebody.skin.reading import LinkWrench, SkinReading
 
-__all__ = ["Demand", "Task", "link_rows"]
+__all__ = ["Demand", "Task", "wrench_demand"]
 
 
 class Demand(NamedTuple):
@@ -38,24 +39,28 @@ class Task(Protocol):
         Args:
             robot: Kinematics and dynamics of this instant.
             skin: The latest reading; None for a robot without skin.
+
+        Returns:
+            The demand.
         """
 
 
-def link_rows(
-    robot: RobotDynamics, links: list[tuple[str, NDArray[np.float64]]]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Stack the Jacobians of links and turn wrenches in their frames to the world (T 3.20-3.22).
+def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench], gain: float = 1.0) -> Demand | None:
+    """Let wrenches on links act: tau = J^T E w, all links' rows in one demand (T 3.20-3.22, 3.24).
 
     Args:
         robot: The robot.
-        links: Name of each link, and the wrench (6,) about its origin in its frame.
+        wrenches: What acts on each link; none makes no demand, and no Jacobian is computed.
+        gain: Factor on them.
 
     Returns:
-        Jacobian (6 k, n) and wrenches (6 k,) in the world frame, each about its link's origin.
+        The demand, its rows and forces in the world frame about each link's origin.
     """
+    if not wrenches:
+        return None
     rows, forces = [], []
-    for link, wrench in links:
+    for link, wrench, _ in wrenches:
         rotation = robot.pose(link)[1]
         rows.append(robot.jacobian(link))
         forces += [rotation @ wrench[:3], rotation @ wrench[3:]]
-    return np.vstack(rows), np.concatenate(forces)
+    return Demand(rows[0] if len(rows) == 1 else np.vstack(rows), force=gain * np.concatenate(forces))

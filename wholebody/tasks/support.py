@@ -1,0 +1,49 @@
+"""The contacts on which a robot with a free base stands (T 3.12-3.13)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+from wholebody.dynamics import RobotDynamics
+from wholebody.skin.reading import SkinReading
+from wholebody.tasks.task import Demand, Task
+
+__all__ = ["Standing", "Support"]
+
+
+class Standing:
+    """A contact that does not move: a link's point, and how much of its motion the ground takes.
+
+    Args:
+        link: The link.
+        point: Point (3,) in the link's frame in m, best where the force shall be.
+        flat: Whether it keeps the link from turning too; a point contact does not.
+    """
+
+    def __init__(self, link: str, point: NDArray[np.float64], flat: bool = True) -> None:
+        self.link, self.point, self.rows = link, np.asarray(point, dtype=float), 6 if flat else 3
+
+
+class Support(Task):
+    """Keeps contacts where they are: J_s q'' + J_s' q' = 0, above all other tasks (T 3.13).
+
+    Args:
+        contacts: Contacts by name, such as the feet; may be assigned anew as contacts come and go.
+
+    Raises:
+        InputError: If there is none.
+    """
+
+    def __init__(self, contacts: Mapping[str, Standing]) -> None:
+        if not contacts:
+            raise InputError("a support needs one contact at least")
+        self.contacts = dict(contacts)
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        jacobian = np.vstack([robot.jacobian(c.link, c.point)[: c.rows] for c in self.contacts.values()])
+        drift = np.concatenate([robot.drift(c.link, c.point)[: c.rows] for c in self.contacts.values()])
+        return Demand(jacobian, acceleration=np.zeros(len(drift)), drift=drift)
