@@ -1,0 +1,88 @@
+"""Priorities that change smoothly: from the torque of one arrangement of tasks to that of another (T 3.45-3.46).
+
+T 3.46 prints chi = (1 - tanh(delta_t (t - t_t))) / 2 with t_t the instant of the trigger, which jumps half of the way
+there. Here t_t is the middle of the change, and chi is stretched to be 1 at its beginning and 0 at its end.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.schema import Settings, number
+
+__all__ = ["PriorityTransition", "TransitionSettings", "smooth_share"]
+
+STEEPNESS = 2.0
+"""delta_t of T 3.46 times half of the duration: tanh of it is 0.96, so little has to be stretched."""
+
+
+class TransitionSettings(Settings):
+    """How priorities change.
+
+    Attributes:
+        duration: Time in s from the trigger until the new arrangement acts alone.
+    """
+
+    duration: float = number(0.2, "s", 0.0, 10.0)
+
+
+def smooth_share(elapsed: float, duration: float) -> float:
+    """1 - chi of T 3.46 (corrected): a sigmoid that is 0 until the trigger and 1 from the end on.
+
+    Args:
+        elapsed: Time since the trigger in s.
+        duration: Duration of the change in s; 0 for a jump.
+
+    Returns:
+        Share of the new, 0 to 1.
+
+    Example:
+        >>> [round(smooth_share(t, 0.2), 3) for t in (-1.0, 0.0, 0.05, 0.1, 0.2)]
+        [0.0, 0.0, 0.105, 0.5, 1.0]
+    """
+    if elapsed <= 0.0 or duration <= 0.0:
+        return float(elapsed > 0.0 or (elapsed == 0.0 and duration <= 0.0))
+    if elapsed >= duration:
+        return 1.0
+    middle = STEEPNESS * (2.0 * elapsed / duration - 1.0)
+    return 0.5 * (1.0 + math.tanh(middle) / math.tanh(STEEPNESS))
+
+
+class PriorityTransition:
+    """Blends torques while priorities change; they are continuous also when a change begins before the last ended.
+
+    Args:
+        settings: How long a change takes.
+    """
+
+    def __init__(self, settings: TransitionSettings | None = None) -> None:
+        self.settings = settings or TransitionSettings()
+        self._last: NDArray[np.float64] | None = None
+        self._held: NDArray[np.float64] | None = None
+        self._began = -math.inf
+
+    def begin(self, time: float) -> None:
+        """Trigger a change at a time in s: what was put out last is held, and fades (tau_(k-1) of T 3.45)."""
+        if self._last is not None:
+            self._held, self._began = self._last, time
+
+    def blend(self, torque: NDArray[np.float64], time: float) -> NDArray[np.float64]:
+        """tau = chi tau_(k-1) + (1 - chi) tau_k (T 3.45).
+
+        Args:
+            torque: Torque (k,) of the arrangement that counts now in N m or N.
+            time: Time in s.
+
+        Returns:
+            Torque (k,) to be put out: the argument itself while nothing changes.
+        """
+        share = smooth_share(time - self._began, self.settings.duration)
+        if self._held is None or share >= 1.0:
+            self._held = None
+            self._last = torque
+        else:
+            self._last = (1.0 - share) * self._held + share * torque
+        return self._last
