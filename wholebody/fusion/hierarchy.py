@@ -13,6 +13,7 @@ s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques st
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -20,10 +21,11 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from plantar.errors import InputError
+from plantar.kernels.task_space import TaskSpace
 from wholebody.dynamics import RobotDynamics
 from wholebody.tasks.task import Demand
 
-__all__ = ["DAMPED", "RANK", "Fused", "fuse", "joint_torques", "mass_factor"]
+__all__ = ["DAMPED", "RANK", "Fused", "fuse", "joint_torques"]
 
 RANK = 1e-11
 """Share of its rows' size below which a direction is none of a task's: some orders above rounding."""
@@ -68,31 +70,23 @@ def fuse(
         Torques, acceleration and support force.
 
     Raises:
-        InputError: If a demand has neither force nor acceleration, or rows of another length.
+        InputError: If a demand has neither force nor acceleration, rows of another length, or the mass matrix is not
+            positive definite.
     """
-    space = _Space(mass_factor(robot.mass_matrix))
     every = [[d for d in level if d is not None] for level in ([support], *levels)]
     asked = [level for level in every if level]
+    space = _space(len(robot.mass_matrix))
+    if not space.begin(robot.mass_matrix):
+        raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
     for level in asked:
-        space.add(level, last=level is asked[-1])
-    acceleration = space.acceleration()
+        _add(space, level, last=level is asked[-1])
+    acceleration = np.empty(space.size)
+    space.acceleration(acceleration)
     force = robot.mass_matrix @ acceleration + robot.bias
     if external is not None:
         force -= external
     torque, support_force = joint_torques(robot, force, support)
     return Fused(torque, acceleration, support_force)
-
-
-def mass_factor(mass_matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cholesky factor L (n, n) of a mass matrix, lower, in Fortran order.
-
-    Raises:
-        InputError: If the matrix is not positive definite.
-    """
-    factor, info = lapack.dpotrf(mass_matrix, lower=1, clean=1)
-    if info != 0:
-        raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
-    return np.asarray(factor)
 
 
 def joint_torques(
@@ -127,88 +121,60 @@ def joint_torques(
     return np.asarray(force[joints] - rows[:, joints].T @ least), np.asarray(least)
 
 
-class _Space:
-    """Directions of mass-weighted acceleration: what is owned by the levels so far, and what is left.
-
-    Attributes:
-        y: Acceleration (n,) in the basis of the owned directions, these first.
-        used: How many are owned.
-    """
-
-    def __init__(self, factor: NDArray[np.float64]) -> None:
-        self.y = np.zeros(len(factor))
-        self.used = 0
-        self._factor = factor
-        self._turns: list[tuple[int, NDArray[np.float64], NDArray[np.float64], int]] = []
-
-    def add(self, level: Sequence[Demand], last: bool) -> None:
-        """Meet a level in what is left, and own its rows unless nothing comes after it."""
-        meant = [d for d in level if d.acceleration is not None]
-        pushing = [d for d in level if d.acceleration is None]
-        if meant and self.used < len(self.y):
-            wanted = [a if d.drift is None else a - d.drift for d in meant if (a := d.acceleration) is not None]
-            self._own([d.jacobian for d in meant], np.concatenate(wanted))
-        if pushing:
-            torque = np.zeros(len(self.y))
-            for demand in pushing:
-                if demand.force is None:
-                    raise InputError("a task asks for neither a force nor an acceleration")
-                torque += demand.jacobian.T @ demand.force
-            self.y[self.used :] += self._turned(torque[:, None])[self.used :, 0]
-            if not last and self.used < len(self.y):
-                self._own([d.jacobian for d in pushing], None)
-
-    def acceleration(self) -> NDArray[np.float64]:
-        """The generalized acceleration (n,) that y stands for."""
-        back = self.y[:, None].copy(order="F")
-        for first, reflectors, factors, _ in reversed(self._turns):
-            back[first:] = _times(reflectors, factors, back[first:], "N")
-        return np.asarray(lapack.dtrtrs(self._factor, back, lower=1, trans=1)[0][:, 0])
-
-    def _turned(self, columns: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Columns J^T (n, m) as mass-weighted rows in the basis of the owned directions."""
-        found = lapack.dtrtrs(self._factor, columns, lower=1)[0]
-        for first, reflectors, factors, _ in self._turns:
-            found[first:] = _times(reflectors, factors, found[first:], "T")
-        return np.asarray(found)
-
-    def _own(self, jacobians: list[NDArray[np.float64]], wanted: NDArray[np.float64] | None) -> None:
-        """Take the rows' directions out of what is left; where an acceleration is wanted, meet it in them."""
-        rows = jacobians[0] if len(jacobians) == 1 else np.vstack(jacobians)
-        columns = self._turned(rows.T)
-        sizes = np.sqrt(np.einsum("ij,ij->j", columns, columns))
-        counted = sizes > RANK * sizes.max()
-        if not counted.any():
-            return
-        missing = None if wanted is None else wanted - columns.T @ self.y
-        sizes = np.where(counted, sizes, np.inf)
-        first = self.used
-        factored, order, factors, _, _ = lapack.dgeqp3(columns[first:] / sizes)
-        rank = int(np.count_nonzero(np.abs(np.diagonal(factored)) > RANK))
-        if rank == 0:
-            return
-        reflectors, factors = factored[:, :rank], factors[:rank]
-        self._turns.append((first, reflectors, factors, rank))
-        self.y[first:] = _times(reflectors, factors, self.y[first:, None], "T")[:, 0]
-        if missing is not None:
-            order -= 1
-            upper = np.triu(factored[:rank])[:, counted[order]] * sizes[order][counted[order]]
-            self.y[first : first + rank] += _met(upper, missing[order][counted[order]], DAMPED * sizes.min())
-        self.used = first + rank
+def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
+    """Meet a level in what is left, and own its rows unless nothing comes after it."""
+    meant = [d for d in level if d.acceleration is not None]
+    pushing = [d for d in level if d.acceleration is None]
+    if meant and space.used < space.size:
+        wanted = [a if d.drift is None else a - d.drift for d in meant if (a := d.acceleration) is not None]
+        _meet(space, _stacked(meant, space.size), wanted[0] if len(wanted) == 1 else np.concatenate(wanted))
+    if pushing:
+        torque = np.zeros(space.size)
+        for demand in pushing:
+            if demand.force is None:
+                raise InputError("a task asks for neither a force nor an acceleration")
+            torque += demand.force @ demand.jacobian
+        space.push(torque)
+        if not last and space.used < space.size:
+            rows = _stacked(pushing, space.size)
+            space.own(rows, rows[:, 0], False, RANK)
 
 
-def _times(
-    reflectors: NDArray[np.float64], factors: NDArray[np.float64], columns: NDArray[np.float64], which: str
-) -> NDArray[np.float64]:
-    """Q or its transpose times columns, Q of Householder vectors."""
-    return np.asarray(lapack.dormqr("L", which, reflectors, factors, columns, max(64, 32 * columns.shape[1]))[0])
+def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
+    """The rows (m, n) of a level."""
+    rows = demands[0].jacobian if len(demands) == 1 else np.vstack([d.jacobian for d in demands])
+    if rows.ndim != 2 or rows.shape[1] != size:
+        raise InputError(f"a task's Jacobian has shape {rows.shape}; expected rows of {size}")
+    return np.ascontiguousarray(rows)
 
 
-def _met(upper: NDArray[np.float64], wanted: NDArray[np.float64], damped: float) -> NDArray[np.float64]:
-    """w with R^T w = wanted for R (rank, m); directions below `damped` are filtered as this module's head says."""
-    rank, count = upper.shape
-    if rank == count and np.abs(np.diagonal(upper)).min() > 4.0 * count * damped:
-        return np.asarray(lapack.dtrtrs(upper, wanted, lower=0, trans=1)[0])
-    left, sizes, right = np.linalg.svd(upper, full_matrices=False)
-    short = np.maximum(0.0, 1.0 - (sizes / damped) ** 2) * (damped / 2.0) ** 2
-    return np.asarray(left @ (sizes / (sizes**2 + short) * (right @ wanted)))
+def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float64]) -> None:
+    """Own rows and meet in them what is wanted; directions below `DAMPED` are filtered as this module's head says."""
+    if wanted.shape != (len(rows),):
+        raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
+    rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)
+    count = len(rows)
+    regular = bound > DAMPED
+    if rank == 0:
+        return
+    if rank == count and regular:
+        space.meet(rank)
+        return
+    sizes = np.asarray(space.sizes)[:count]
+    counted = sizes > RANK * sizes.max()
+    left = np.asarray(space.rows)[:count, space.used - rank : space.used][counted]
+    missing = np.asarray(space.missing)[:count][counted]
+    met = np.asarray(space.y)[space.used - rank : space.used]
+    if regular:  # more rows than directions: least squares
+        met += lapack.dgels(left, missing)[1][:rank]
+        return
+    damped = DAMPED * float(sizes[counted].min())
+    across, strengths, along = np.linalg.svd(left, full_matrices=False)
+    short = np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
+    met += along.T @ (strengths / (strengths**2 + short) * (across.T @ missing))
+
+
+@lru_cache(maxsize=8)
+def _space(size: int) -> TaskSpace:
+    """Work arrays for robots of so many coordinates, made once."""
+    return TaskSpace(size)

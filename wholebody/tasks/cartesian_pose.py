@@ -37,7 +37,7 @@ class PoseGains(Settings):
 
 
 class CartesianPose(Task):
-    """Draws a point of a link to its target by x''* = x''_d + K e + D (x'_d - x') (A 4), its speed bounded (T 3.42-3.44).
+    """Draws a point of a link to its target, its speed bounded: x''* = x''_d + K e + D (x'_d - x') (A 4, T 3.42-3.44).
 
     Args:
         link: The link.

@@ -1,0 +1,258 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+# cython: infer_types=True
+"""Kernel of strict task hierarchies: directions of acceleration that levels of tasks own, and what is left.
+
+In mass-weighted coordinates y = L^T q'', M = L L^T. A row of a Jacobian becomes L^-1 J^T, each level's rows are brought
+to triangular form by Householder reflections of what the levels before left, and y is kept in the basis that these
+make. `wholebody.fusion.hierarchy` says what that is for. Plain Python that also compiles ahead of time
+(`task_space.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+__all__ = ["TaskSpace"]
+
+
+class TaskSpace:
+    """What is owned, and y; made once for a number of coordinates, and begun anew at each tick.
+
+    Args:
+        size: Number n of generalized coordinates.
+
+    Attributes:
+        used: Number of directions that are owned.
+        y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
+        rows: Rows (m, n) of the last level in that basis, in the order in which they were owned.
+        sizes: Size (m,) of each of them before anything was owned.
+        missing: What each of them (m,) lacks of what is wanted of it; one that was met lacks nothing.
+        order: Place (m,) of each in the level.
+    """
+
+    def __init__(self, size):
+        self.size = size
+        self.used = 0
+        self.y = np.zeros(size)
+        self.factor = np.zeros((size, size))
+        self.vectors = np.zeros((size, size))
+        self.scale = np.zeros(size)
+        self.room = 0
+        self._make_room(size)
+
+    def _make_room(self, count):
+        self.rows = np.zeros((count, self.size))
+        self.sizes = np.zeros(count)
+        self.left = np.zeros(count)
+        self.missing = np.zeros(count)
+        self.order = np.zeros(count, dtype=np.intp)
+        self.room = count
+
+    def begin(self, mass):
+        """Forget what is owned, and factor a mass matrix.
+
+        Args:
+            mass: M (n, n).
+
+        Returns:
+            Whether it is positive definite.
+        """
+        n, factor = self.size, self.factor
+        self.used = 0
+        for i in range(n):
+            self.y[i] = 0.0
+            for j in range(i + 1):
+                total = mass[i, j]
+                for k in range(j):
+                    total -= factor[i, k] * factor[j, k]
+                if j < i:
+                    factor[i, j] = total / factor[j, j]
+                elif total > 0.0:
+                    factor[i, i] = math.sqrt(total)
+                else:
+                    return False
+        return True
+
+    def push(self, torque):
+        """Let a generalized force (n,) act in what is left.
+
+        Args:
+            torque: The force; it is written over.
+        """
+        self._turn(torque)
+        for i in range(self.used, self.size):
+            self.y[i] += torque[i]
+
+    def own(self, jacobian, wanted, meet, least):
+        """Own the directions of a level's rows, as far as they are left, and meet in them what is wanted.
+
+        Args:
+            jacobian: Rows (m, n).
+            wanted: Acceleration (m,) along each; counts where it is to be met.
+            meet: Whether it is.
+            least: Share of a row's size below which what is left of it is no direction of its own.
+
+        Returns:
+            Number of directions, and a bound that no singular value of these rows, each scaled to size 1, is below.
+            Where that is small, or rows have no direction of their own, the caller meets what is wanted by `rows`
+            and `missing`.
+        """
+        n, count, first = self.size, jacobian.shape[0], self.used
+        if count > self.room:
+            self._make_room(count)
+        rows, sizes, left, missing, order, y = self.rows, self.sizes, self.left, self.missing, self.order, self.y
+        largest = 0.0
+        for j in range(count):
+            order[j] = j
+            for i in range(n):
+                rows[j, i] = jacobian[j, i]
+            self._turn(rows[j])
+            total = 0.0
+            for i in range(n):
+                total += rows[j, i] * rows[j, i]
+            sizes[j] = math.sqrt(total)
+            largest = max(largest, sizes[j])
+        for j in range(count):
+            left[j] = self._left(rows[j], first, sizes[j]) if sizes[j] > least * largest else 0.0
+        rank = 0
+        while first + rank < n and rank < count:
+            best = rank
+            for j in range(rank + 1, count):
+                if left[j] > left[best]:
+                    best = j
+            if left[best] <= least:
+                break
+            if best != rank:
+                self._swap(best, rank)
+            self._reflect(rank, count, least * largest)
+            rank += 1
+        self.used = first + rank
+        if meet:
+            for j in range(count):
+                total = wanted[order[j]]
+                for i in range(n):
+                    total -= rows[j, i] * y[i]
+                missing[j] = total
+        return rank, self._bound(rank)
+
+    def meet(self, rank):
+        """Meet what the rows of the last level lack, as many as have a direction of their own.
+
+        Args:
+            rank: How many these are.
+        """
+        first = self.used - rank
+        rows, missing, y = self.rows, self.missing, self.y
+        for j in range(rank):
+            total = missing[j]
+            for i in range(j):
+                total -= rows[j, first + i] * missing[i]
+            missing[j] = total / rows[j, first + j]
+        for j in range(rank):
+            y[first + j] += missing[j]
+
+    def acceleration(self, out):
+        """The generalized acceleration that y stands for.
+
+        Args:
+            out: Receives it (n,).
+        """
+        n, factor, vectors = self.size, self.factor, self.vectors
+        for i in range(n):
+            out[i] = self.y[i]
+        for k in range(self.used - 1, -1, -1):
+            total = 0.0
+            for i in range(k, n):
+                total += vectors[k, i] * out[i]
+            total *= self.scale[k]
+            for i in range(k, n):
+                out[i] -= total * vectors[k, i]
+        for i in range(n - 1, -1, -1):
+            out[i] /= factor[i, i]
+            for k in range(i):
+                out[k] -= factor[i, k] * out[i]
+
+    def _turn(self, row):
+        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place."""
+        n, factor, vectors = self.size, self.factor, self.vectors
+        begin = 0
+        while begin < n and row[begin] == 0.0:
+            begin += 1
+        for i in range(begin, n):
+            total = row[i]
+            for k in range(begin, i):
+                total -= factor[i, k] * row[k]
+            row[i] = total / factor[i, i]
+        for k in range(self.used):
+            total = 0.0
+            for i in range(k, n):
+                total += vectors[k, i] * row[i]
+            total *= self.scale[k]
+            for i in range(k, n):
+                row[i] -= total * vectors[k, i]
+
+    def _left(self, row, first, size):
+        """Share of a row's size that lies in the directions from `first` on."""
+        total = 0.0
+        for i in range(first, self.size):
+            total += row[i] * row[i]
+        return math.sqrt(total) / size
+
+    def _bound(self, rank):
+        """Bound from below of the singular values of the scaled triangle: of its inverse, the Frobenius norm's inverse.
+
+        Every row of the triangle is no longer than 1, so that nothing here overflows before `least` stops the rank.
+        """
+        rows, sizes, column, first = self.rows, self.sizes, self.left, self.used - rank
+        squares = 0.0
+        for k in range(rank):
+            for j in range(k, rank):
+                total = sizes[k] if j == k else 0.0
+                for i in range(k, j):
+                    total -= rows[j, first + i] * column[i]
+                column[j] = total / rows[j, first + j]
+                squares += column[j] * column[j]
+        return 1.0 / math.sqrt(squares) if rank else 0.0
+
+    def _swap(self, a, b):
+        """Exchange two rows of the level."""
+        rows, sizes, left, order = self.rows, self.sizes, self.left, self.order
+        for i in range(self.size):
+            rows[a, i], rows[b, i] = rows[b, i], rows[a, i]
+        sizes[a], sizes[b] = sizes[b], sizes[a]
+        left[a], left[b] = left[b], left[a]
+        order[a], order[b] = order[b], order[a]
+
+    def _reflect(self, place, count, smallest):
+        """Turn the first direction that is left into that of the row at `place`; the other rows and y turn with it.
+
+        Rows before `place` have nothing in these directions.
+        """
+        n, rows, y, first = self.size, self.rows, self.y, self.used + place
+        vector = self.vectors[first]
+        total = 0.0
+        for i in range(first, n):
+            vector[i] = rows[place, i]
+            total += vector[i] * vector[i]
+        length = math.sqrt(total)
+        head = vector[first]
+        vector[first] = head + length if head >= 0.0 else head - length
+        scale = 2.0 / (total - head * head + vector[first] * vector[first])
+        self.scale[first] = scale
+        for j in range(place, count):
+            total = 0.0
+            for i in range(first, n):
+                total += vector[i] * rows[j, i]
+            total *= scale
+            for i in range(first, n):
+                rows[j, i] -= total * vector[i]
+        total = 0.0
+        for i in range(first, n):
+            total += vector[i] * y[i]
+        total *= scale
+        for i in range(first, n):
+            y[i] -= total * vector[i]
+        for j in range(place + 1, count):
+            self.left[j] = self._left(rows[j], first + 1, self.sizes[j]) if self.sizes[j] > smallest else 0.0
