@@ -1,4 +1,4 @@
-"""Strict hierarchies by one kernel: against the projectors that the papers print, and its two forms against each other."""
+"""Strict hierarchies by one kernel: against the papers' projectors, and its two forms against each other."""
 
 import numpy as np
 import pytest
