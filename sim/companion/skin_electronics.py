@@ -1,0 +1,117 @@
+"""What a skin's electronics deliver: saturating signals, noise, gain errors, resolution, rate and delay."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.schema import Settings, number, whole
+from wholebody.skin.patch import BodySkin
+from wholebody.skin.reading import SkinReading
+
+__all__ = ["SkinElectronics", "SkinElectronicsSettings"]
+
+
+class SkinElectronicsSettings(Settings):
+    """Quality of a skin's readings. Standard deviations (1 sigma) of white noise.
+
+    Force and proximity are normalised signals that saturate, as A has them: f / (f + half_force) and
+    half_distance / (d + half_distance). Who reads them knows the nominal curve alone.
+
+    Attributes:
+        rate: Sampling rate in Hz.
+        delay_periods: Whole sampling periods between taking a sample and delivering it.
+        half_force: Force in N at which a taxel's normalised signal is one half.
+        half_distance: Distance in m at which its normalised proximity is one half.
+        noise: Of the normalised signals.
+        temperature_noise: Of the temperatures in K.
+        gain_error: Of each taxel's half_force and half_distance, as a share; the seed draws it once.
+        bits: Resolution of the normalised signals.
+        dead_taxels: Share of taxels that read NaN; the seed chooses which.
+    """
+
+    rate: float = number(500.0, "Hz", 10.0, 1000.0)
+    delay_periods: int = whole(0, "periods", 0, 250)
+    half_force: float = number(10.0, "N", 0.01, 1e4)
+    half_distance: float = number(0.02, "m", 1e-4, 1.0)
+    noise: float = number(0.001, "1", 0.0, 0.5)
+    temperature_noise: float = number(0.1, "K", 0.0, 10.0)
+    gain_error: float = number(0.05, "1", 0.0, 0.3)
+    bits: int = whole(10, "bits", 4, 24)
+    dead_taxels: float = number(0.0, "1", 0.0, 0.9)
+
+
+class SkinElectronics:
+    """Samples the truth and delivers readings.
+
+    Args:
+        skin: The skin.
+        settings: Its quality.
+        seed: Of noise, gain errors and dead taxels.
+    """
+
+    def __init__(self, skin: BodySkin, settings: SkinElectronicsSettings, seed: int) -> None:
+        self.settings = settings
+        self._skin = skin
+        self._rng = np.random.default_rng([seed, 7])
+        count = len(skin)
+        gains = 1.0 + np.clip(self._rng.normal(0.0, settings.gain_error, (2, count)), -0.9, 0.9)
+        self._half_force, self._half_distance = settings.half_force * gains[0], settings.half_distance * gains[1]
+        self._dead = self._rng.permutation(count)[: round(settings.dead_taxels * count)]
+        self._levels = float(2**settings.bits - 1)
+        self._due = -np.inf
+        self._waiting: deque[SkinReading] = deque()
+        self._delivered: SkinReading | None = None
+
+    def read(
+        self,
+        time: float,
+        force: NDArray[np.float64],
+        distance: NDArray[np.float64],
+        temperature: NDArray[np.float64] | None = None,
+    ) -> SkinReading:
+        """The reading that is delivered at a time; a new sample is taken where one is due.
+
+        Args:
+            time: Time in s.
+            force: True normal force (N,) on each taxel in N.
+            distance: True distance (N,) in m, inf for nothing in range, negative for what is pressed in.
+            temperature: True temperature (N,) in degC; None for a skin that does not measure it.
+
+        Returns:
+            The latest sample that is old enough; until one is, the first.
+        """
+        if time >= self._due - 1e-9 or self._delivered is None:
+            period = 1.0 / self.settings.rate
+            self._due = time + period if self._due == -np.inf else self._due + period
+            self._waiting.append(self._sample(time, force, distance, temperature))
+            if self._delivered is None:
+                self._delivered = self._waiting[0]
+            if len(self._waiting) > self.settings.delay_periods:
+                self._delivered = self._waiting.popleft()
+        return self._delivered
+
+    def _sample(
+        self,
+        time: float,
+        force: NDArray[np.float64],
+        distance: NDArray[np.float64],
+        temperature: NDArray[np.float64] | None,
+    ) -> SkinReading:
+        s, levels = self.settings, self._levels
+        noise = self._rng.standard_normal((2, len(self._skin))) * s.noise
+        pressed = np.rint((force / (force + self._half_force) + noise[0]) * levels).clip(0.0, levels - 1.0)
+        told_force = s.half_force * pressed / (levels - pressed)
+        near = np.maximum(distance, 0.0)
+        seen = np.rint((self._half_distance / (near + self._half_distance) + noise[1]) * levels).clip(1.0, levels)
+        told_distance = s.half_distance * (levels - seen) / seen
+        told_distance[told_distance >= self._skin.ranges] = np.inf
+        warmth = None
+        if temperature is not None:
+            warmth = temperature + self._rng.standard_normal(len(temperature)) * s.temperature_noise
+        for told in (told_force, told_distance, warmth):
+            if told is not None:
+                told[self._dead] = np.nan
+        return SkinReading(time, told_force, told_distance, warmth)
