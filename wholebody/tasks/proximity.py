@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from wholebody.dynamics import RobotDynamics
 from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading, link_wrenches
-from wholebody.tasks.task import Demand, Task, wrench_demand
+from wholebody.skin.reading import SkinReading
+from wholebody.tasks.skin_interaction import SkinInteraction
 
 __all__ = ["ProximityInteraction"]
 
 
-class ProximityInteraction(Task):
+class ProximityInteraction(SkinInteraction):
     """Yields to f_i = k (d_range - d_i) of every taxel that sees something (T 3.30 corrected: along +z, into the body).
 
     Args:
@@ -37,14 +37,11 @@ class ProximityInteraction(Task):
     ) -> None:
         if sensing_range is not None and not sensing_range > 0.0:
             raise InputError(f"sensing range is {sensing_range} m; allowed: above 0")
+        super().__init__(skin, patches)
         self.stiffness = stiffness
         self.sensing_range = np.inf if sensing_range is None else sensing_range
-        self._skin = skin
-        self._ranges = np.where(skin.taxels_of(patches), skin.ranges, 0.0)
+        self._ranges = np.where(self.counted, skin.ranges, 0.0)
 
-    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        if skin is None:
-            return None
+    def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         depth = np.minimum(self._ranges, self.sensing_range) - np.maximum(skin.distance, 0.0)
-        active = depth > 0.0
-        return wrench_demand(robot, link_wrenches(self._skin, self.stiffness * depth, active))
+        return self.stiffness * depth, depth > 0.0

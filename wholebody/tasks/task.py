@@ -45,13 +45,12 @@ class Task(Protocol):
         """
 
 
-def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench], gain: float = 1.0) -> Demand | None:
+def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench]) -> Demand | None:
     """Let wrenches on links act: tau = J^T E w, all links' rows in one demand (T 3.20-3.22, 3.24).
 
     Args:
         robot: The robot.
         wrenches: What acts on each link; none makes no demand, and no Jacobian is computed.
-        gain: Factor on them.
 
     Returns:
         The demand, its rows and forces in the world frame about each link's origin.
@@ -63,4 +62,4 @@ def wrench_demand(robot: RobotDynamics, wrenches: Sequence[LinkWrench], gain: fl
         rotation = robot.pose(link)[1]
         rows.append(robot.jacobian(link))
         forces += [rotation @ wrench[:3], rotation @ wrench[3:]]
-    return Demand(rows[0] if len(rows) == 1 else np.vstack(rows), force=gain * np.concatenate(forces))
+    return Demand(rows[0] if len(rows) == 1 else np.vstack(rows), force=np.concatenate(forces))
