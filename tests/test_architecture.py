@@ -64,7 +64,7 @@ def test_every_stop_on_the_way_of_a_force_is_there():
     assert way(TEXT)[-1].startswith("sim/model/inverse_kinematics")
 
 
-@pytest.mark.parametrize("package", ["gait", "sim", "shoes"])
+@pytest.mark.parametrize("package", ["gait", "wholebody", "sim", "shoes"])
 def test_every_room_is_told_with_its_question(package):
     table = re.search(rf"^\| room of `{package}` \|.*\n\|---\|---\|\n((?:\|.*\n)+)", TEXT, re.MULTILINE)
     assert table is not None
