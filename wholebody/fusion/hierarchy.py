@@ -137,7 +137,7 @@ def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
         space.push(torque)
         if not last and space.used < space.size:
             rows = _stacked(pushing, space.size)
-            space.own(rows, rows[:, 0], False, RANK)
+            space.own(rows, rows[0], False, RANK)  # of what is wanted nothing is read
 
 
 def _stacked(demands: Sequence[Demand], size: int) -> NDArray[np.float64]:
