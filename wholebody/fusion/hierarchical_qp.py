@@ -1,0 +1,247 @@
+"""The hierarchy of `fusion.hierarchy` as least squares within limits of torques, speeds and positions, level by level.
+
+Projections (A 19-25) cannot hold a limit: clipping their torques afterwards breaks every priority. Here each level is
+met as well as the limits and the levels above it leave room for (Escande et al. 2014). In mass-weighted coordinates
+the least motion is the dynamically consistent one, so where no limit acts the motion is that of the hierarchy.
+
+A direction near a singularity is damped by the same rule. Where no motion keeps all limits, those of speed and position
+are widened by as little as it takes, after that those of torque, and what is put out is cut to them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import daqp
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import null_space, solve_triangular
+
+from plantar.errors import InputError
+from wholebody.dynamics import RobotDynamics
+from wholebody.fusion.hierarchy import DAMPED, RANK, Fused, fuse, joint_torques
+from wholebody.fusion.null_space import mass_factor
+from wholebody.tasks.task import Demand
+
+__all__ = ["HierarchicalQP", "JointLimits"]
+
+_KEPT = 1e-9  # share of a limit's row by which it may be missed
+_ROUNDS = 4  # of limits that are found to act only once others do
+_LEAST = 1e-6  # weight of motion that a level does not care for, while its limits are looked for
+
+
+@dataclass(frozen=True)
+class JointLimits:
+    """Limits of the joints, in the order of `RobotDynamics.joints`.
+
+    Attributes:
+        torque: Largest torque or force (k,) in N m or N.
+        velocity: Largest speed (k,) in rad/s or m/s.
+        low: Lowest position (k,) in rad or m; -inf for none.
+        high: Highest position (k,).
+        slow_down: Time in s in which the distance to a limit of position may be crossed at most.
+        reach: Time in s in which a speed beyond what is allowed is brought back: some control periods.
+
+    Raises:
+        InputError: If a limit is not above 0, or a range is empty.
+    """
+
+    torque: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    slow_down: float = 0.1
+    reach: float = 0.02
+
+    def __post_init__(self) -> None:
+        smallest = min(np.min(self.torque), np.min(self.velocity), self.slow_down, self.reach)
+        if not smallest > 0.0 or not (np.asarray(self.low) < self.high).all():
+            raise InputError(f"a limit of torque, speed or time is {smallest:g}, or a range of positions is empty")
+
+    def accelerations(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lowest and highest acceleration (k,) that keep speed and position in their limits."""
+        position, speed = robot.joint_positions, robot.velocity[robot.joints]
+        slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
+        fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
+        return (slowest - speed) / self.reach, (fastest - speed) / self.reach
+
+
+class _Box(NamedTuple):
+    """Limits of y: low <= rows y <= high, each row of size 1; the first `hard` are those of torque."""
+
+    rows: NDArray[np.float64]
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    hard: int
+
+
+class HierarchicalQP:
+    """A fusion, to be called as `wholebody.fusion.hierarchy.fuse` is.
+
+    Args:
+        limits: Limits of the joints.
+        shortcut: Whether the hierarchy's motion is taken where it keeps all limits; it is what all levels would come
+            to, for a fraction of the time.
+
+    Attributes:
+        limited: Whether a limit acted at the last call.
+    """
+
+    def __init__(self, limits: JointLimits, shortcut: bool = True) -> None:
+        self.limits, self.shortcut, self.limited = limits, shortcut, False
+
+    def __call__(
+        self,
+        robot: RobotDynamics,
+        levels: Sequence[Sequence[Demand | None]],
+        support: Demand | None = None,
+        external: NDArray[np.float64] | None = None,
+    ) -> Fused:
+        """Torques, acceleration and support force; see `wholebody.fusion.hierarchy.fuse` for the arguments."""
+        low, high = self.limits.accelerations(robot)
+        if self.shortcut:
+            free = fuse(robot, levels, support, external)
+            moved = free.acceleration[robot.joints]
+            self.limited = not bool((np.abs(free.torque) <= self.limits.torque).all()) or not bool(
+                ((low <= moved) & (moved <= high)).all()
+            )
+            if not self.limited:
+                return free
+        factor = mass_factor(robot.mass_matrix)
+        outer = np.zeros_like(robot.bias) if external is None else external
+        still = joint_torques(robot, robot.bias - outer, support)[0]
+        columns = factor[robot.joints]  # torque of each y
+        if support is not None and len(robot.joints) < len(factor):
+            base = np.delete(np.arange(len(factor)), robot.joints)
+            shared = np.linalg.lstsq(support.jacobian[:, base].T, factor[base], rcond=None)[0]
+            columns = columns - support.jacobian[:, robot.joints].T @ shared
+        moves = np.asarray(solve_triangular(factor, np.eye(len(factor)), lower=True).T)[robot.joints]
+        box = _box(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
+        y = _descend(factor, box, levels, support)
+        acceleration = np.asarray(solve_triangular(factor, y, lower=True, trans=1))
+        torque, force = joint_torques(robot, factor @ y + robot.bias - outer, support)
+        return Fused(np.clip(torque, -self.limits.torque, self.limits.torque), acceleration, force)
+
+
+def _box(
+    columns: NDArray[np.float64],
+    least: NDArray[np.float64],
+    most: NDArray[np.float64],
+    moves: NDArray[np.float64],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+) -> _Box:
+    """Limits of torques, then of accelerations, their rows scaled to size 1."""
+    rows = np.vstack([columns, moves])
+    sizes = np.maximum(np.sqrt(np.einsum("ij,ij->i", rows, rows)), np.finfo(float).tiny)
+    return _Box(rows / sizes[:, None], np.hstack([least, low]) / sizes, np.hstack([most, high]) / sizes, len(columns))
+
+
+def _sublevels(
+    levels: Sequence[Sequence[Demand | None]], support: Demand | None
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64] | None, NDArray[np.float64] | None]]:
+    """Rows of what is met together, and the acceleration along them or the generalized force that acts on them."""
+    for level in ([support], *levels):
+        meant = [d for d in level if d is not None and d.acceleration is not None]
+        pushing = [d for d in level if d is not None and d.acceleration is None and d.force is not None]
+        if meant:
+            wanted = [a if d.drift is None else a - d.drift for d in meant if (a := d.acceleration) is not None]
+            yield np.vstack([d.jacobian for d in meant]), np.concatenate(wanted), None
+        if pushing:
+            forces = [d.jacobian.T @ d.force for d in pushing if d.force is not None]
+            yield np.vstack([d.jacobian for d in pushing]), None, np.sum(forces, axis=0)
+
+
+def _descend(
+    factor: NDArray[np.float64], box: _Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
+) -> NDArray[np.float64]:
+    """Meet level after level, the support as if there were no limits; what nobody asks for moves least."""
+    y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
+    limited = support is None
+    for jacobian, wanted, force in _sublevels(levels, support):
+        rows = np.asarray(solve_triangular(factor, jacobian.T, lower=True).T)
+        sizes = np.sqrt(np.einsum("ij,ij->i", rows, rows))
+        counted = sizes > RANK * sizes.max()
+        if not counted.any() or not left.shape[1]:
+            continue
+        across, strengths, along = np.linalg.svd(rows[counted] @ left)
+        rank = int(np.count_nonzero(strengths > RANK * sizes.max()))
+        own, strengths, weights = along[:rank], strengths[:rank], np.ones(rank)
+        if wanted is not None:
+            damped = DAMPED * float(sizes[counted].min())
+            weights = strengths**2 + np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
+            target = strengths / weights * (across.T[:rank] @ (wanted - jacobian @ _back(factor, y))[counted])
+        else:
+            target = own @ (left.T @ np.asarray(solve_triangular(factor, force, lower=True)))
+        if limited:
+            box, target = _within(box, y, left, own, target, weights)
+        limited = True
+        y = y + left @ (target @ own)
+        left = left @ along[rank:].T
+    rest = left.shape[1]
+    return y + left @ _within(box, y, left, np.eye(rest), np.zeros(rest), np.ones(rest))[1] if rest else y
+
+
+def _back(factor: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(solve_triangular(factor, y, lower=True, trans=1))
+
+
+def _within(
+    box: _Box,
+    y: NDArray[np.float64],
+    left: NDArray[np.float64],
+    own: NDArray[np.float64],
+    target: NDArray[np.float64],
+    weights: NDArray[np.float64],
+) -> tuple[_Box, NDArray[np.float64]]:
+    """What is nearest to the target in the directions `own` of what is left, so that some of the rest keeps the limits.
+
+    The solver finds which limits act; with these as equations the level is solved once more, to rounding.
+    """
+    reached = box.rows @ y
+    rows, low, high = box.rows @ left, box.low - reached, box.high - reached
+    z = target @ own
+    if _miss(rows, low, high, z).max(initial=0.0) <= 0.0:
+        return box, target
+    seen = np.einsum("ij,ij->i", rows, rows) > _KEPT**2  # others are decided by the levels above
+    rows, low, high = rows[seen], low[seen], high[seen]
+    scale = weights / weights.max()
+    hessian = (own.T * scale) @ own + _LEAST * np.eye(left.shape[1])
+    z, _, flag, info = daqp.solve(hessian, -(scale * target) @ own, rows, high, low, primal_tol=_KEPT)
+    if flag < 0:
+        return _within(_widened(box, y, left), y, left, own, target, weights)
+    acting, root = np.abs(info["lam"]) > 0.0, np.sqrt(scale)
+    for _ in range(_ROUNDS):
+        held = np.where(rows[acting] @ z > (low + high)[acting] / 2.0, high[acting], low[acting])
+        fixed = np.linalg.lstsq(rows[acting], held, rcond=_KEPT)[0]
+        free = null_space(rows[acting], rcond=_KEPT)
+        exact = fixed + free @ np.linalg.lstsq((root[:, None] * own) @ free, root * (target - own @ fixed), _KEPT)[0]
+        missed = _miss(rows, low, high, exact) > _KEPT * (1.0 + np.abs(exact).max())
+        if not missed.any():
+            return box, own @ exact
+        acting |= missed
+    return box, own @ z
+
+
+def _widened(box: _Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> _Box:
+    """Limits that can be kept: those of accelerations give way, and those of torques where this is not enough."""
+    reached, least = box.rows @ y, _LEAST * np.eye(left.shape[1])
+    for hard in (box.hard, 0):
+        soft = np.where(np.arange(len(box.rows)) < hard, 0, 8).astype(np.int32)
+        rows, nothing = box.rows @ left, np.zeros(left.shape[1])
+        z, _, flag, _ = daqp.solve(least, nothing, rows, box.high - reached, box.low - reached, soft)
+        if flag > 0:
+            break
+    at = reached + rows @ z
+    slack = 1e-6 * (1.0 + np.abs(at))
+    return box._replace(low=np.minimum(box.low, at - slack), high=np.maximum(box.high, at + slack))
+
+
+def _miss(
+    rows: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64], z: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """By how much each row misses its limits; negative within them."""
+    at = rows @ z
+    return np.asarray(np.maximum(low - at, at - high))
