@@ -77,7 +77,7 @@ def installed(wheel, tmp_path_factory) -> Path:
 def test_the_wheel_holds_code_and_data(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = {n for n in archive.namelist() if ".dist-info/" not in n}
-    data = {".toml", ".json", ".html", ".css", ".js", ".typed"}
+    data = {".toml", ".xml", ".json", ".html", ".css", ".js", ".typed"}
     wanted = {
         p.as_posix()
         for p in tracked()
