@@ -202,14 +202,12 @@ def sim(
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
     need_libraries("sim", *_SIM)
-    from sim.run.run_files import run_to_files
-    from sim.run.run_text import run_text
-    from sim.run.scene import load_scene
+    from sim.run.scene_kind import open_scene, run_opened_to_files, summary_text
 
-    loaded = load_scene(scene, settings or [], robot)
+    loaded = open_scene(scene, settings or [], robot)
     with progress_bar() as tell:
-        summary = run_to_files(loaded, seed, record=record, video=video, plot=plot, progress=tell)
-    end_command(summary, as_json, run_text(summary), failed=not summary["completed"])
+        summary = run_opened_to_files(loaded, seed, record=record, video=video, plot=plot, progress=tell)
+    end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
 
 
 @app.command()
@@ -345,7 +343,9 @@ def list_(
 
         found = {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
     elif what == "robots":
-        robots = described_files(packaged_files("sim", "robots/*/robot.toml"))
+        kinds = ("robots/*/robot.toml", "companion/machines/*/machine.toml")
+        files = [file for kind in kinds for file in packaged_files("sim", kind)]
+        robots = described_files(files)
         found = {path.parent.name: text for path, text in robots.items()}
     elif what == "scenes":
         scenes = described_files(packaged_files("sim", "scenes/*.toml"))

@@ -9,7 +9,6 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,8 @@ from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, co
 from gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.errors import InputError, SceneError
 from plantar.files.input_file import is_file
-from plantar.files.structured_text import parse_toml, read_toml
+from plantar.files.structured_text import read_toml
+from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from sim.sensing.settings import Sensing
@@ -250,50 +250,26 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
     result = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}
     pairs: list[tuple[str, str]] = []
     for setting in settings:
-        key, equals, text = setting.partition("=")
-        key = _ALIASES.get(key.strip(), key.strip())
-        if not equals or not key:
-            raise SceneError(f"setting {setting!r} is not of the form key=value")
+        key, text = split_setting(setting)
+        key = _ALIASES.get(key, key)
         if key in ("kind", "terrain.kind"):  # first: it decides which other keys there are
             terrain = result.setdefault("terrain", {})
             if isinstance(terrain, dict):
-                terrain["kind"] = text.strip()
+                terrain["kind"] = text
         else:
             pairs.append((key, text))
     keys = {name: kind.names() for name, kind in (SECTIONS | _terrain_kind(result)).items()}
     parts = {name: controller_keys(name) for name in CONTROLLER_TABLES}
     for key, text in pairs:
         if key == "robot":
-            result["robot"] = text.strip()
+            result["robot"] = text
             continue
-        owner, name = _owner(key, text, keys, parts)
+        owner, name = owner_of(key, text, keys, parts)
         table = result.setdefault(owner, {})
         if not isinstance(table, dict):
             raise SceneError(f"scene section '{owner}' is not a table")
-        table[name] = _value(text.strip())
+        table[name] = value_of(text)
     return result
-
-
-def _owner(
-    key: str, text: str, keys: Mapping[str, Sequence[str]], parts: Mapping[str, Sequence[str]]
-) -> tuple[str, str]:
-    """Section and name of a setting's key, among a scene's own keys, else among those of the controller's parts."""
-    section, dot, name = key.rpartition(".")
-    for known in (keys, parts):
-        owners = [s for s, names in known.items() if name in names and (not dot or s == section)]
-        if len(owners) > 1:
-            found = ", ".join(f"{s}.{name}" for s in owners)
-            raise SceneError(f"setting '{key}={text}' could be more than one key; allowed: {found}")
-        if owners:
-            return owners[0], name
-    every = [f"{s}.{n}" for tables in (keys, parts) for s, names in tables.items() for n in names]
-    short = {full.partition(".")[2]: full for full in every}
-    near = get_close_matches(key, every, 3) or [short[n] for n in get_close_matches(name, short, 3)]
-    hint = f"nearest: {', '.join(near)}; " if near else ""
-    raise SceneError(
-        f"setting '{key}={text}': no such key; {hint}`plantar list settings` lists all; allowed: robot, "
-        + ", ".join(f"{s}.{n}" for s, names in keys.items() for n in names)
-    )
 
 
 def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
@@ -303,13 +279,6 @@ def _terrain_kind(source: Mapping[str, Any]) -> dict[str, type[Settings]]:
     if not isinstance(kind, str) or kind not in TERRAIN_KINDS:
         raise SceneError(f"terrain.kind is {kind!r}; allowed: {', '.join(TERRAIN_KINDS)}")
     return {"terrain": TERRAIN_KINDS[kind]}
-
-
-def _value(text: str) -> Any:
-    try:
-        return parse_toml(f"v = {text}")["v"]
-    except ValueError:
-        return text
 
 
 def setting_name(scene: Scene, key: str) -> str:

@@ -7,6 +7,8 @@ from difflib import get_close_matches
 from gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
 from plantar.errors import InputError
 from plantar.settings.schema import Setting
+from sim.companion.experiment import experiment_names
+from sim.companion.scene import companion_tables
 from sim.run.scene import SECTIONS
 from sim.terrain import TERRAIN_KINDS
 
@@ -21,7 +23,7 @@ def settings_listed(name: str | None = None) -> dict[str, Setting]:
 
     Returns:
         What there is to say of each; those of a kind of terrain stand under "terrain.KIND.", which a scene writes as
-        `terrain.kind` and the last part.
+        `terrain.kind` and the last part; those of an experiment under its name.
 
     Raises:
         InputError: If there is no such table or setting; the message names the nearest.
@@ -35,6 +37,8 @@ def settings_listed(name: str | None = None) -> dict[str, Setting]:
     }
     tables |= {f"terrain.{kind}": ground.described() for kind, ground in TERRAIN_KINDS.items()}
     tables |= {table: controller_settings_described(table) for table in CONTROLLER_TABLES}
+    for kind in experiment_names():
+        tables |= {f"{kind}.{table}": own.described() for table, own in companion_tables(kind).items()}
     every = {f"{table}.{told.name}": told for table, settings in tables.items() for told in settings}
     if name is None:
         return every

@@ -59,7 +59,7 @@ def split_values(text: str) -> list[str]:
 
 def is_word(key: str) -> bool:
     """Whether a setting takes its text as it stands: a name or a path, never a number."""
-    return key in ("robot", "kind", "terrain.kind")
+    return key in ("robot", "machine", "kind", "terrain.kind")
 
 
 def canonical(text: str, *, word: bool = False) -> str:

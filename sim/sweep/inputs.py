@@ -45,7 +45,9 @@ def inputs_of(scene: str, robot: str) -> dict[str, str]:
     path = scene_file(scene)
     found = {"plantar": __version__, "mujoco": version("mujoco")}
     found[f"scene file {path.name}"] = _digest(path, SceneError)
-    return found | {label: _digest(file, RobotError) for label, file in _files_of(robot)}
+    companion = "experiment" in read_toml(path, SceneError, f"scene file {path}")
+    files = _files_of_machine(robot) if companion else _files_of(robot)
+    return found | {label: _digest(file, RobotError) for label, file in files}
 
 
 def changes(before: Mapping[str, str], now: Mapping[str, str]) -> str:
@@ -93,9 +95,22 @@ def _files_of(robot: str) -> Iterator[tuple[str, Path]]:
         name = layout.replace("{side}", side)
         yield f"layout {name}", loaded.path.parent / name
     if loaded.model_file is not None:
-        yield f"model {loaded.model_file.name}", loaded.model_file
-        for name, file in _named_by(loaded.model_file).items():
-            yield f"model file {name}", file
+        yield from _files_of_model(loaded.model_file)
+
+
+def _files_of_machine(machine: str) -> Iterator[tuple[str, Path]]:
+    """The machine's files by what they are called."""
+    from sim.companion.machine import load_machine  # MuJoCo, which a walk's sweep does not need here
+
+    loaded = load_machine(machine)
+    yield f"machine file {loaded.path.name}", loaded.path
+    yield from _files_of_model(loaded.model_file)
+
+
+def _files_of_model(model: Path) -> Iterator[tuple[str, Path]]:
+    yield f"model {model.name}", model
+    for name, file in _named_by(model).items():
+        yield f"model file {name}", file
 
 
 def _named_by(model: Path) -> dict[str, Path]:

@@ -19,7 +19,7 @@ from sim.sweep.inputs import inputs_of
 from sim.sweep.plan import Sweep
 from sim.sweep.results import Key, Results, open_results
 from sim.sweep.stopping import StopNote, SweepStopped, stop_noted
-from sim.sweep.task import COLUMNS, Row, Task, criteria_of
+from sim.sweep.task import Row, Task, columns_of, criteria_of
 from sim.sweep.workers import LocalWorkers, Workers
 
 __all__ = ["figures_of", "run_sweep"]
@@ -61,12 +61,13 @@ def run_sweep(
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")
     axes = [name for name, _ in sweep.grid]
+    columns = columns_of(sweep.opened(sweep.points()[0]))
     robots = {point: sweep.robot_of(point) for point in sweep.points()}
     inputs = {robot: inputs_of(sweep.scene, robot) for robot in dict.fromkeys(robots.values())}
     with (
         stop_noted() as note,
         _workers(workers, scheduler) as pool,
-        open_results(folder, sweep.identity(), inputs, axes, COLUMNS) as results,
+        open_results(folder, sweep.identity(), inputs, axes, columns) as results,
     ):
         keys = {_key(point, seed): (point, seed) for point, seed in sweep.tasks()}
         tasks = {
@@ -85,7 +86,8 @@ def run_sweep(
             with note.held():
                 for task, row in _rows_of(tasks, pool, note):
                     values, seed = tasks[task]
-                    results.append({**dict(zip(axes, values, strict=True)), "seed": seed, **row})
+                    empty = dict.fromkeys(columns, "")
+                    results.append({**empty, **dict(zip(axes, values, strict=True)), "seed": seed, **row})
                     done += 1
                     if progress is not None:
                         progress(done / len(keys), f"{done} of {len(keys)} runs")

@@ -5,14 +5,16 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plantar.errors import InputError
-from sim.robots import load_robot
-from sim.run.scene import load_scene, setting_name
+from sim.run.scene import Scene
+from sim.run.scene_kind import full_setting_name, open_scene, robot_file_of
 from sim.sweep.grid import canonical, is_word, split_values
+
+if TYPE_CHECKING:
+    from sim.companion.scene import CompanionScene
 
 __all__ = ["Sweep"]
 
@@ -111,19 +113,23 @@ class Sweep:
             for point in self.points():
                 yield point, seed
 
+    def opened(self, point: Sequence[str]) -> Scene | CompanionScene:
+        """The scene of a grid point."""
+        return open_scene(self.scene, [*self.settings, *point], self.robot)
+
     def robot_of(self, point: Sequence[str]) -> str:
         """Name or file of the robot of a grid point."""
-        return load_scene(self.scene, [*self.settings, *point], self.robot).robot
+        return self.opened(point).robot
 
     def identity(self) -> dict[str, Any]:
         """What all rows of one table must share, beside the content of files: JSON values by name.
 
         Points and seeds may be added to a table; other scenes, settings or axes may not.
         """
-        scene = load_scene(self.scene, [*self.settings, *self.points()[0]], self.robot)
+        scene = self.opened(self.points()[0])
         settings = {}
         for key, _, value in (s.partition("=") for s in self.settings):
-            name = setting_name(scene, key)
+            name = full_setting_name(scene, key)
             settings[name] = canonical(value, word=is_word(name))
         return {
             "scene": Path(self.scene).name,
@@ -134,20 +140,22 @@ class Sweep:
 
     def _check_points(self) -> None:
         """Load every point's scene and robot, and refuse what is given twice under two names."""
-        robot_path = cache(lambda robot: str(load_robot(robot).path.resolve()))
+        files: dict[str, str] = {}
         given = [s.partition("=")[0] for s in self.settings]
         seen: dict[str, str] = {}
         for point in self.points():
-            scene = load_scene(self.scene, [*self.settings, *point], self.robot)
-            origin = dict.fromkeys((setting_name(scene, key) for key in given), "--set")
+            scene = self.opened(point)
+            origin = dict.fromkeys((full_setting_name(scene, key) for key in given), "--set")
             if self.robot is not None:
                 origin["robot"] = "--robot"
             for name, _ in self.grid:
-                full = setting_name(scene, name)
+                full = full_setting_name(scene, name)
                 if full in origin:
                     raise InputError(f"grid '{name}' gives what {origin[full]} gives already: {full}; give it once")
                 origin[full] = f"grid '{name}'"
-            key = repr(replace(scene, robot=robot_path(scene.robot)))
+            if scene.robot not in files:
+                files[scene.robot] = str(robot_file_of(scene).resolve())
+            key = repr(replace(scene, robot=files[scene.robot]))
             text = " ".join(point)
             if key in seen:
                 raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")

@@ -6,13 +6,17 @@ import socket
 import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from plantar.errors import DependencyError, InputError, PlantarError
-from sim.run.scene import load_scene
+from sim.run.scene import Scene
+from sim.run.scene_kind import open_scene, run_opened
 from sim.sweep.inputs import changes, inputs_of
 
-__all__ = ["COLUMNS", "Row", "Task", "criteria_of", "failed", "run_one", "run_task"]
+if TYPE_CHECKING:
+    from sim.companion.scene import CompanionScene
+
+__all__ = ["COLUMNS", "Row", "Task", "columns_of", "criteria_of", "failed", "run_one", "run_task"]
 
 _BETWEEN = " | "  # two reasons; their texts hold commas and semicolons
 
@@ -41,7 +45,10 @@ COLUMNS = (
     "reasons",
     "error",
 )
-"""Columns of a row, after the settings and the seed."""
+"""Columns of a walk's row, after the settings and the seed."""
+
+_COMPANION = ("completed", "fell", "sim_time_s", "real_time_factor", "control_p99_us", "reasons", "error")
+"""Those of an experiment of the companion; its own figures stand before the reasons."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +70,13 @@ class Task:
     inputs: tuple[tuple[str, str], ...] = ()
 
 
+def columns_of(scene: Scene | CompanionScene) -> tuple[str, ...]:
+    """Columns of the rows of a scene, after the settings and the seed."""
+    if isinstance(scene, Scene):
+        return COLUMNS
+    return (*_COMPANION[:-2], *scene.experiment_type.columns, *_COMPANION[-2:])
+
+
 def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -> Row:
     """One run as a flat row; an error of the scenario becomes a row too.
 
@@ -78,33 +92,37 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
     Raises:
         DependencyError: If a library is missing.
     """
-    from sim.run.runner import run_scene
-
-    row: Row = dict.fromkeys(COLUMNS, "")
     try:
-        summary = run_scene(load_scene(scene, settings, robot), seed)
+        loaded = open_scene(scene, settings, robot)
+        summary = run_opened(loaded, seed)
     except DependencyError:  # no run will be possible here
         raise
     except PlantarError as error:
         return failed(str(error))
+    columns = columns_of(loaded)
+    row: Row = {
+        **dict.fromkeys(columns, ""),
+        **{name: summary[name] for name in columns if name in summary},
+        "control_p99_us": summary["control_us"]["p99"],
+        "reasons": _BETWEEN.join(f"{r['criterion']}: {r['text']}" for r in summary["reasons"]),
+    }
+    return row | (_of_walk(summary) if isinstance(loaded, Scene) else {})
+
+
+def _of_walk(summary: Mapping[str, Any]) -> Row:
+    """What a walk's row takes out of the tables of its summary."""
     impacts = sorted(summary["impacts_N"])
-    return (
-        row
-        | {name: summary[name] for name in COLUMNS if name in summary}
-        | {
-            "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
-            "impact_max_N": impacts[-1] if impacts else "",
-            "position_error_m": summary["final"]["position_error_m"],
-            "heading_error_deg": summary["final"]["heading_error_deg"],
-            "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
-            "control_p99_us": summary["control_us"]["p99"],
-            "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
-            # A value a landing, in their order.
-            "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
-            "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
-            "reasons": _BETWEEN.join(f"{r['criterion']}: {r['text']}" for r in summary["reasons"]),
-        }
-    )
+    return {
+        "impact_median_N": impacts[len(impacts) // 2] if impacts else "",
+        "impact_max_N": impacts[-1] if impacts else "",
+        "position_error_m": summary["final"]["position_error_m"],
+        "heading_error_deg": summary["final"]["heading_error_deg"],
+        "com_error_max_m": max(summary["estimate"]["com_error_max_m"]),
+        "foothold_error_p95_m": summary.get("footholds", {}).get("centroid_error_m", {}).get("p95", ""),
+        # A value a landing, in their order.
+        "area_ratios": " ".join(f"{v:g}" for v in summary["contact_area_ratio"]),
+        "zmp_margins_mm": " ".join("-" if v is None else f"{1e3 * v:.1f}" for v in summary["zmp_margins_m"]),
+    }
 
 
 def criteria_of(row: Mapping[str, str]) -> list[str]:

@@ -1,0 +1,60 @@
+"""What moves the joints: motors that take torques, or servos that take what a torque resolver makes of these."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.companion.dynamics import MujocoDynamics
+from sim.companion.experiment import World
+from sim.companion.machine import ServoTable
+from wholebody.torque_resolver import SetPoint, TorqueResolver
+
+__all__ = ["Drives"]
+
+_FASTEST = 1e3  # rad/s or m/s of a joint without a speed limit
+
+
+class Drives:
+    """The machine's drives.
+
+    Args:
+        world: The world.
+        servo: What they take, and how stiff they are.
+        period: Control period in s.
+    """
+
+    def __init__(self, world: World, servo: ServoTable, period: float) -> None:
+        machine = world.machine
+        self._world, self._servo, self._period = world, servo, period
+        self._efforts = machine.efforts
+        limits = np.where(np.isfinite(machine.velocities), machine.velocities, _FASTEST)
+        self._gain = servo.velocity_gain * np.where(np.isfinite(self._efforts), self._efforts, 0.0) / limits
+        self._resolver = None if servo.kind == "torque" else TorqueResolver(limits)
+        self._torque = np.zeros(len(limits))
+        self._bias = np.zeros(len(limits))
+        self._goal: SetPoint | None = None
+
+    def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
+        """Take a torque (k,) of each joint in N m or N, bias included, for the next control period.
+
+        Args:
+            robot: The machine as measured.
+            torque: The torques.
+        """
+        if self._resolver is None:
+            self._torque = torque
+        else:
+            self._goal = self._resolver.step(robot, torque, self._period)
+            self._bias = robot.bias[robot.joints]
+
+    def drive(self) -> None:
+        """Set the motors' torques for a physics step; servos know their own joint's motion as it is."""
+        world, torque = self._world, self._torque
+        if self._goal is not None:
+            wanted = self._goal.velocity
+            if self._servo.kind == "position":
+                measured = world.data.qpos[world.positions[-len(wanted) :]]
+                wanted = wanted + self._servo.position_gain * (self._goal.position - measured)
+            torque = self._bias + self._gain * (wanted - world.data.qvel[world.joints])
+        world.data.ctrl[world.motors] = np.clip(torque, -self._efforts, self._efforts)

@@ -1,0 +1,111 @@
+"""Scenes of the companion: loading, running and judging."""
+
+import numpy as np
+import pytest
+
+from plantar.errors import InputError, SceneError
+from sim.companion import experiment as experiments
+from sim.companion.experiment import Experiment, Verdict, failed
+from sim.companion.runner import Companion, run_companion, run_companion_to_files
+from sim.companion.scene import companion_scene, companion_setting_name
+from sim.companion.skin_surface import OBSTACLE_GROUP
+from wholebody.stack import TaskStack
+from wholebody.tasks.posture import Posture
+
+
+class Stand(Experiment):
+    """Hold the posture, beside a box that nobody touches."""
+
+    columns = ("error",)
+
+    def __init__(self, machine, settings, control, seed):
+        super().__init__(machine, settings, control, seed)
+        self.duration = 0.2
+        self.error = 0.0
+
+    def add_to(self, spec):
+        box = spec.worldbody.add_body(name="box", pos=[3.0, 0.0, 0.5])
+        box.add_freejoint()
+        box.add_geom(name="box", size=[0.1, 0.1, 0.1], group=OBSTACLE_GROUP, mass=1.0)
+
+    def controller(self, machine, skin):
+        stack = TaskStack([[Posture(machine.posture)]])
+
+        class Hold:
+            def step(self, robot, reading):
+                return stack.step(robot, reading).torque
+
+        return Hold()
+
+    def judge(self, world, sensor, time):
+        joints = world.data.qpos[world.positions[-len(self.machine.posture) :]]
+        self.error = max(self.error, float(np.abs(joints - self.machine.posture).max()))
+
+    def verdict(self):
+        why = [failed("posture", self.error, 0.01, "left its posture")] if self.error > 0.01 else []
+        return Verdict(why, {"error": self.error})
+
+
+@pytest.fixture
+def scene(monkeypatch, tmp_path):
+    monkeypatch.setattr("sim.companion.scene.experiment_class", lambda name: Stand)
+
+    def made(*settings, **source):
+        table = {"experiment": "stand", "machine": "mobile-arm", **source}
+        return companion_scene(table, tmp_path / "stand.toml", settings)
+
+    return made
+
+
+@pytest.mark.parametrize("servo", ["torque", "velocity", "position"])
+def test_posture_is_held_with_every_kind_of_drive(scene, servo):
+    summary = run_companion(scene(f"servo={servo}"), 3)
+    assert summary["completed"], summary["reasons"]
+    assert summary["error"] < 0.01
+    assert summary["sim_time_s"] == pytest.approx(0.2)
+
+
+def test_one_seed_is_one_run(scene):
+    first, again, other = (run_companion(scene(), seed)["error"] for seed in (1, 1, 2))
+    assert first == again != other
+
+
+def test_controller_gets_noise_and_the_judge_does_not(scene):
+    companion = Companion(scene("encoder_noise=0.01"), 0)
+    qpos, _ = companion.encoders.read()
+    apart = qpos - companion.world.data.qpos[companion.world.positions]
+    assert 0.001 < np.abs(apart).max() < 0.1
+
+
+def test_settings_reach_every_table(scene):
+    made = scene("control.period=0.004", "stiffness=2e7", "machine=planar-arm")
+    assert (made.control.period, made.skin.stiffness, made.robot) == (0.004, 2e7, "planar-arm")
+    assert companion_setting_name(made, "stiffness") == "skin.stiffness"
+    assert companion_setting_name(made, "machine") == "robot"
+
+
+@pytest.mark.parametrize(
+    ("source", "settings", "words"),
+    [
+        ({}, ["stifness=1"], "nearest: skin.stiffness"),
+        ({"ground": {}}, [], "unknown key 'ground'"),
+        ({"machine": ""}, [], "names no machine"),
+        ({"experiment": 3}, [], "a name, or a table with kind"),
+        ({"control": {"period": 0}}, [], "[control] 'period' is 0"),
+    ],
+)
+def test_bad_scenes_are_told_in_a_line(scene, source, settings, words):
+    with pytest.raises(SceneError) as error:
+        scene(*settings, **source)
+    assert words in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_unknown_experiment_is_told_with_those_that_there_are():
+    with pytest.raises(SceneError, match="unknown experiment 'no-such'"):
+        experiments.experiment_class("no-such")
+
+
+def test_recording_is_refused_in_a_line(scene, tmp_path):
+    with pytest.raises(InputError, match="no soles to record"):
+        run_companion_to_files(scene(), 0, record=tmp_path / "a.mcap")
