@@ -1,4 +1,4 @@
-"""Run time of the wrench-distribution program: `gait.balance.wrench_distribution` beside other ways to solve it.
+"""Run time of the wrench-distribution program: `plantar.mechanics.wrench_distribution` beside other ways to solve it.
 
 python benchmarks/wrench_distribution.py        (writes benchmarks/wrench_distribution.md)
 """
@@ -14,10 +14,10 @@ import qpsolvers
 import quadprog
 from scipy.optimize import minimize
 
-from gait.balance.wrench_distribution import WrenchDistribution
 from plantar.atomic import write_text
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle
+from plantar.mechanics.wrench_distribution import WrenchDistribution
 
 WEIGHT = 640.0
 SOLE = Rectangle(-0.114, 0.144, -0.080, 0.080)

@@ -88,7 +88,7 @@ def test_the_wheel_holds_code_and_data(wheel):
     sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in (ROOT / "plantar" / "kernels").glob("*.pxd")}
     compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
     assert {n.partition(".")[0] for n in extensions} == (sources if compiles else set())
-    assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "sim")} <= names
+    assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "wholebody", "sim")} <= names
     assert any(n.startswith("sim/robots/") and n.endswith(".toml") for n in names)
     assert any(n.startswith("sim/scenes/") and n.endswith(".toml") for n in names)
 

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from gait.balance.com_admittance import ComAdmittance
 from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance, FootCorrection
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
-from gait.balance.wrench_distribution import DistributionWeights, WrenchDistribution
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
 from plantar.geometry.polygon import closest_point
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
 from plantar.settings.schema import Setting, Settings, number
 from plantar.settings.unknown_keys import refuse_unknown_keys
 

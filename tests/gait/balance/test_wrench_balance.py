@@ -8,12 +8,12 @@ from gait.balance.balance_laws import balance_gains, balance_law
 from gait.balance.dcm_balance import BalanceGains, DcmBalance
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.balance.wrench_balance import WrenchBalance, WrenchBalanceGains
-from gait.balance.wrench_distribution import DistributionState
 from gait.estimate.command_frame import CommandFrame
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
+from plantar.mechanics.wrench_distribution import DistributionState
 from plantar.sides import SIDES, Side
 
 PERIOD, OMEGA, MASS = 0.005, 3.36, 65.0

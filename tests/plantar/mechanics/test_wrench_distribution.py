@@ -8,16 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gait.balance.wrench_distribution import (
+from plantar.errors import InputError
+from plantar.mechanics.contact import Contact
+from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
+from plantar.mechanics.wrench_distribution import (
     DistributionState,
     DistributionWeights,
     Program,
     WrenchDistribution,
     WrenchShare,
 )
-from plantar.errors import InputError
-from plantar.mechanics.contact import Contact
-from plantar.mechanics.wrench_cone import Rectangle, wrench_cone
 
 WEIGHT = 640.0
 SOLE = Rectangle(-0.09, 0.14, -0.07, 0.07)
