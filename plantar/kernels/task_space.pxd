@@ -46,8 +46,8 @@ cdef class TaskSpace:
     cpdef void acceleration(self, double[::1] out) except *
 
     @cython.locals(
-        n=Py_ssize_t, begin=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, factor="double[:, ::1]",
-        vectors="double[:, ::1]", total=double
+        n=Py_ssize_t, begin=Py_ssize_t, end=Py_ssize_t, i=Py_ssize_t, k=Py_ssize_t, factor="double[:, ::1]",
+        vectors="double[:, ::1]", a=double, b=double, c=double, d=double, total=double
     )
     cdef void _turn(self, double[::1] row) noexcept
 
@@ -67,6 +67,7 @@ cdef class TaskSpace:
 
     @cython.locals(
         n=Py_ssize_t, first=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, rows="double[:, ::1]", y="double[::1]",
-        vector="double[::1]", total=double, length=double, head=double, scale=double
+        vector="double[::1]", sizes="double[::1]", left="double[::1]", end=Py_ssize_t, a=double, b=double, c=double,
+        d=double, total=double, length=double, head=double, scale=double
     )
     cdef void _reflect(self, Py_ssize_t place, Py_ssize_t count, double smallest) noexcept

@@ -175,21 +175,36 @@ class TaskSpace:
                 out[k] -= factor[i, k] * out[i]
 
     def _turn(self, row):
-        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place."""
+        """A row (n,) of a Jacobian as a mass-weighted one in the basis of the owned directions, in its place.
+
+        Sums run over every fourth term apart, here and in `_reflect`: one alone would wait for each addition.
+        """
         n, factor, vectors = self.size, self.factor, self.vectors
         begin = 0
         while begin < n and row[begin] == 0.0:
             begin += 1
         for i in range(begin, n):
-            total = row[i]
-            for k in range(begin, i):
-                total -= factor[i, k] * row[k]
-            row[i] = total / factor[i, i]
+            a = b = c = d = 0.0
+            end = i - (i - begin) % 4
+            for k in range(begin, end, 4):
+                a += factor[i, k] * row[k]
+                b += factor[i, k + 1] * row[k + 1]
+                c += factor[i, k + 2] * row[k + 2]
+                d += factor[i, k + 3] * row[k + 3]
+            for k in range(end, i):
+                a += factor[i, k] * row[k]
+            row[i] = (row[i] - ((a + b) + (c + d))) / factor[i, i]
         for k in range(self.used):
-            total = 0.0
-            for i in range(k, n):
-                total += vectors[k, i] * row[i]
-            total *= self.scale[k]
+            a = b = c = d = 0.0
+            end = n - (n - k) % 4
+            for i in range(k, end, 4):
+                a += vectors[k, i] * row[i]
+                b += vectors[k, i + 1] * row[i + 1]
+                c += vectors[k, i + 2] * row[i + 2]
+                d += vectors[k, i + 3] * row[i + 3]
+            for i in range(end, n):
+                a += vectors[k, i] * row[i]
+            total = self.scale[k] * ((a + b) + (c + d))
             for i in range(k, n):
                 row[i] -= total * vectors[k, i]
 
@@ -230,7 +245,7 @@ class TaskSpace:
 
         Rows before `place` have nothing in these directions.
         """
-        n, rows, y, first = self.size, self.rows, self.y, self.used + place
+        n, rows, sizes, left, y, first = self.size, self.rows, self.sizes, self.left, self.y, self.used + place
         vector = self.vectors[first]
         total = 0.0
         for i in range(first, n):
@@ -241,18 +256,27 @@ class TaskSpace:
         vector[first] = head + length if head >= 0.0 else head - length
         scale = 2.0 / (total - head * head + vector[first] * vector[first])
         self.scale[first] = scale
+        end = n - (n - first) % 4
         for j in range(place, count):
-            total = 0.0
-            for i in range(first, n):
-                total += vector[i] * rows[j, i]
-            total *= scale
+            a = b = c = d = 0.0
+            for i in range(first, end, 4):
+                a += vector[i] * rows[j, i]
+                b += vector[i + 1] * rows[j, i + 1]
+                c += vector[i + 2] * rows[j, i + 2]
+                d += vector[i + 3] * rows[j, i + 3]
+            for i in range(end, n):
+                a += vector[i] * rows[j, i]
+            total = scale * ((a + b) + (c + d))
             for i in range(first, n):
                 rows[j, i] -= total * vector[i]
+            if sizes[j] > smallest:
+                total = 0.0
+                for i in range(first + 1, n):
+                    total += rows[j, i] * rows[j, i]
+                left[j] = math.sqrt(total) / sizes[j]
         total = 0.0
         for i in range(first, n):
             total += vector[i] * y[i]
         total *= scale
         for i in range(first, n):
             y[i] -= total * vector[i]
-        for j in range(place + 1, count):
-            self.left[j] = self._left(rows[j], first + 1, self.sizes[j]) if self.sizes[j] > smallest else 0.0
