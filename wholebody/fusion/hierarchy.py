@@ -12,7 +12,7 @@ s / (s^2 + lambda^2), lambda^2 = (1 - (s / s_0)^2) s_0^2 / 4, so that torques st
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -25,7 +25,7 @@ from plantar.kernels.task_space import TaskSpace
 from wholebody.dynamics import RobotDynamics
 from wholebody.tasks.task import Demand
 
-__all__ = ["DAMPED", "RANK", "Fused", "fuse", "joint_torques"]
+__all__ = ["DAMPED", "RANK", "Fused", "Split", "fuse", "joint_torques"]
 
 RANK = 1e-11
 """Share of its rows' size below which a direction is none of a task's: some orders above rounding."""
@@ -48,11 +48,18 @@ class Fused(NamedTuple):
     support_force: NDArray[np.float64] | None
 
 
+Split = Callable[
+    [RobotDynamics, NDArray[np.float64], Demand | None], tuple[NDArray[np.float64], NDArray[np.float64] | None]
+]
+"""A way to share a generalized force (n,) among joints and support, such as `joint_torques`."""
+
+
 def fuse(
     robot: RobotDynamics,
     levels: Sequence[Sequence[Demand | None]],
     support: Demand | None = None,
     external: NDArray[np.float64] | None = None,
+    split: Split | None = None,
 ) -> Fused:
     """Torques that meet every level as well as the levels above it leave room for (A 19-25, T 3.8, 3.13).
 
@@ -65,6 +72,7 @@ def fuse(
         support: Rows on which the robot stands, above all levels; a robot whose base is not driven needs them.
         external: Generalized force (n,) that is known to act, such as J^T w of what the skin feels; taken out of what
             the joints and the support have to do.
+        split: How joints and support share what is to be done; `joint_torques` where None.
 
     Returns:
         Torques, acceleration and support force.
@@ -85,7 +93,7 @@ def fuse(
     force = robot.mass_matrix @ acceleration + robot.bias
     if external is not None:
         force -= external
-    torque, support_force = joint_torques(robot, force, support)
+    torque, support_force = (split or joint_torques)(robot, force, support)
     return Fused(torque, acceleration, support_force)
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
+from plantar.mechanics.wrench_cone import Rectangle
 from wholebody.dynamics import RobotDynamics
 from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
@@ -15,17 +17,33 @@ from wholebody.tasks.task import Demand, Task
 __all__ = ["Standing", "Support"]
 
 
+_POINT = Rectangle(0.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
 class Standing:
     """A contact that does not move: a link's point, and how much of its motion the ground takes.
 
-    Args:
+    Attributes:
         link: The link.
         point: Point (3,) in the link's frame in m, best where the force shall be.
         flat: Whether it keeps the link from turning too; a point contact does not.
+        area: What of the contact can carry, about the point, in m; counts where forces are distributed over contacts.
+        rotation: Rotation (3, 3) from the contact's frame, whose z points into the body, to the link's; None for none.
+        friction: Coefficient of friction; likewise.
     """
 
-    def __init__(self, link: str, point: NDArray[np.float64], flat: bool = True) -> None:
-        self.link, self.point, self.rows = link, np.asarray(point, dtype=float), 6 if flat else 3
+    link: str
+    point: NDArray[np.float64]
+    flat: bool = True
+    area: Rectangle = _POINT
+    rotation: NDArray[np.float64] | None = None
+    friction: float = 0.6
+
+    @property
+    def rows(self) -> int:
+        """Number of rows that it gives a support."""
+        return 6 if self.flat else 3
 
 
 class Support(Task):
