@@ -9,6 +9,7 @@ cdef class TaskSpace:
     cdef readonly double[::1] y
     cdef readonly double[:, ::1] rows
     cdef readonly double[::1] sizes
+    cdef readonly double[::1] full
     cdef readonly double[::1] missing
     cdef readonly Py_ssize_t[::1] order
     cdef double[:, ::1] factor
@@ -30,7 +31,7 @@ cdef class TaskSpace:
     @cython.locals(
         n=Py_ssize_t, count=Py_ssize_t, first=Py_ssize_t, rank=Py_ssize_t, best=Py_ssize_t, i=Py_ssize_t,
         j=Py_ssize_t, rows="double[:, ::1]", sizes="double[::1]", left="double[::1]", missing="double[::1]",
-        order="Py_ssize_t[::1]", y="double[::1]", largest=double, total=double
+        order="Py_ssize_t[::1]", y="double[::1]", full="double[::1]", largest=double, longest=double, total=double
     )
     cpdef tuple own(self, const double[:, ::1] jacobian, const double[::1] wanted, bint meet, double least)
 
@@ -55,13 +56,14 @@ cdef class TaskSpace:
     cdef double _left(self, double[::1] row, Py_ssize_t first, double size) noexcept
 
     @cython.locals(
-        first=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, rows="double[:, ::1]", sizes="double[::1]",
+        first=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, rows="double[:, ::1]", full="double[::1]",
         column="double[::1]", squares=double, total=double
     )
     cdef double _bound(self, Py_ssize_t rank) noexcept
 
     @cython.locals(
-        i=Py_ssize_t, rows="double[:, ::1]", sizes="double[::1]", left="double[::1]", order="Py_ssize_t[::1]"
+        i=Py_ssize_t, rows="double[:, ::1]", sizes="double[::1]", left="double[::1]", order="Py_ssize_t[::1]",
+        full="double[::1]"
     )
     cdef void _swap(self, Py_ssize_t a, Py_ssize_t b) noexcept
 

@@ -28,6 +28,7 @@ class TaskSpace:
         y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
         rows: Rows (m, n) of the last level in that basis, in the order in which they were owned.
         sizes: Size (m,) of each of them before anything was owned.
+        full: Size (m,) that each would have if its row of the Jacobian were as long as the longest of the level.
         missing: What each of them (m,) lacks of what is wanted of it; one that was met lacks nothing.
         order: Place (m,) of each in the level.
     """
@@ -45,6 +46,7 @@ class TaskSpace:
     def _make_room(self, count):
         self.rows = np.zeros((count, self.size))
         self.sizes = np.zeros(count)
+        self.full = np.zeros(count)
         self.left = np.zeros(count)
         self.missing = np.zeros(count)
         self.order = np.zeros(count, dtype=np.intp)
@@ -95,19 +97,23 @@ class TaskSpace:
             least: Share of a row's size below which what is left of it is no direction of its own.
 
         Returns:
-            Number of directions, and a bound that no singular value of these rows, each scaled to size 1, is below.
-            Where that is small, or rows have no direction of their own, the caller meets what is wanted by `rows`
+            Number of directions, and a bound that no singular value of these rows is below, each divided by its full
+            size. Where that is small, or rows have no direction of their own, the caller meets what is wanted by `rows`
             and `missing`.
         """
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
             self._make_room(count)
         rows, sizes, left, missing, order, y = self.rows, self.sizes, self.left, self.missing, self.order, self.y
-        largest = 0.0
+        full, largest, longest = self.full, 0.0, 0.0
         for j in range(count):
             order[j] = j
+            total = 0.0
             for i in range(n):
                 rows[j, i] = jacobian[j, i]
+                total += jacobian[j, i] * jacobian[j, i]
+            full[j] = math.sqrt(total)
+            longest = max(longest, full[j])
             self._turn(rows[j])
             total = 0.0
             for i in range(n):
@@ -115,6 +121,7 @@ class TaskSpace:
             sizes[j] = math.sqrt(total)
             largest = max(largest, sizes[j])
         for j in range(count):
+            full[j] = sizes[j] * longest / full[j] if full[j] > 0.0 else largest
             left[j] = self._left(rows[j], first, sizes[j]) if sizes[j] > least * largest else 0.0
         rank = 0
         while first + rank < n and rank < count:
@@ -220,11 +227,11 @@ class TaskSpace:
 
         Every row of the triangle is no longer than 1, so that nothing here overflows before `least` stops the rank.
         """
-        rows, sizes, column, first = self.rows, self.sizes, self.left, self.used - rank
+        rows, full, column, first = self.rows, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
             for j in range(k, rank):
-                total = sizes[k] if j == k else 0.0
+                total = full[k] if j == k else 0.0
                 for i in range(k, j):
                     total -= rows[j, first + i] * column[i]
                 column[j] = total / rows[j, first + j]
@@ -233,10 +240,11 @@ class TaskSpace:
 
     def _swap(self, a, b):
         """Exchange two rows of the level."""
-        rows, sizes, left, order = self.rows, self.sizes, self.left, self.order
+        rows, sizes, left, order, full = self.rows, self.sizes, self.left, self.order, self.full
         for i in range(self.size):
             rows[a, i], rows[b, i] = rows[b, i], rows[a, i]
         sizes[a], sizes[b] = sizes[b], sizes[a]
+        full[a], full[b] = full[b], full[a]
         left[a], left[b] = left[b], left[a]
         order[a], order[b] = order[b], order[a]
 

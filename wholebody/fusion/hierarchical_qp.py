@@ -170,7 +170,8 @@ def _descend(
         rank = int(np.count_nonzero(strengths > RANK * sizes.max()))
         own, strengths, weights = along[:rank], strengths[:rank], np.ones(rank)
         if wanted is not None:
-            damped = DAMPED * float(sizes[counted].min())
+            lengths = np.linalg.norm(jacobian[counted], axis=1)
+            damped = DAMPED * float((sizes[counted] / lengths).min() * np.linalg.norm(jacobian, axis=1).max())
             weights = strengths**2 + np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
             target = strengths / weights * (across.T[:rank] @ (wanted - jacobian @ _back(factor, y))[counted])
         else:

@@ -31,7 +31,11 @@ RANK = 1e-11
 """Share of its rows' size below which a direction is none of a task's: some orders above rounding."""
 
 DAMPED = 1e-2
-"""Share of its smallest row's size below which a direction is damped: an elbow within some 0.6 degrees of straight."""
+"""Share of a row's full size below which a direction is damped: an elbow within some 0.6 degrees of straight.
+
+A row's full size is what it would have if its row of the Jacobian were as long as the longest of its level: the row
+itself may vanish at a singularity, such as that of the direction in which an arm is stretched.
+"""
 
 
 class Fused(NamedTuple):
@@ -176,7 +180,7 @@ def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float6
     if regular:  # more rows than directions: least squares
         met += lapack.dgels(left, missing)[1][:rank]
         return
-    damped = DAMPED * float(sizes[counted].min())
+    damped = DAMPED * float(np.asarray(space.full)[:count][counted].min())
     across, strengths, along = np.linalg.svd(left, full_matrices=False)
     short = np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
     met += along.T @ (strengths / (strengths**2 + short) * (across.T @ missing))
