@@ -63,7 +63,8 @@ def chain_xml(rng: np.random.Generator, joints: int, floating: bool, parallel: b
         inner = "".join(f'<body pos="{numbers(end)}" name="link{k - 1}">{link(k)}</body>' for k in bodies[i])
         return moved + shape + inner
 
-    return f'<mujoco><worldbody><body name="base">{link(0)}</body></worldbody></mujoco>'
+    alone = '<option><flag contact="disable"/></option>'
+    return f'<mujoco>{alone}<worldbody><body name="base">{link(0)}</body></worldbody></mujoco>'
 
 
 @pytest.fixture

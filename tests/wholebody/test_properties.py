@@ -120,7 +120,7 @@ def test_torques_are_bounded_and_continuous_through_a_stretched_arm(random_chain
     def path(share):
         return (share - 0.5) * bend
 
-    coarse, fine = (torques_along(robot, tasks, path, count) for count in (4000, 8000))
+    coarse, fine = (torques_along(robot, tasks, path, count) for count in (2000, 4000))
     jumps = [np.abs(np.diff(t, axis=0)).max() for t in (coarse, fine)]
     assert jumps[1] < 0.6 * jumps[0]
     # What is wanted is 30 m/s^2 at the most; s / (s^2 + lambda^2) is at the most 2 / (sqrt(3) s_0).

@@ -118,7 +118,7 @@ def test_a_joint_slows_down_before_its_end_and_keeps_its_speed(random_robot):
     bound = limits(3, velocity=2.0, low=-0.5, high=0.5)
     qp, step = HierarchicalQP(bound), 1e-3
     position = robot.joint_positions
-    for _ in range(3000):
+    for _ in range(2000):
         level = [Demand(np.eye(3), acceleration=np.array([30.0, -30.0, 1.0]), drift=np.zeros(3))]
         acceleration = qp(robot, [level]).acceleration
         robot.velocity = robot.velocity + step * acceleration
