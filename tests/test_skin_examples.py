@@ -21,3 +21,9 @@ def test_an_arm_gives_way_and_keeps_its_tip(repository):
     assert max(forces) > 10.0
     assert max(errors) < 3.0
     assert float(re.search(r"gave way by (\d+) mm", text)[1]) > 40.0
+
+
+def test_a_task_of_ones_own_is_kept(repository):
+    with_it, without = map(float, re.findall(r"turns by ([\d.]+) degrees", run("skin_new_task", repository)))
+    assert with_it < 0.5
+    assert without > 10.0
