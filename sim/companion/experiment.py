@@ -50,6 +50,8 @@ class CompanionControl(Settings):
         velocity_noise: Standard deviation of joint speeds, in rad/s or m/s.
         attitude_noise: Standard deviation of a floating base's orientation.
         gyro_noise: Standard deviation of its angular velocity.
+        model_error: Standard deviation by which mass and inertia of each link are misjudged, as a share of them; the
+            seed draws it once.
     """
 
     period: float = number(0.002, "s", 0.001, 0.1)
@@ -58,6 +60,7 @@ class CompanionControl(Settings):
     velocity_noise: float = number(1e-3, "rad/s", 0, 1)
     attitude_noise: float = number(2e-4, "rad", 0, 0.1)
     gyro_noise: float = number(2e-3, "rad/s", 0, 1)
+    model_error: float = number(0.0, "1", 0, 0.3)
 
 
 class Controller(Protocol):

@@ -57,6 +57,7 @@ class Companion:
         self.world = _build(machine, alone, self.experiment.add_to)
         body_skin = skin_from_tables(alone, machine.patches, f"machine '{machine.name}'")
         self.skin = SkinSensor(self.world.model, body_skin, scene.skin, seed)
+        _misjudge(alone, control.model_error, seed)
         self.robot = MujocoDynamics(alone)
         self.controller: Any = self.experiment.controller(machine, body_skin)
         self.encoders = Encoders(self.world, control, seed)
@@ -151,6 +152,15 @@ class Companion:
 def _steps(period: float, world: World) -> int:
     """Physics steps in a period in s, one at least."""
     return max(1, round(period / float(world.model.opt.timestep)))
+
+
+def _misjudge(model: Any, share: float, seed: int) -> None:
+    """Change the masses of the model that the controller has, each by its own share."""
+    if share:
+        factors = 1.0 + np.clip(np.random.default_rng([seed, 0x3A55]).normal(0.0, share, model.nbody), -0.9, 0.9)
+        model.body_mass[:] *= factors
+        model.body_inertia[:] *= factors[:, None]
+        mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
 def _build(machine: Machine, alone: Any, add_to: Callable[[Any], None]) -> World:

@@ -13,6 +13,9 @@ from wholebody.tasks.task import Demand, Task
 
 __all__ = ["ContactForce", "ContactGains"]
 
+_FELT = 0.3
+"""Force in N up to which a patch counts as not touching: noise of 40 taxels adds up, as none reads below 0."""
+
 
 class ContactGains(Settings):
     """How force and distance are controlled (A 9). On a surface of stiffness k_c the loop has the natural frequency
@@ -47,6 +50,8 @@ class ContactForce(Task):
         weight: w of A 6: 0 holds the distance, 1 the force.
         target_force: f_d in N.
         target_distance: d_d in m.
+        approach_speed: Speed in m/s at which the patch comes nearer while it feels nothing: the error is bounded by
+            what the damping balances at that speed, D v / K. Infinite at first.
         force: f_c in N as of the last demand.
         distance: Mean distance in m of the taxels that see something, as of the last demand; inf where none does.
 
@@ -65,6 +70,7 @@ class ContactForce(Task):
         skin.taxels_of([patch])
         self.gains = gains or ContactGains()
         self.weight, self.target_force, self.target_distance = 0.0, 0.0, 0.03
+        self.approach_speed = float("inf")
         self.force, self.distance = 0.0, np.inf
         self._own = skin.slices[patch]
         self._link = next(p.link for p in skin.patches if p.name == patch)
@@ -84,7 +90,8 @@ class ContactForce(Task):
         wanted = (gains.gain * (error + gains.integral * self._sum) - gains.damping * outward @ moving[:3]) / (
             gains.inertia
         )
-        turning = np.cross(moving[3:], outward) @ moving[:3]  # the normal turns with the hand
+        (a, b, c), (x, y, z), (u, v, w) = moving[3:], outward, moving[:3]
+        turning = (b * z - c * y) * u + (c * x - a * z) * v + (a * y - b * x) * w  # the normal turns with the hand
         drift = outward @ robot.drift(self._link, self._point)[:3] + turning
         return Demand((outward @ jacobian[:3])[None], acceleration=np.array([wanted]), drift=np.array([drift]))
 
@@ -97,8 +104,11 @@ class ContactForce(Task):
         self.distance = float(seen.mean()) if len(seen) else np.inf
         far = min(self.distance, self._reach) - self.target_distance
         missing = self.target_force - self.force
-        error = self.weight * missing + (1.0 - self.weight) * self.gains.distance_stiffness * far
+        gains = self.gains
+        error = self.weight * missing + (1.0 - self.weight) * gains.distance_stiffness * far
+        if self.force <= _FELT and gains.gain:
+            error = min(error, self.approach_speed * gains.damping / gains.gain)
         period = 0.0 if self._last is None else max(0.0, time - self._last)
         self._last = time
-        self._sum = self._sum + self.weight * missing * period if self.force > 0.0 else 0.0
+        self._sum = self._sum + self.weight * missing * period if self.force > _FELT else 0.0
         return error

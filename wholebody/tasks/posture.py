@@ -15,7 +15,7 @@ __all__ = ["Posture"]
 
 
 class Posture(Task):
-    """Draws joints to a posture: as accelerations q''* = K (q_d - q) - D q', or as such torques.
+    """Draws joints to a posture: as accelerations q''* = K (q_d - q) + D (q'_d - q'), or as such torques (A 18).
 
     Args:
         target: Wanted joint positions (k,) in rad or m, in the order of `RobotDynamics.joints`.
@@ -23,6 +23,10 @@ class Posture(Task):
         damping: D likewise; critical for accelerations where None.
         joints: Places of the joints that are held among the k; all where None.
         torques: Whether it asks for torques, which other tasks of its level add to, instead of accelerations.
+
+    Attributes:
+        target: Wanted joint positions (k,).
+        target_velocity: Wanted joint velocities q'_d (k,) in rad/s or m/s: 0 until a posture is moved.
     """
 
     def __init__(
@@ -34,6 +38,7 @@ class Posture(Task):
         torques: bool = False,
     ) -> None:
         self.target = np.asarray(target, dtype=float)
+        self.target_velocity = np.zeros(len(self.target))
         self.stiffness = np.asarray(stiffness, dtype=float)
         self.damping = 2.0 * np.sqrt(self.stiffness) if damping is None else np.asarray(damping, dtype=float)
         self.torques = torques
@@ -44,6 +49,8 @@ class Posture(Task):
         held = robot.joints[self._held]
         if self._rows is None:
             self._rows = np.eye(len(robot.velocity))[held]
-        pull = self.stiffness * (self.target - robot.joint_positions) - self.damping * robot.velocity[robot.joints]
+        pull = self.stiffness * (self.target - robot.joint_positions) + self.damping * (
+            self.target_velocity - robot.velocity[robot.joints]
+        )
         asked = pull[self._held]
         return Demand(self._rows, force=asked) if self.torques else Demand(self._rows, acceleration=asked)

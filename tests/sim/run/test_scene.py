@@ -4,11 +4,12 @@ import pytest
 
 from plantar.errors import SceneError
 from sim.run.scene import builtin_scenes, load_scene, setting_name
+from sim.run.scene_kind import open_scene
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
 def test_every_built_in_scene_loads_and_says_what_it_is(name: str) -> None:
-    scene = load_scene(name)
+    scene = open_scene(name)
     assert scene.name == name
     assert scene.description
 

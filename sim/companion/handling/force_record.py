@@ -1,0 +1,83 @@
+"""What happens to a hand over time, and how it is drawn: in the manner of A's Figures 5 to 8."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.plotting import COLOURS, new_figure, save_figure
+
+__all__ = ["ForceRecord"]
+
+_EVERY = 5  # physics steps from one sample of the record to the next
+_SHADES = {"touch": "#8fd19e", "person": "#f1a7a9", "turn": "#ffe08a", "circle": "#cfd8dc", "swing": "#b0bec5"}
+
+
+class ForceRecord:
+    """Samples of the truth.
+
+    Attributes:
+        rows: Samples as they came: time, wanted and true force, distance, moment (3,), hand (3,), base (3,), tilt.
+    """
+
+    def __init__(self) -> None:
+        self.rows: list[list[float]] = []
+        self._count = 0
+
+    def add(self, *values: float | Sequence[float] | NDArray[np.float64]) -> None:
+        """Add a sample, if it is one's turn: time, wanted force, true force, distance, moment, hand, base, tilt."""
+        if self._count % _EVERY == 0:
+            self.rows.append(np.hstack(values).tolist())
+        self._count += 1
+
+    def plot(self, path: Path, title: str, windows: Mapping[str, Sequence[tuple[float, float]]], force: bool) -> Path:
+        """Draw force or distance, moments, hand, base and orientation over time.
+
+        Args:
+            path: File of the figure.
+            title: Its title.
+            windows: For each kind of interaction the times in s at which it begins and ends; shaded.
+            force: Whether there is a contact phase, and the force is drawn.
+
+        Returns:
+            The path.
+        """
+        t, wanted, true, distance, *rest = np.array(self.rows).T
+        moment, hand, base, tilt = rest[:3], rest[3:6], rest[6:9], rest[9]
+        figure, axes = new_figure(9.0, 11.0 if force else 9.5, rows=6 if force else 5, sharex=True)
+        axis = list(axes)
+        if force:
+            top = axis.pop(0)
+            top.plot(t, wanted, color=COLOURS["reference"], label="wanted")
+            top.plot(t, true, color=COLOURS["left"], linewidth=0.8, label="true")
+            top.set_ylabel("force [N]")
+            top.set_ylim(0.0, max(8.0, 1.6 * float(np.nanmax(wanted, initial=0.0))))
+            top.legend(loc="upper right", ncols=2, fontsize=8)
+        axis[0].plot(t, 1e3 * distance, color=COLOURS["left"])
+        axis[0].set_ylabel("distance [mm]")
+        _lines(axis[1], t, moment, "xyz", "moment [N m]")
+        _lines(axis[2], t, [values - values[0] for values in hand], "xyz", "hand moved [m]")
+        _lines(axis[3], t, base, ("x", "y", "yaw"), "base [m, rad]")
+        axis[4].plot(t, tilt, color=COLOURS["left"])
+        axis[4].set_ylabel("hand to\nsurface [deg]")
+        axis[4].set_xlabel("time [s]")
+        for ax in axes:
+            for name, spans in windows.items():
+                for i, (begin, end) in enumerate(spans):
+                    ax.axvspan(begin, end, color=_SHADES[name], alpha=0.35, label=name if i == 0 else None, linewidth=0)
+        axes[0].set_title(title)
+        handles, labels = axis[0].get_legend_handles_labels()
+        if handles:
+            axis[0].legend(handles, labels, loc="upper right", ncols=5, fontsize=8)
+        return save_figure(figure, path)
+
+
+def _lines(axis: Any, t: NDArray[np.float64], values: Sequence[Any], names: Sequence[str], label: str) -> None:
+    for name, line, colour in zip(names, values, ("left", "right", "polygon"), strict=True):
+        axis.plot(t, line, color=COLOURS[colour], linewidth=1.0, label=name)
+    axis.set_ylabel(label)
+    axis.legend(loc="upper right", ncols=3, fontsize=8)
