@@ -26,7 +26,7 @@ class TaskSpace:
     Attributes:
         used: Number of directions that are owned.
         y: Mass-weighted acceleration (n,) in the basis of the owned directions, these first.
-        rows: Rows (m, n) of the last level in that basis, in the order in which they were owned.
+        columns: Rows of the last level in that basis as columns (n, m), in the order in which they were owned.
         sizes: Size (m,) of each of them before anything was owned.
         full: Size (m,) that each would have if its row of the Jacobian were as long as the longest of the level.
         missing: What each of them (m,) lacks of what is wanted of it; one that was met lacks nothing.
@@ -40,14 +40,16 @@ class TaskSpace:
         self.factor = np.zeros((size, size))
         self.vectors = np.zeros((size, size))
         self.scale = np.zeros(size)
+        self.normal = np.zeros((size, size))
         self.room = 0
         self._make_room(size)
 
     def _make_room(self, count):
-        self.rows = np.zeros((count, self.size))
+        self.columns = np.zeros((self.size, count))
         self.sizes = np.zeros(count)
         self.full = np.zeros(count)
         self.left = np.zeros(count)
+        self.sums = np.zeros(count)
         self.missing = np.zeros(count)
         self.order = np.zeros(count, dtype=np.intp)
         self.room = count
@@ -104,25 +106,24 @@ class TaskSpace:
         n, count, first = self.size, jacobian.shape[0], self.used
         if count > self.room:
             self._make_room(count)
-        rows, sizes, left, missing, order, y = self.rows, self.sizes, self.left, self.missing, self.order, self.y
+        columns, sizes, left, missing, order, y = self.columns, self.sizes, self.left, self.missing, self.order, self.y
         full, largest, longest = self.full, 0.0, 0.0
         for j in range(count):
             order[j] = j
             total = 0.0
             for i in range(n):
-                rows[j, i] = jacobian[j, i]
+                columns[i, j] = jacobian[j, i]
                 total += jacobian[j, i] * jacobian[j, i]
             full[j] = math.sqrt(total)
             longest = max(longest, full[j])
-            self._turn(rows[j])
-            total = 0.0
-            for i in range(n):
-                total += rows[j, i] * rows[j, i]
-            sizes[j] = math.sqrt(total)
+        self._turn_all(count)
+        self._norms(0, count, sizes)
+        for j in range(count):
             largest = max(largest, sizes[j])
+        self._norms(first, count, left)
         for j in range(count):
             full[j] = sizes[j] * longest / full[j] if full[j] > 0.0 else largest
-            left[j] = self._left(rows[j], first, sizes[j]) if sizes[j] > least * largest else 0.0
+            left[j] = left[j] / sizes[j] if sizes[j] > least * largest else 0.0
         rank = 0
         while first + rank < n and rank < count:
             best = rank
@@ -138,10 +139,11 @@ class TaskSpace:
         self.used = first + rank
         if meet:
             for j in range(count):
-                total = wanted[order[j]]
-                for i in range(n):
-                    total -= rows[j, i] * y[i]
-                missing[j] = total
+                missing[j] = wanted[order[j]]
+            for i in range(self.used):
+                total = y[i]
+                for j in range(count):
+                    missing[j] -= columns[i, j] * total
         return rank, self._bound(rank)
 
     def meet(self, rank):
@@ -151,14 +153,64 @@ class TaskSpace:
             rank: How many these are.
         """
         first = self.used - rank
-        rows, missing, y = self.rows, self.missing, self.y
-        for j in range(rank):
-            total = missing[j]
-            for i in range(j):
-                total -= rows[j, first + i] * missing[i]
-            missing[j] = total / rows[j, first + j]
+        columns, missing, y = self.columns, self.missing, self.y
+        for i in range(rank):
+            missing[i] /= columns[first + i, i]
+            for j in range(i + 1, rank):
+                missing[j] -= columns[first + i, j] * missing[i]
         for j in range(rank):
             y[first + j] += missing[j]
+
+    def fit(self, rank, count, least):
+        """Meet what the rows of the last level lack as well as their directions let them: least squares.
+
+        With L the rows that have a direction of their own and X L the others, what is met along the former solves
+        (I + X^T X) w = missing_L + X^T missing_X. As the longest rows were taken first, X is small. The rows are
+        written over.
+
+        Args:
+            rank: How many have a direction of their own.
+            count: How many there are.
+            least: Share of the largest row's size below which a row counts for nothing.
+        """
+        first, columns, missing, normal = self.used - rank, self.columns, self.missing, self.normal
+        largest = 0.0
+        for j in range(count):
+            largest = max(largest, self.sizes[j])
+        for j in range(rank, count):
+            if self.sizes[j] <= least * largest:
+                missing[j] = 0.0
+                for i in range(rank):
+                    columns[first + i, j] = 0.0
+        for k in range(rank - 1, -1, -1):
+            for j in range(rank, count):
+                columns[first + k, j] /= columns[first + k, k]
+            for i in range(k):
+                share = columns[first + i, k]
+                for j in range(rank, count):
+                    columns[first + i, j] -= share * columns[first + k, j]
+        for i in range(rank):
+            for j in range(rank, count):
+                missing[i] += columns[first + i, j] * missing[j]
+            for k in range(i + 1):
+                total = 1.0 if i == k else 0.0
+                for j in range(rank, count):
+                    total += columns[first + i, j] * columns[first + k, j]
+                normal[i, k] = total
+        for i in range(rank):
+            for j in range(i + 1):
+                total = normal[i, j]
+                for k in range(j):
+                    total -= normal[i, k] * normal[j, k]
+                normal[i, j] = total / normal[j, j] if j < i else math.sqrt(total)
+            for k in range(i):
+                missing[i] -= normal[i, k] * missing[k]
+            missing[i] /= normal[i, i]
+        for i in range(rank - 1, -1, -1):
+            missing[i] /= normal[i, i]
+            for k in range(i):
+                missing[k] -= normal[i, k] * missing[i]
+        self.meet(rank)
 
     def acceleration(self, out):
         """The generalized acceleration that y stands for.
@@ -215,73 +267,105 @@ class TaskSpace:
             for i in range(k, n):
                 row[i] -= total * vectors[k, i]
 
-    def _left(self, row, first, size):
-        """Share of a row's size that lies in the directions from `first` on."""
-        total = 0.0
-        for i in range(first, self.size):
-            total += row[i] * row[i]
-        return math.sqrt(total) / size
+    def _turn_all(self, count):
+        """The same for all columns of the level at once: nothing waits for a sum."""
+        n, factor, vectors, columns, sums = self.size, self.factor, self.vectors, self.columns, self.sums
+        for i in range(n):
+            for k in range(i):
+                share = factor[i, k]
+                for j in range(count):
+                    columns[i, j] -= share * columns[k, j]
+            share = 1.0 / factor[i, i]
+            for j in range(count):
+                columns[i, j] *= share
+        for k in range(self.used):
+            for j in range(count):
+                sums[j] = 0.0
+            for i in range(k, n):
+                share = vectors[k, i]
+                for j in range(count):
+                    sums[j] += share * columns[i, j]
+            for j in range(count):
+                sums[j] *= self.scale[k]
+            for i in range(k, n):
+                share = vectors[k, i]
+                for j in range(count):
+                    columns[i, j] -= share * sums[j]
+
+    def _norms(self, begin, count, out):
+        """Size of each column from one of its places on."""
+        columns = self.columns
+        for j in range(count):
+            out[j] = 0.0
+        for i in range(begin, self.size):
+            for j in range(count):
+                out[j] += columns[i, j] * columns[i, j]
+        for j in range(count):
+            out[j] = math.sqrt(out[j])
 
     def _bound(self, rank):
         """Bound from below of the singular values of the scaled triangle: of its inverse, the Frobenius norm's inverse.
 
         Every row of the triangle is no longer than 1, so that nothing here overflows before `least` stops the rank.
         """
-        rows, full, column, first = self.rows, self.full, self.left, self.used - rank
+        columns, full, column, first = self.columns, self.full, self.left, self.used - rank
         squares = 0.0
         for k in range(rank):
             for j in range(k, rank):
-                total = full[k] if j == k else 0.0
-                for i in range(k, j):
-                    total -= rows[j, first + i] * column[i]
-                column[j] = total / rows[j, first + j]
-                squares += column[j] * column[j]
+                column[j] = 0.0
+            column[k] = full[k]
+            for j in range(k, rank):
+                column[j] /= columns[first + j, j]
+                total = column[j]
+                squares += total * total
+                for i in range(j + 1, rank):
+                    column[i] -= columns[first + j, i] * total
         return 1.0 / math.sqrt(squares) if rank else 0.0
 
     def _swap(self, a, b):
-        """Exchange two rows of the level."""
-        rows, sizes, left, order, full = self.rows, self.sizes, self.left, self.order, self.full
+        """Exchange two columns of the level."""
+        columns, sizes, left, order, full = self.columns, self.sizes, self.left, self.order, self.full
         for i in range(self.size):
-            rows[a, i], rows[b, i] = rows[b, i], rows[a, i]
+            columns[i, a], columns[i, b] = columns[i, b], columns[i, a]
         sizes[a], sizes[b] = sizes[b], sizes[a]
         full[a], full[b] = full[b], full[a]
         left[a], left[b] = left[b], left[a]
         order[a], order[b] = order[b], order[a]
 
     def _reflect(self, place, count, smallest):
-        """Turn the first direction that is left into that of the row at `place`; the other rows and y turn with it.
+        """Turn the first direction that is left into that of the column at `place`; the others and y turn with it.
 
-        Rows before `place` have nothing in these directions.
+        Columns before `place` have nothing in these directions.
         """
-        n, rows, sizes, left, y, first = self.size, self.rows, self.sizes, self.left, self.y, self.used + place
-        vector = self.vectors[first]
+        n, columns, sizes, left, y, first = self.size, self.columns, self.sizes, self.left, self.y, self.used + place
+        vector, sums = self.vectors[first], self.sums
         total = 0.0
         for i in range(first, n):
-            vector[i] = rows[place, i]
+            vector[i] = columns[i, place]
             total += vector[i] * vector[i]
         length = math.sqrt(total)
         head = vector[first]
         vector[first] = head + length if head >= 0.0 else head - length
         scale = 2.0 / (total - head * head + vector[first] * vector[first])
         self.scale[first] = scale
-        end = n - (n - first) % 4
         for j in range(place, count):
-            a = b = c = d = 0.0
-            for i in range(first, end, 4):
-                a += vector[i] * rows[j, i]
-                b += vector[i + 1] * rows[j, i + 1]
-                c += vector[i + 2] * rows[j, i + 2]
-                d += vector[i + 3] * rows[j, i + 3]
-            for i in range(end, n):
-                a += vector[i] * rows[j, i]
-            total = scale * ((a + b) + (c + d))
-            for i in range(first, n):
-                rows[j, i] -= total * vector[i]
-            if sizes[j] > smallest:
-                total = 0.0
-                for i in range(first + 1, n):
-                    total += rows[j, i] * rows[j, i]
-                left[j] = math.sqrt(total) / sizes[j]
+            sums[j] = left[j] = 0.0
+        for i in range(first, n):
+            share = vector[i]
+            for j in range(place, count):
+                sums[j] += share * columns[i, j]
+        for j in range(place, count):
+            sums[j] *= scale
+        share = vector[first]
+        for j in range(place, count):
+            columns[first, j] -= share * sums[j]
+        for i in range(first + 1, n):
+            share = vector[i]
+            for j in range(place, count):
+                columns[i, j] -= share * sums[j]
+                left[j] += columns[i, j] * columns[i, j]
+        for j in range(place, count):
+            left[j] = math.sqrt(left[j]) / sizes[j] if sizes[j] > smallest else 0.0
         total = 0.0
         for i in range(first, n):
             total += vector[i] * y[i]

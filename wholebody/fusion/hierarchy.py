@@ -124,13 +124,32 @@ def joint_torques(
         if len(joints) < len(force):
             raise InputError("the robot's base is not driven: its stack needs a support")
         return force[joints], None
-    free = np.ones(len(force), dtype=bool)
-    free[joints] = False
-    rows = support.jacobian
-    if not free.any():
+    base = len(force) - len(joints)
+    if base == 0:
         return force[joints], None
-    least = np.linalg.lstsq(rows[:, free].T, force[free], rcond=None)[0]
-    return np.asarray(force[joints] - rows[:, joints].T @ least), np.asarray(least)
+    rows = support.jacobian
+    if joints[0] == base:  # those that no joint drives come first
+        carried, driven = rows[:, :base], rows[:, base:]
+        undriven, torque = force[:base], force[base:]
+    else:
+        free = np.delete(np.arange(len(force)), joints)
+        carried, driven, undriven, torque = rows[:, free], rows[:, joints], force[free], force[joints]
+    least = _least_norm(carried.T, undriven)
+    return np.asarray(torque - least @ driven), least
+
+
+def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The shortest x with matrix x = wanted, or nearest to it: by a QR decomposition, by singular values if it must."""
+    rows, columns = matrix.shape
+    if rows <= columns:
+        factored, scales, _, info = lapack.dgeqrf(matrix.T)
+        upper = factored[:rows]
+        ends = np.abs(upper.diagonal())
+        if info == 0 and ends.min() > 1e-6 * ends.max():
+            found = np.zeros((columns, 1))
+            found[:rows, 0] = lapack.dtrtrs(upper, wanted, lower=0, trans=1)[0]
+            return np.asarray(lapack.dormqr("L", "N", factored, scales, found, 64)[0][:, 0])
+    return np.asarray(np.linalg.lstsq(matrix, wanted, rcond=None)[0])
 
 
 def _add(space: TaskSpace, level: Sequence[Demand], last: bool) -> None:
@@ -166,23 +185,22 @@ def _meet(space: TaskSpace, rows: NDArray[np.float64], wanted: NDArray[np.float6
         raise InputError(f"a task asks for an acceleration of shape {wanted.shape}; expected one a row, ({len(rows)},)")
     rank, bound = space.own(rows, np.ascontiguousarray(wanted), True, RANK)
     count = len(rows)
-    regular = bound > DAMPED
     if rank == 0:
         return
-    if rank == count and regular:
-        space.meet(rank)
+    if bound > DAMPED:
+        if rank == count:
+            space.meet(rank)
+        else:
+            space.fit(rank, count, RANK)
         return
     sizes = np.asarray(space.sizes)[:count]
     counted = sizes > RANK * sizes.max()
-    left = np.asarray(space.rows)[:count, space.used - rank : space.used][counted]
+    left = np.asarray(space.columns)[space.used - rank : space.used, :count].T[counted]
     missing = np.asarray(space.missing)[:count][counted]
-    met = np.asarray(space.y)[space.used - rank : space.used]
-    if regular:  # more rows than directions: least squares
-        met += lapack.dgels(left, missing)[1][:rank]
-        return
     damped = DAMPED * float(np.asarray(space.full)[:count][counted].min())
     across, strengths, along = np.linalg.svd(left, full_matrices=False)
     short = np.maximum(0.0, 1.0 - (strengths / damped) ** 2) * (damped / 2.0) ** 2
+    met = np.asarray(space.y)[space.used - rank : space.used]
     met += along.T @ (strengths / (strengths**2 + short) * (across.T @ missing))
 
 
