@@ -50,6 +50,9 @@ class MujocoDynamics:
         self.joints: NDArray[np.int64] = model.jnt_dofadr[moved].astype(np.int64)
         self._places = model.jnt_qposadr[moved].astype(np.int64)
         self._bodies = {model.body(i).name: i for i in range(1, model.nbody)}
+        self._places_of_links = self.data.xpos  # views: MuJoCo's attributes make one at each access
+        self._turns_of_links = self.data.xmat.reshape(-1, 3, 3)
+        self._velocity: NDArray[np.float64] = self.data.qvel
         self._forget()
         mujoco.mj_kinematics(model, self.data)
 
@@ -89,7 +92,7 @@ class MujocoDynamics:
     @property
     def velocity(self) -> NDArray[np.float64]:
         """Generalized velocity (n,)."""
-        return np.asarray(self.data.qvel)
+        return self._velocity
 
     @property
     def joint_positions(self) -> NDArray[np.float64]:
@@ -122,7 +125,7 @@ class MujocoDynamics:
             InputError: If there is no such link.
         """
         body = self._body(link)
-        return self.data.xpos[body].copy(), self.data.xmat[body].reshape(3, 3).copy()
+        return self._places_of_links[body].copy(), self._turns_of_links[body].copy()
 
     def jacobian(self, link: str, point: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
         """Jacobian of a point fixed to a link.
@@ -165,7 +168,7 @@ class MujocoDynamics:
         self._move()
         rate = np.zeros((6, self.model.nv))
         mujoco.mj_jacDot(self.model, self.data, rate[:3], rate[3:], self._world(body, point), body)
-        return np.asarray(rate @ self.data.qvel)
+        return np.asarray(rate.dot(self._velocity))
 
     def com(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Centre of mass: position (3,) in m, Jacobian (3, n) and drift (3,) in m/s^2.
@@ -191,5 +194,5 @@ class MujocoDynamics:
 
     def _world(self, body: int, point: NDArray[np.float64] | None) -> NDArray[np.float64]:
         """A point of a body in the world in m."""
-        origin = self.data.xpos[body]
-        return np.asarray(origin if point is None else origin + self.data.xmat[body].reshape(3, 3) @ point)
+        origin: NDArray[np.float64] = self._places_of_links[body]
+        return origin if point is None else origin + self._turns_of_links[body].dot(point)

@@ -87,14 +87,15 @@ def fuse(
     """
     every = [[d for d in level if d is not None] for level in ([support], *levels)]
     asked = [level for level in every if level]
-    space = _space(len(robot.mass_matrix))
-    if not space.begin(robot.mass_matrix):
+    mass = robot.mass_matrix
+    space = _space(len(mass))
+    if not space.begin(mass):
         raise InputError("the mass matrix is not positive definite: a model needs mass or armature at every joint")
     for level in asked:
         _add(space, level, last=level is asked[-1])
     acceleration = np.empty(space.size)
     space.acceleration(acceleration)
-    force = robot.mass_matrix @ acceleration + robot.bias
+    force = mass.dot(acceleration) + robot.bias
     if external is not None:
         force -= external
     torque, support_force = (split or joint_torques)(robot, force, support)
@@ -135,7 +136,7 @@ def joint_torques(
         free = np.delete(np.arange(len(force)), joints)
         carried, driven, undriven, torque = rows[:, free], rows[:, joints], force[free], force[joints]
     least = _least_norm(carried.T, undriven)
-    return np.asarray(torque - least @ driven), least
+    return np.asarray(torque - least.dot(driven)), least
 
 
 def _least_norm(matrix: NDArray[np.float64], wanted: NDArray[np.float64]) -> NDArray[np.float64]:

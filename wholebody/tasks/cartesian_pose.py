@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import numpy as np
@@ -80,20 +81,21 @@ class CartesianPose(Task):
             self.target_rotation = rotation.copy()
         rows, gains = self._rows, self.gains
         jacobian = robot.jacobian(self.link, self.point)
-        moving = jacobian @ robot.velocity
+        moving = jacobian.dot(robot.velocity)
         wanted = np.empty(6)
         if rows.start == 0:
             pull = gains.stiffness * (self.target_position - position)
             fastest = gains.damping * gains.speed  # of T 3.43, k_v nu x'_d: no pull is stronger
-            strength = float(np.sqrt(pull @ pull))
+            strength = math.sqrt(pull.dot(pull))
             if strength > fastest > 0.0:
                 pull *= fastest / strength
-            wanted[:3] = self.target_acceleration + pull + gains.damping * (self.target_velocity - moving[:3])
+            pull += gains.damping * (self.target_velocity - moving[:3])
+            np.add(pull, self.target_acceleration, out=wanted[:3])
         if rows.stop == 6:
-            turn = rotation_error(self.target_rotation, rotation)
-            wanted[3:] = gains.turn_stiffness * turn - gains.turn_damping * moving[3:]
+            turn = gains.turn_stiffness * rotation_error(self.target_rotation, rotation)
+            np.subtract(turn, gains.turn_damping * moving[3:], out=wanted[3:])
         return Demand(jacobian[rows], acceleration=wanted[rows], drift=robot.drift(self.link, self.point)[rows])
 
     def _place(self, robot: RobotDynamics) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         origin, rotation = robot.pose(self.link)
-        return (origin if self.point is None else origin + rotation @ self.point), rotation
+        return (origin if self.point is None else origin + rotation.dot(self.point)), rotation
