@@ -1,0 +1,412 @@
+r"""One tick of the companion beside mink (velocities) and tsid on pinocchio (accelerations and torques).
+
+The same robot, state and tasks for each: two strict levels, since the peers have no more. Above, what has to be met
+(hand, centre of mass, feet where it stands on them), below a posture. First what comes out is compared, then the time.
+A tick is everything between the state of the joints and the torques: kinematics, dynamics, tasks and fusion.
+
+    OMP_NUM_THREADS=1 python benchmarks/companion_peers.py        (writes benchmarks/companion_peers.md)
+
+mink is one of the project's tools. tsid is not, and gets an environment of its own:
+
+    python3.11 -m venv /tmp/tsid-venv
+    /tmp/tsid-venv/bin/pip install --only-binary :all: tsid==1.7.1 pin==3.4.0 "cmeel-urdfdom<5" "cmeel-tinyxml2<11" \
+        mink mujoco numpy scipy daqp quadprog
+    PYTHONPATH=. OMP_NUM_THREADS=1 /tmp/tsid-venv/bin/python benchmarks/companion_peers.py
+
+(The wheels of tsid 1.10.0 and of pin 4.0.0 or 4.1.0 do not fit each other: a RobotWrapper ends in a MemoryError.)
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.metadata
+import time
+import warnings
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from plantar.atomic import write_text
+from sim.companion.dynamics import MujocoDynamics
+from sim.companion.machine import load_machine
+from wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
+from wholebody.fusion.hierarchy import fuse
+from wholebody.stack import TaskStack
+from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from wholebody.tasks.center_of_mass import CenterOfMass
+from wholebody.tasks.posture import Posture
+from wholebody.tasks.support import Standing, Support
+
+STATES = 50
+"""Random states that are compared."""
+
+ROUNDS = 2000
+"""Ticks that are timed of each, in turn."""
+
+HANDS = {"mobile-arm": "hand", "h1-body": "left_hand"}
+"""Machines, and the link whose pose is held."""
+
+FEET = ("left_foot", "right_foot")
+"""Links that h1 stands on."""
+
+
+_READING = """Read it so:
+
+- Medians of ticks in turn on one core, each library called from Python; tsid and pinocchio are C++ inside, the
+  companion is Python but for MuJoCo and one kernel. Of a 9-joint arm a tick is mostly Python's calls, and tsid is
+  faster; of a whole body it is arithmetic, and both take about as long.
+- tsid has two levels. Every further one costs the companion about 10 us of an arm; where a task is silent, nothing.
+- "With limits" is `wholebody.fusion.hierarchical_qp`: first without its shortcut, so that every level is solved though
+  no limit acts, then with a torque limit a tenth below what the stack needs. With the shortcut a tick on which no limit
+  acts costs what the plain hierarchy does and some 10 us. tsid holds limits on its first level only.
+- daqp meets mink's constraints to 1e-6 of the largest velocity, quadprog to 1e-9: the free base has no cost of its own.
+"""
+
+
+def library(name):
+    """A library, or None with a line that says how to get it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return importlib.import_module(name)
+    except (ImportError, AttributeError):
+        print(f"{name} is missing and left out; see the head of {Path(__file__).name}")
+        return None
+
+
+class Case:
+    """A machine, its stack of tasks, and random states of it near its posture."""
+
+    def __init__(self, name, feet=()):
+        machine = load_machine(name)
+        self.name, self.feet, self.hand = name, feet, HANDS[name]
+        self.model = machine.spec().compile()
+        self.robot = MujocoDynamics(self.model)
+        self.free = self.model.nq != self.model.nv
+        self.posture = machine.posture
+        self.limits = machine.efforts
+        self.at_posture = self.model.qpos0.copy()
+        self.at_posture[self.robot._places] = self.posture
+        self.set_state(self.at_posture, np.zeros(self.model.nv))
+        self.pose = CartesianPose(self.hand, gains=PoseGains(speed=100.0))
+        self.pose.target_position = self.robot.pose(self.hand)[0] + [0.03, -0.02, 0.04]
+        self.pose.target_rotation = self.robot.pose(self.hand)[1]
+        self.com = CenterOfMass(self.robot.com()[0] + [0.0, 0.01, -0.01])
+        self.held = Posture(self.posture)
+        support = Support({f: Standing(f, np.zeros(3)) for f in feet}) if feet else None
+        self.stack = TaskStack([[self.pose, self.com] if feet else [self.pose], [self.held]], support)
+
+    def set_state(self, qpos, qvel):
+        self.qpos, self.qvel = qpos.copy(), qvel.copy()
+        self.robot.update(qpos, qvel, 0.0)
+
+    def states(self, rng, count):
+        for _ in range(count):
+            qpos = self.at_posture.copy()
+            mujoco.mj_integratePos(self.model, qpos, rng.uniform(-0.1, 0.1, self.model.nv), 1.0)
+            yield qpos, rng.uniform(-0.3, 0.3, self.model.nv)
+
+    def tick(self):
+        self.robot.update(self.qpos, self.qvel, 0.0)
+        return self.stack.step(self.robot)
+
+
+def pinocchio_model(pin, model):
+    """The same robot for pinocchio, joint by joint and link by link from the compiled MuJoCo model."""
+    found = pin.Model()
+    found.gravity = pin.Motion(np.array(model.opt.gravity), np.zeros(3))
+
+    def rotation(quaternion):
+        turn = np.zeros(9)
+        mujoco.mju_quat2Mat(turn, quaternion)
+        return turn.reshape(3, 3)
+
+    places = {0: (0, pin.SE3.Identity())}  # of each body: its joint, and where it is in that joint's frame
+    for body in range(1, model.nbody):
+        parent, inside = places[int(model.body_parentid[body])]
+        place = inside * pin.SE3(rotation(model.body_quat[body]), np.array(model.body_pos[body]))
+        first = int(model.body_jntadr[body])
+        for joint in range(first, first + int(model.body_jntnum[body])):
+            kind, axis, name = int(model.jnt_type[joint]), np.array(model.jnt_axis[joint]), model.joint(joint).name
+            anchor = np.array(model.jnt_pos[joint])
+            if kind == mujoco.mjtJoint.mjJNT_FREE:
+                parent = found.addJoint(parent, pin.JointModelFreeFlyer(), pin.SE3.Identity(), name)
+                place = pin.SE3.Identity()
+                continue
+            revolute = kind == mujoco.mjtJoint.mjJNT_HINGE
+            moving = pin.JointModelRevoluteUnaligned(axis) if revolute else pin.JointModelPrismaticUnaligned(axis)
+            parent = found.addJoint(parent, moving, place * pin.SE3(np.eye(3), anchor), name)
+            place = pin.SE3(np.eye(3), -anchor)
+        mass, turn = float(model.body_mass[body]), rotation(model.body_iquat[body])
+        inertia = turn @ np.diag(model.body_inertia[body]) @ turn.T
+        found.appendBodyToJoint(parent, pin.Inertia(mass, np.array(model.body_ipos[body]), inertia), place)
+        found.addBodyFrame(model.body(body).name, parent, place, 0)
+        places[body] = (parent, place)
+    return found
+
+
+class Tsid:
+    """The same stack in tsid."""
+
+    def __init__(self, tsid, pin, case):
+        self.tsid, self.case, model = tsid, case, case.model
+        kind = tsid.FLOATING_BASE_SYSTEM if case.free else tsid.FIXED_BASE_SYSTEM
+        made = pinocchio_model(pin, model)
+        base = 6 if case.free else 0
+        names = [model.joint(j).name for j in range(model.njnt)]
+        self.order = [made.joints[made.getJointId(n)].idx_v for n in names[1 if case.free else 0 :]]
+        made.armature = np.zeros(made.nv)
+        armature = made.armature
+        armature[self.order] = model.dof_armature[base:]
+        made.armature = armature
+        self.robot = tsid.RobotWrapper(made, kind, False)
+        self.formulation = tsid.InverseDynamicsFormulationAccForce("tsid", self.robot, False)
+        self.base = base
+        q, v = self.state()
+        self.formulation.computeProblemData(0.0, q, v)
+        self._add_tasks(pin)
+        self.solver = tsid.SolverHQuadProgFast("solver")
+        f = self.formulation
+        self.solver.resize(f.nVar, f.nEq, f.nIn)
+
+    def _add_tasks(self, pin):
+        tsid, case, f = self.tsid, self.case, self.formulation
+        self.contacts = []
+        for foot in case.feet:
+            # So large that no limit of the contact acts: the companion's hierarchy knows none.
+            corners = np.array([[10.0, 10.0, -10.0, -10.0], [10.0, -10.0, 10.0, -10.0], [0.0] * 4])
+            up = np.array([0.0, 0.0, 1.0])
+            contact = tsid.Contact6d(f"on_{foot}", self.robot, foot, corners, up, 1e4, -1e7, 1e7)
+            contact.setKp(np.zeros(6))
+            contact.setKd(np.zeros(6))
+            f.addRigidContact(contact, 1e-12, 1.0, 0)
+            contact.setReference(self.robot.framePosition(f.data(), self.robot.model().getFrameId(foot)))
+            self.contacts.append(contact)
+        self.pose = tsid.TaskSE3Equality("pose", self.robot, case.hand)
+        self.pose.useLocalFrame(False)
+        f.addMotionTask(self.pose, 1.0, 0, 0.0)
+        self.com = tsid.TaskComEquality("com", self.robot)
+        if case.feet:
+            f.addMotionTask(self.com, 1.0, 0, 0.0)
+        self.posture = tsid.TaskJointPosture("posture", self.robot)
+        f.addMotionTask(self.posture, 1e4, 1, 0.0)
+        self.samples = tsid.TrajectorySample(12, 6), tsid.TrajectorySample(3), tsid.TrajectorySample(len(self.order))
+        self.gains(0.0)
+
+    def gains(self, share):
+        """Feedback of the tasks: none where the companion's references are compared, full where time is."""
+        kinds = (self.pose, 6, 100.0), (self.com, 3, 50.0), (self.posture, len(self.order), 50.0)
+        for task, size, stiffness in kinds:
+            task.setKp(np.full(size, share * stiffness))
+            task.setKd(np.full(size, share * 2.0 * np.sqrt(stiffness)))
+
+    def state(self):
+        """The case's state as pinocchio has it: quaternion last, the base's velocity in its own frame."""
+        q, v = np.zeros(self.robot.nq), np.zeros(self.robot.nv)
+        case = self.case
+        if case.free:
+            w, x, y, z = case.qpos[3:7]
+            turn = np.zeros(9)
+            mujoco.mju_quat2Mat(turn, case.qpos[3:7])
+            self.turn = turn.reshape(3, 3)
+            q[:7] = *case.qpos[:3], x, y, z, w
+            v[:6] = *(self.turn.T @ case.qvel[:3]), *case.qvel[3:6]
+        for i, at in enumerate(self.order):
+            q[at + (1 if case.free else 0)] = case.qpos[i + (7 if case.free else 0)]
+            v[at] = case.qvel[i + self.base]
+        return q, v
+
+    def refer(self, pose, com, posture):
+        """Set the accelerations that the tasks shall have."""
+        at, second, joints = self.samples
+        home = np.eye(3)
+        at.value(np.hstack([np.zeros(3), home.flatten("F")]))
+        at.second_derivative(pose)
+        self.pose.setReference(at)
+        second.value(np.zeros(3))
+        second.second_derivative(com)
+        self.com.setReference(second)
+        ordered = np.zeros(len(self.order))
+        ordered[np.array(self.order) - self.base] = posture
+        joints.value(np.zeros(len(self.order)))
+        joints.second_derivative(ordered)
+        self.posture.setReference(joints)
+
+    def tick(self, q, v):
+        data = self.formulation.computeProblemData(0.0, q, v)
+        solution = self.solver.solve(data)
+        return self.formulation.getAccelerations(solution), self.formulation.getActuatorForces(solution), solution
+
+    def accelerations(self, q, v):
+        """In MuJoCo's coordinates: the base's in the world, with what turning adds."""
+        acceleration, torque, solution = self.tick(q, v)
+        assert solution.status == 0, f"tsid: {self.case.name} {len(self.case.feet)} {solution.status}"
+        found = np.zeros(self.case.model.nv)
+        found[self.base :] = acceleration[self.order]
+        if self.case.free:
+            found[:3] = self.turn @ (acceleration[:3] + np.cross(v[3:6], v[:3]))
+            found[3:6] = acceleration[3:6]
+        return found, torque[np.array(self.order) - self.base]
+
+
+def alternating(*calls):
+    """Median time in us of each call, timed in turn."""
+    times = np.zeros((ROUNDS, len(calls)))
+    for row in times:
+        for i, call in enumerate(calls):
+            start = time.perf_counter()
+            call()
+            row[i] = time.perf_counter() - start
+    return np.median(times, axis=0) * 1e6
+
+
+def against_tsid(case, tsid, pin):
+    """Largest differences of accelerations and torques as shares of the largest one, and times of a tick in us."""
+    peer = Tsid(tsid, pin, case)
+    worst = np.zeros(2)
+    for qpos, qvel in case.states(np.random.default_rng(0), STATES):
+        case.set_state(qpos, qvel)
+        own = case.tick()
+        wanted = [t.demand(case.robot, None).acceleration for t in (case.pose, case.com, case.held)]
+        q, v = peer.state()
+        peer.refer(*wanted)
+        found, torque = peer.accelerations(q, v)
+        worst[0] = max(worst[0], np.abs(found - own.acceleration).max() / np.abs(own.acceleration).max())
+        if len(case.feet) < 2:  # two feet share what they push against each other in many ways
+            worst[1] = max(worst[1], np.abs(torque - own.torque).max() / np.abs(own.torque).max())
+    peer.gains(1.0)
+    qp = TaskStack(case.stack.levels, case.stack.support, HierarchicalQP(wide_limits(case), shortcut=False))
+    hold = HierarchicalQP(tight_limits(case, own.torque))
+    held = TaskStack(case.stack.levels, case.stack.support, hold)
+
+    def with_limits(stack):
+        case.robot.update(case.qpos, case.qvel, 0.0)
+        return stack.step(case.robot)
+
+    beside = alternating(case.tick, lambda: peer.tick(q, v))
+    limited = alternating(lambda: with_limits(qp), lambda: with_limits(held))
+    assert hold.limited
+    return worst, (*beside, *limited)
+
+
+def wide_limits(case):
+    count = len(case.robot.joints)
+    return JointLimits(*(np.full(count, v) for v in (1e7, 1e7, -1e7, 1e7)))
+
+
+def tight_limits(case, torque):
+    """Torques of which the largest is out of reach, a tenth below what the hierarchy needs."""
+    limits = wide_limits(case)
+    return JointLimits(np.full(len(torque), 0.9 * np.abs(torque).max()), limits.velocity, limits.low, limits.high)
+
+
+class Kinematic:
+    """A robot whose mass is 1 everywhere: the hierarchy of accelerations is one of velocities then."""
+
+    def __init__(self, robot):
+        self.robot, size = robot, robot.model.nv
+        self.mass_matrix, self.bias, self.joints = np.eye(size), np.zeros(size), np.arange(size)
+
+
+def against_mink(case, mink):
+    """Largest difference of velocities as a share of the largest one, and times of a tick in us."""
+    from wholebody.tasks.task import Demand
+
+    step = 0.01
+    kinematic = Kinematic(case.robot)
+    configuration = mink.Configuration(case.model)
+    hand = mink.FrameTask(case.hand, "body", position_cost=1.0, orientation_cost=1.0)
+    com = mink.ComTask(cost=1.0)
+    feet = [mink.FrameTask(f, "body", position_cost=1.0, orientation_cost=1.0) for f in case.feet]
+    posture = mink.PostureTask(case.model, cost=1.0)
+    posture.set_target(case.at_posture)
+    above = [hand, *feet, *([com] if case.feet else [])]
+    eye = np.eye(case.model.nv)[case.robot.joints]
+    shift = np.array([0.004, -0.002, 0.003])
+
+    def set_targets():
+        configuration.update(case.qpos)
+        for task in (hand, *feet):
+            task.set_target_from_configuration(configuration)
+        moved = mink.SE3.from_translation(shift) @ configuration.get_transform_frame_to_world(case.hand, "body")
+        hand.set_target(moved)
+        com.set_target(case.robot.com()[0] + 0.5 * shift)
+
+    def own():
+        robot = case.robot
+        robot.update(case.qpos, case.qvel, 0.0)
+        zero, still = np.zeros(3), np.zeros(6)
+        first = [Demand(robot.jacobian(case.hand), acceleration=np.concatenate([shift, zero]) / step)]
+        if case.feet:
+            first.append(Demand(robot.com()[1], acceleration=0.5 * shift / step))
+        first += [Demand(robot.jacobian(f), acceleration=still) for f in case.feet]
+        home = (case.posture - robot.joint_positions) / step
+        return fuse(kinematic, [first, [Demand(eye, acceleration=home)]]).acceleration
+
+    def other(solver="daqp"):
+        configuration.update(case.qpos)
+        return mink.solve_ik(configuration, [posture], step, solver, limits=[], constraints=above)
+
+    worst = 0.0
+    for qpos, qvel in case.states(np.random.default_rng(0), STATES):
+        case.set_state(qpos, qvel)
+        set_targets()
+        mine, found = own(), other("quadprog")
+        worst = max(worst, np.abs(mine - found).max() / np.abs(mine).max())
+    return worst, alternating(own, other)
+
+
+def main():
+    """Compare and time all that is there, and write the tables."""
+    cases = [Case("mobile-arm"), Case("h1-body", FEET[:1]), Case("h1-body", FEET)]
+    pin, mink = library("pinocchio"), library("mink")
+    tsid = library("tsid.tsid_pywrap") if pin else None
+    lines = [__doc__.split("\n\n")[1], ""]
+    if tsid:
+        lines += torque_table(cases, tsid, pin)
+    if mink:
+        lines += velocity_table(cases, mink)
+    lines += [_READING]
+    text = "\n".join(["# A tick of the companion beside its peers", "", *lines])
+    print(text)
+    if tsid and mink:
+        write_text(Path(__file__).with_suffix(".md"), text + "\n")
+
+
+def named(case):
+    standing = f", on {len(case.feet)} feet" if len(case.feet) > 1 else ", on one foot" if case.feet else ""
+    return f"{case.name} ({case.model.nv} coordinates{standing})"
+
+
+def torque_table(cases, tsid, pin):
+    """Lines of the table beside tsid."""
+    version = f"tsid {importlib.metadata.version('tsid')}, pinocchio {pin.__version__}"
+    head = "| robot | accelerations differ by | torques by | tick | tsid | with limits, none acts | one acts |"
+    lines = [f"## Torques: {version}", "", head, "|---|---|---|---|---|---|---|"]
+    for case in cases:
+        (a, t), (own, peer, qp, held) = against_tsid(case, tsid, pin)
+        torque = f"{t:.0e}" if len(case.feet) < 2 else "-"
+        lines.append(
+            f"| {named(case)} | {a:.0e} | {torque} | {own:.0f} us | {peer:.0f} us | {qp:.0f} us | {held:.0f} us |"
+        )
+    return [*lines, ""]
+
+
+def velocity_table(cases, mink):
+    """Lines of the table beside mink."""
+    head = "| robot | velocities differ by | tick | mink |"
+    lines = [
+        f"## Velocities: mink {importlib.metadata.version('mink')}, compared by quadprog, timed with daqp",
+        "",
+        head,
+        "|---|---|---|---|",
+    ]
+    for case in cases:
+        worst, (own, peer) = against_mink(case, mink)
+        lines.append(f"| {named(case)} | {worst:.0e} | {own:.0f} us | {peer:.0f} us |")
+    return [*lines, ""]
+
+
+if __name__ == "__main__":
+    main()
