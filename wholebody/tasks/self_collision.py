@@ -49,23 +49,30 @@ class SelfCollision(Task):
         if not margin > 0.0:
             raise InputError(f"margin of self-collision is {margin} m; allowed: above 0")
         self.pairs, self.margin, self.stiffness, self.damping = tuple(pairs), margin, stiffness, damping
+        spheres = list({(s.link, *np.asarray(s.center).tolist()): s for pair in pairs for s in pair}.values())
+        places = {(s.link, *np.asarray(s.center).tolist()): i for i, s in enumerate(spheres)}
+        index = [[places[s.link, *np.asarray(s.center).tolist()] for s in pair] for pair in pairs]
+        self._links = list(dict.fromkeys(s.link for s in spheres))
+        self._link_of = [self._links.index(s.link) for s in spheres]
+        self._centers = np.array([s.center for s in spheres], dtype=float).reshape(-1, 3, 1)
+        self._index = np.array(index, dtype=int).reshape(-1, 2)
+        self._reach = np.array([a.radius + b.radius for a, b in pairs]) + margin
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        rows, forces = [], []
-        for a, b in self.pairs:
-            apart = _center(robot, a) - _center(robot, b)
-            distance = float(np.sqrt(apart @ apart))
-            gap = distance - a.radius - b.radius
-            if gap >= self.margin or distance == 0.0:
-                continue
-            toward = apart / distance
-            row = toward @ (robot.jacobian(a.link, a.center)[:3] - robot.jacobian(b.link, b.center)[:3])
-            closing = min(0.0, float(row @ robot.velocity))
-            rows.append(row)
-            forces.append(self.stiffness * (self.margin - gap) - self.damping * closing)
-        return Demand(np.array(rows), force=np.array(forces)) if rows else None
-
-
-def _center(robot: RobotDynamics, sphere: Sphere) -> NDArray[np.float64]:
-    origin, rotation = robot.pose(sphere.link)
-    return np.asarray(origin + rotation @ sphere.center)
+        poses = [robot.pose(link) for link in self._links]
+        origins = np.array([origin for origin, _ in poses])[self._link_of]
+        rotations = np.array([rotation for _, rotation in poses])[self._link_of]
+        centers = origins + (rotations @ self._centers)[:, :, 0]
+        apart = centers[self._index[:, 0]] - centers[self._index[:, 1]]
+        distances = np.sqrt(np.einsum("ij,ij->i", apart, apart))
+        near = np.flatnonzero((distances < self._reach) & (distances > 0.0))
+        if not len(near):
+            return None
+        rows, forces = np.empty((len(near), len(robot.velocity))), np.empty(len(near))
+        for i, pair in enumerate(near):
+            a, b = self.pairs[pair]
+            toward = apart[pair] / distances[pair]
+            rows[i] = toward @ (robot.jacobian(a.link, a.center)[:3] - robot.jacobian(b.link, b.center)[:3])
+            closing = min(0.0, float(rows[i] @ robot.velocity))
+            forces[i] = self.stiffness * (self._reach[pair] - distances[pair]) - self.damping * closing
+        return Demand(rows, force=forces)

@@ -24,6 +24,8 @@ class SkinInteraction(Task):
 
     Attributes:
         counted: Mask (N,) of the taxels that count.
+        damping: Damping (2,) of each link that yields: of its origin in N s/m and of its turning in N m s/rad. What
+            owns a link's motion has to damp it too; none by default.
 
     Raises:
         InputError: If there is no patch of a name.
@@ -32,6 +34,7 @@ class SkinInteraction(Task):
     def __init__(self, skin: BodySkin, patches: Sequence[str] | None = None) -> None:
         self.skin = skin
         self.counted = skin.taxels_of(patches)
+        self.damping = (0.0, 0.0)
 
     def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """Force (N,) along each taxel's z in N, and which taxels (N,) are active; NaN is never."""
@@ -42,4 +45,8 @@ class SkinInteraction(Task):
         return link_wrenches(self.skin, *self.signal(skin))
 
     def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
-        return None if skin is None else wrench_demand(robot, self.wrenches(skin))
+        found = None if skin is None else wrench_demand(robot, self.wrenches(skin))
+        if found is None or found.force is None or self.damping == (0.0, 0.0):
+            return found
+        speeds = (found.jacobian @ robot.velocity).reshape(-1, 2, 3)
+        return found._replace(force=found.force - (speeds * np.array(self.damping)[:, None]).ravel())

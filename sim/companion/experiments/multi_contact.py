@@ -1,0 +1,45 @@
+"""Thirteen contacts on a robot that stands on its left leg: it yields to each and keeps its balance (T 3.2.4.1)."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from sim.companion.machine import Machine
+from sim.companion.standing.pressed import UPPER_BODY, PressedExperiment
+from wholebody.skin.patch import BodySkin
+from wholebody.tasks.interaction import DirectInteraction
+from wholebody.tasks.task import Task
+
+__all__ = ["MultiContact"]
+
+_LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("upper_leg", "lower_leg", "foot_sole")}
+
+
+class MultiContact(PressedExperiment):
+    """Pads press on thirteen instances one after the other, then on all of them.
+
+    T 3.2.4.1 has support by the left leg, self-collision, skin, and a centre of mass at 0.8 m below it. Thirteen links
+    that own all their rows leave nothing to a centre of mass below them, nor a spring that brings them back: in that
+    order the free leg drifts under a push until the standing hip has not the torque to hold it. So the centre of mass
+    stands with the support here, and skin and posture share the last level, as in T 3.2.3.1.
+    """
+
+    sides: ClassVar = ("left",)
+    com_height: ClassVar = 0.8
+    roll: ClassVar = -12.0
+    instances: ClassVar = {**UPPER_BODY, **_LEG}
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.duration = 11.0
+        order = self.rng.permutation(list(self.instances))
+        for i, name in enumerate(order.tolist()):
+            self.press(name, self.instances[name], 0.6 + 0.35 * i + self.rng.uniform(0.0, 0.1), 1.9)
+        begin = self.rng.uniform(7.7, 8.0)
+        for name, patches in self.instances.items():
+            self.press(f"together {name}", patches, begin + self.rng.uniform(0.0, 0.2), 2.2)
+
+    def levels(self, skin: BodySkin) -> list[list[Task]]:
+        yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
+        apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
+        return [self.balance_tasks(), apart, [*yielding, self.posture_task()]]

@@ -1,0 +1,176 @@
+"""A probe of one taxel and one of a hundred press on the torso with the same force: the area decides (T 3.2.5.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.mechanics.lip import GRAVITY
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.settings.schema import Settings, number, switch
+from sim.companion.experiment import Controller, Verdict, World, failed
+from sim.companion.machine import Machine
+from sim.companion.skin_sensing import SkinSensor
+from sim.companion.skin_surface import skin_from_tables
+from sim.companion.standing.controller import StandingControl, StandingController
+from sim.companion.standing.pad import Pad
+from sim.companion.standing.standing import StandingExperiment, patch_named
+from wholebody.skin.patch import BodySkin
+from wholebody.tasks.interaction import DirectInteraction
+from wholebody.tasks.pressure import PressureInteraction
+
+__all__ = ["Pressure"]
+
+_PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
+_FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
+_SETTLE, _WINDOW = 0.4, 0.3  # s: from the full force to the measurement, and its length
+_PRESS, _REST = 1.8, 2.2  # s
+
+
+class PressureSettings(Settings):
+    """How hard the probes press.
+
+    Attributes:
+        force: Mean force of both probes as a share of body weight; each seed has its own.
+        tolerance: Deviation from the area law that is allowed.
+    """
+
+    force: float = number(0.028, "1", 0.001, 0.2)
+    tolerance: float = number(0.1, "1", 0.0, 1.0)
+
+
+class PressureControl(StandingControl):
+    """How the machine yields.
+
+    Attributes:
+        by_pressure: Whether the area counts; otherwise the force alone, as if it were on `sensitivity_taxels`.
+        sensitivity_taxels: xi of T 3.27 in areas of a taxel: over so many a force counts as it is.
+        yield_damping: Damping of the torso while it yields.
+    """
+
+    by_pressure: bool = switch(True)
+    sensitivity_taxels: float = number(8.0, "1", 0.1, 1000.0)
+    yield_damping: float = number(6000.0, "N s/m", 1.0, 1e6)
+
+
+@dataclass
+class _Push:
+    """One probe: when it presses, and what came of it."""
+
+    pad: Pad
+    begin: float
+    full: float = np.inf
+    taxels: list[int] = field(default_factory=list)
+    forces: list[float] = field(default_factory=list)
+    first: tuple[float, NDArray[np.float64]] | None = None
+    last: tuple[float, NDArray[np.float64]] | None = None
+
+    @property
+    def speed(self) -> float:
+        """Norm of the mean velocities of the waist's joints in rad/s in the window; NaN where there was none."""
+        if self.first is None or self.last is None or self.last[0] <= self.first[0]:
+            return float("nan")
+        return float(np.linalg.norm(self.last[1] - self.first[1]) / (self.last[0] - self.first[0]))
+
+
+class Pressure(StandingExperiment):
+    """Two probes, in an order and at a place of the seed; the order of tasks is T 3.2.5.1's.
+
+    The balance holds the base: the torso then moves about the waist alone, and arms need not swing for it.
+    """
+
+    settings_type: ClassVar = PressureSettings
+    control_type: ClassVar = PressureControl
+    columns: ClassVar = ("speed_ratio", "area_ratio", "cop_margin_min_mm")
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
+        patch = patch_named(skin, _PATCH)
+        central = np.argsort(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1))
+        taxel = int(self.rng.choice(central[:5]))
+        weight = GRAVITY * float(self.robot.model.body_subtreemass[0])
+        self.force = settings.force * weight * self.rng.uniform(0.85, 1.15)
+        order = list(_FACES)[:: int(self.rng.choice([-1, 1]))]
+        self._pushes = {}
+        for i, name in enumerate(order):
+            pad = Pad(name, patch, taxel, _FACES[name], 7e3 if name == "one" else 7e5)
+            self.pads.append(pad)
+            self._pushes[name] = _Push(pad, 0.5 + i * (_PRESS + _REST))
+        self.duration = 0.5 + 2 * (_PRESS + _REST)
+        self._slice = skin.slices[_PATCH]
+        self._control: StandingController | None = None
+        self._trace: list[tuple[float, float, float]] = []
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        c = self.control
+        area = float(skin.areas[0])
+        if c.by_pressure:
+            task: DirectInteraction = PressureInteraction(skin, c.sensitivity_taxels * area)
+        else:
+            task = DirectInteraction(skin)
+        task.damping = (c.yield_damping, 0.1 * c.yield_damping)
+        levels = [[self.base_task()], [task], [self.posture_task()]]
+        self._control = StandingController(self.stance, levels, None, skin, c)
+        return self._control
+
+    def act(self, world: World, time: float) -> None:
+        for push in self._pushes.values():
+            done = time >= min(push.begin + _PRESS, push.full + _SETTLE + _WINDOW)
+            push.pad.wanted = self.force if push.begin <= time and not done else 0.0
+        super().act(world, time)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        super().judge(world, sensor, time)
+        joints = np.array([world.data.joint(name).qpos[0] for name in _JOINTS])
+        for push in self._pushes.values():
+            force = self.pressing(push.pad)
+            if not np.isfinite(push.full) and force > 0.95 * self.force:
+                push.full = time
+            if push.full + _SETTLE <= time < push.full + _SETTLE + _WINDOW:
+                push.taxels.append(int((sensor.force[self._slice] >= 0.15).sum()))
+                push.forces.append(force)
+                push.first = push.first or (time, joints)
+                push.last = (time, joints)
+        if self._steps % 10 == 0:
+            speed = float(np.linalg.norm([world.data.joint(name).qvel[0] for name in _JOINTS]))
+            self._trace.append((time, sum(self.pressing(p.pad) for p in self._pushes.values()), speed))
+
+    def verdict(self) -> Verdict:
+        one, many = self._pushes["one"], self._pushes["hundred"]
+        reasons = self.balance_reasons()
+        areas = float(np.mean(many.taxels or [0]) / np.mean(one.taxels or [np.nan]))
+        forces = float(np.mean(one.forces or [np.nan]) / np.mean(many.forces or [np.nan]))
+        ratio = one.speed / many.speed / forces
+        off = abs(ratio / areas - 1.0) if areas > 0.0 else float("inf")
+        if not off <= self.settings.tolerance:
+            text = f"speeds differ by {ratio:.1f}, areas by {areas:.1f}; allowed: {self.settings.tolerance:.0%} apart"
+            reasons.append(failed("area_law", off, self.settings.tolerance, text))
+        figures = {
+            **self.balance_figures(),
+            "speed_ratio": round(ratio, 2),
+            "area_ratio": round(areas, 2),
+            "speeds_rad_s": {name: round(p.speed, 5) for name, p in self._pushes.items()},
+            "forces_N": {name: round(float(np.mean(p.forces or [np.nan])), 2) for name, p in self._pushes.items()},
+            "taxels": {name: round(float(np.mean(p.taxels or [0])), 1) for name, p in self._pushes.items()},
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        trace = np.array(self._trace)
+        figure, (upper, lower) = new_figure(8.0, 5.0, rows=2, sharex=True)
+        upper.plot(trace[:, 0], trace[:, 1], color=COLOURS["truth"])
+        upper.set(ylabel="force of the probe [N]")
+        lower.semilogy(trace[:, 0], np.maximum(trace[:, 2], 1e-5), color=COLOURS["left"], label="joint speed")
+        for name, push in self._pushes.items():
+            if push.first is not None and push.last is not None:
+                window = [push.first[0], push.last[0]]
+                lower.plot(window, [push.speed] * 2, color=COLOURS["right"], linewidth=3)
+                lower.annotate(f"{name} ({push.speed:.3g} rad/s)", (window[0], 1.3 * push.speed), fontsize=7)
+        lower.set(xlabel="time [s]", ylabel="speed of the waist [rad/s]")
+        return [save_figure(figure, folder / "pressure.png")]

@@ -1,0 +1,20 @@
+"""Scenes of the companion, run for the tests."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from sim.companion.runner import Companion
+from sim.run.scene import load_scene
+
+
+@pytest.fixture(scope="session")
+def run_scene() -> Callable[..., tuple[dict[str, Any], Companion]]:
+    def run(name: str, *settings: str, seed: int = 0, seconds: float | None = None) -> tuple[dict[str, Any], Companion]:
+        companion = Companion(load_scene(name, settings), seed)
+        if seconds is not None:
+            companion.experiment.duration = seconds
+        return companion.run(), companion
+
+    return run
