@@ -23,8 +23,9 @@ from sim.companion.standing.standing import StandingExperiment, patch_named
 from wholebody.skin.patch import BodySkin
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.pressure import PressureInteraction
+from wholebody.tasks.task import Task
 
-__all__ = ["Pressure"]
+__all__ = ["Pressure", "PressureControl", "PressureSettings"]
 
 _PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
 _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
@@ -65,7 +66,7 @@ class _Push:
     pad: Pad
     begin: float
     full: float = np.inf
-    taxels: list[int] = field(default_factory=list)
+    taxels: list[float] = field(default_factory=list)
     forces: list[float] = field(default_factory=list)
     first: tuple[float, NDArray[np.float64]] | None = None
     last: tuple[float, NDArray[np.float64]] | None = None
@@ -115,7 +116,7 @@ class Pressure(StandingExperiment):
         else:
             task = DirectInteraction(skin)
         task.damping = (c.yield_damping, 0.1 * c.yield_damping)
-        levels = [[self.base_task()], [task], [self.posture_task()]]
+        levels: list[list[Task]] = [[self.base_task()], [task], [self.posture_task()]]
         self._control = StandingController(self.stance, levels, None, skin, c)
         return self._control
 
@@ -133,7 +134,7 @@ class Pressure(StandingExperiment):
             if not np.isfinite(push.full) and force > 0.95 * self.force:
                 push.full = time
             if push.full + _SETTLE <= time < push.full + _SETTLE + _WINDOW:
-                push.taxels.append(int((sensor.force[self._slice] >= 0.15).sum()))
+                push.taxels.append(float((sensor.force[self._slice] >= 0.15).sum()))
                 push.forces.append(force)
                 push.first = push.first or (time, joints)
                 push.last = (time, joints)
@@ -144,7 +145,7 @@ class Pressure(StandingExperiment):
     def verdict(self) -> Verdict:
         one, many = self._pushes["one"], self._pushes["hundred"]
         reasons = self.balance_reasons()
-        areas = float(np.mean(many.taxels or [0]) / np.mean(one.taxels or [np.nan]))
+        areas = float(np.mean(many.taxels or [0.0]) / np.mean(one.taxels or [np.nan]))
         forces = float(np.mean(one.forces or [np.nan]) / np.mean(many.forces or [np.nan]))
         ratio = one.speed / many.speed / forces
         off = abs(ratio / areas - 1.0) if areas > 0.0 else float("inf")
@@ -157,7 +158,7 @@ class Pressure(StandingExperiment):
             "area_ratio": round(areas, 2),
             "speeds_rad_s": {name: round(p.speed, 5) for name, p in self._pushes.items()},
             "forces_N": {name: round(float(np.mean(p.forces or [np.nan])), 2) for name, p in self._pushes.items()},
-            "taxels": {name: round(float(np.mean(p.taxels or [0])), 1) for name, p in self._pushes.items()},
+            "taxels": {name: round(float(np.mean(p.taxels or [0.0])), 1) for name, p in self._pushes.items()},
         }
         return Verdict(reasons, figures)
 

@@ -90,7 +90,15 @@ class StandingController:
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Torques (k,) for the next period, see `sim.companion.experiment.Controller`."""
+        """Torques for the next period.
+
+        Args:
+            robot: The machine as measured; its base is put where the feet say.
+            reading: What the skin says.
+
+        Returns:
+            Torque (k,) of each joint in N m.
+        """
         began = perf_counter()
         self.stance.locate(robot)
         external = None

@@ -93,5 +93,8 @@ class Pad:
         Args:
             on_obstacles: Wrenches on the obstacles, of the skin sensor.
             rotation: Rotation (3, 3) of the pressed link.
+
+        Returns:
+            The force.
         """
         return float(-on_obstacles[self.name][:3] @ (rotation @ self._turn[:, 2]))

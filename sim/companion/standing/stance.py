@@ -14,7 +14,7 @@ from plantar.mechanics.rotation import rotation_error
 from sim.companion.dynamics import MujocoDynamics
 from wholebody.tasks.support import Standing, Support
 
-__all__ = ["Stance", "add_floor"]
+__all__ = ["Stance", "add_floor", "sole_point"]
 
 _LEVEL = np.eye(3)
 SOLE_SITE = "{side}_sole"
@@ -130,6 +130,13 @@ class Stance:
 
 def sole_point(model: Any, side: str) -> tuple[str, NDArray[np.float64]]:
     """Link of a foot, and the middle (3,) of its sole in the link's frame in m.
+
+    Args:
+        model: The MjModel of the machine alone.
+        side: "left" or "right".
+
+    Returns:
+        Both.
 
     Raises:
         RobotError: If the machine has no such foot.

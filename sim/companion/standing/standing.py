@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import mujoco
@@ -20,14 +20,14 @@ from sim.companion.standing.controller import StandingControl
 from sim.companion.standing.joint_range import JointRange
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.stance import Stance, add_floor
-from wholebody.skin.patch import BodySkin
+from wholebody.skin.patch import BodySkin, SkinPatch
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.center_of_mass import CenterOfMass
 from wholebody.tasks.posture import Posture
 from wholebody.tasks.self_collision import SelfCollision, Sphere
 from wholebody.tasks.task import Task
 
-__all__ = ["StandingExperiment"]
+__all__ = ["StandingExperiment", "by_active", "patch_named"]
 
 _TILTED = math.cos(math.radians(35.0))  # of the base: it falls
 _SETTLING = 0.3  # s until the soles carry evenly
@@ -104,6 +104,9 @@ class StandingExperiment(Experiment):
 
         Args:
             axes: Which axes of the centre of mass are held.
+
+        Returns:
+            The tasks.
         """
         stiff = self.control.balance
         gains = PoseGains(turn_stiffness=stiff, turn_damping=2.0 * math.sqrt(stiff))
@@ -124,6 +127,9 @@ class StandingExperiment(Experiment):
         Args:
             share: Of the settings' stiffness and damping.
             stiffness: Share of the stiffness besides.
+
+        Returns:
+            The task.
         """
         strength = share * self.machine.efforts / 75.0
         stiff, damp = self.control.posture * stiffness * strength, self.control.posture_damping * strength
@@ -223,13 +229,20 @@ class StandingExperiment(Experiment):
         }
 
 
-def patch_named(skin: BodySkin, name: str) -> Any:
-    """A patch of a skin by its name."""
+def patch_named(skin: BodySkin, name: str) -> SkinPatch:
+    """The patch of a name that the skin has."""
     return next(p for p in skin.patches if p.name == name)
 
 
-def by_active(took: list[float], active: list[int]) -> Mapping[str, float]:
-    """Median time of a tick in us by the number of active links, as JSON keys."""
-    counts = np.array(active)
-    times = np.array(took[: len(active)])
+def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
+    """How long ticks take by how much is active.
+
+    Args:
+        took: Time of each tick in us.
+        active: Number of active links at each.
+
+    Returns:
+        Median time in us by the number, which is a JSON key.
+    """
+    counts, times = np.array(active), np.array(took[: len(active)])
     return {str(n): round(float(np.median(times[counts == n])), 1) for n in np.unique(counts).tolist()}

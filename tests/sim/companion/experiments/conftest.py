@@ -6,13 +6,13 @@ from typing import Any
 import pytest
 
 from sim.companion.runner import Companion
-from sim.run.scene import load_scene
+from sim.run.scene_kind import open_scene
 
 
 @pytest.fixture(scope="session")
 def run_scene() -> Callable[..., tuple[dict[str, Any], Companion]]:
     def run(name: str, *settings: str, seed: int = 0, seconds: float | None = None) -> tuple[dict[str, Any], Companion]:
-        companion = Companion(load_scene(name, settings), seed)
+        companion = Companion(open_scene(name, settings), seed)
         if seconds is not None:
             companion.experiment.duration = seconds
         return companion.run(), companion
