@@ -7,9 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from wholebody.dynamics import RobotDynamics
 from wholebody.skin.patch import BodySkin
 from wholebody.skin.reading import SkinReading
 from wholebody.tasks.skin_interaction import SkinInteraction
+from wholebody.tasks.task import Demand
 
 __all__ = ["DirectInteraction"]
 
@@ -27,6 +29,13 @@ class DirectInteraction(SkinInteraction):
         super().__init__(skin, patches)
         self.gain = gain
         self._thresholds = np.where(self.counted, skin.thresholds, np.inf)
+        own = np.flatnonzero(self.counted)
+        self._span = slice(own[0], own[-1] + 1) if len(own) else slice(0)
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        if skin is None or not (skin.force[self._span] >= self._thresholds[self._span]).any():
+            return None  # before anything else: most of a body is not touched
+        return super().demand(robot, skin)
 
     def signal(self, skin: SkinReading) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         return self.gain * skin.force, skin.force >= self._thresholds

@@ -118,7 +118,9 @@ class StandingController:
 
     def _filtered(self, reading: SkinReading) -> SkinReading:
         """The reading with forces low-pass filtered, so that yielding does not beat against the skin's stiffness."""
-        force = np.nan_to_num(reading.force)
+        force = reading.force
+        if np.isnan(force.sum()):
+            force = np.nan_to_num(force)
         share = self.settings.period / (self.settings.period + self.settings.filter)
         self._force = force.copy() if self._force is None else self._force + share * (force - self._force)
         return SkinReading(reading.time, self._force, reading.distance, reading.temperature)

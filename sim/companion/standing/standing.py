@@ -230,7 +230,15 @@ class StandingExperiment(Experiment):
 
 
 def patch_named(skin: BodySkin, name: str) -> SkinPatch:
-    """The patch of a name that the skin has."""
+    """A patch of a skin.
+
+    Args:
+        skin: The skin.
+        name: Name of one of its patches.
+
+    Returns:
+        The patch.
+    """
     return next(p for p in skin.patches if p.name == name)
 
 
