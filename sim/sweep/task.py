@@ -102,7 +102,7 @@ def run_one(scene: str, robot: str | None, settings: Sequence[str], seed: int) -
     columns = columns_of(loaded)
     row: Row = {
         **dict.fromkeys(columns, ""),
-        **{name: summary[name] for name in columns if name in summary},
+        **{name: summary[name] for name in columns if summary.get(name) is not None},
         "control_p99_us": summary["control_us"]["p99"],
         "reasons": _BETWEEN.join(f"{r['criterion']}: {r['text']}" for r in summary["reasons"]),
     }

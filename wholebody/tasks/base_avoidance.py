@@ -18,7 +18,8 @@ class AvoidanceField(Settings):
     """The repulsive field (A 16).
 
     Attributes:
-        force: f_max: force at no distance.
+        force: f_max: force at no distance, and the largest that all obstacles together give: more than the drives have
+            would disturb what has priority.
         decay: alpha: distance over which it falls to 37 %.
         reach: Distance from which nothing is done.
     """
@@ -59,6 +60,7 @@ class BaseAvoidance(Task):
             return None
         own, distance = own[near], distance[near]
         push = apart[near] * (self.field.force * np.exp(-distance / self.field.decay) / distance)[:, None]
+        push *= min(1.0, self.field.force / max(float(np.linalg.norm(push.sum(axis=0))), 1e-12))
         moment = float((own[:, 0] * push[:, 1] - own[:, 1] * push[:, 0]).sum())  # A 17's last column
         rotation = robot.pose(self._link)[1]
         rows = np.vstack([rotation[:, :2].T @ robot.jacobian(self._link)[:3], robot.jacobian(self._link)[5]])

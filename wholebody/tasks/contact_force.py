@@ -27,6 +27,8 @@ class ContactGains(Settings):
         gain: K_1 on the error of the force.
         integral: Rate at which a lasting error is taken back; 0 leaves it.
         distance_stiffness: Force that counts for a metre of distance too much, in place of the error of the force.
+        free_damping: Damping while the patch feels nothing, where it is more than D_1: all gains grow with it, so that
+            speeds stay as they are but what is misjudged of the robot's mass slows them less.
     """
 
     inertia: float = number(2.0, "kg", 1e-3, 1e3)
@@ -34,6 +36,7 @@ class ContactGains(Settings):
     gain: float = number(1.0, "1", 0, 1e4)
     integral: float = number(2.0, "1/s", 0, 100)
     distance_stiffness: float = number(200.0, "N/m", 0, 1e6)
+    free_damping: float = number(0.0, "N s/m", 0, 1e6)
 
 
 class ContactForce(Task):
@@ -87,9 +90,9 @@ class ContactForce(Task):
         outward = robot.pose(self._link)[1] @ self._normal
         jacobian = robot.jacobian(self._link, self._point)
         moving = jacobian @ robot.velocity
-        wanted = (gains.gain * (error + gains.integral * self._sum) - gains.damping * outward @ moving[:3]) / (
-            gains.inertia
-        )
+        pull = gains.gain * (error + gains.integral * self._sum)
+        pace = max(1.0, gains.free_damping / max(gains.damping, 1e-9)) if self.force <= _FELT else 1.0
+        wanted = pace * (pull - gains.damping * outward @ moving[:3]) / gains.inertia
         (a, b, c), (x, y, z), (u, v, w) = moving[3:], outward, moving[:3]
         turning = (b * z - c * y) * u + (c * x - a * z) * v + (a * y - b * x) * w  # the normal turns with the hand
         drift = outward @ robot.drift(self._link, self._point)[:3] + turning

@@ -28,7 +28,8 @@ __all__ = ["ForceTracking", "ForceTrackingSettings"]
 
 _AFTER = 1.0  # s after an interaction that still count as disturbed by it
 _SETTLING = 4.0  # s after the sigmoid, or after coming near, from which force or distance count
-_ARM = {"forearm": (0.045, (0.1, 0.3)), "upper_arm": (0.055, (0.1, 0.35))}  # radius and places along it in m
+_ARM = {"forearm": (0.045, (0.1, 0.3)), "upper_arm": (0.055, (0.15, 0.35))}  # radius and places along it in m
+_EVERY = 5  # physics steps from one look at how things move to the next
 _HALF_THICK = 0.02  # m of the object
 
 
@@ -43,7 +44,7 @@ class ForceTrackingSettings(Settings):
         distance: Wanted distance before contact.
         contact: Time at which the contact phase is activated; 0 for never.
         gap: Distance of hand and object at first.
-        pitch: Range in which the seed draws by how far the object leans back, in degrees.
+        pitch: Range in which the seed draws by how far the object leans back, in degrees; below 0 it hangs over.
         yaw: Range in which the seed draws by how far it is turned about the vertical at first, in degrees.
         circle: When the base is commanded along a circle.
         circle_radius: Its radius.
@@ -53,7 +54,7 @@ class ForceTrackingSettings(Settings):
         touch: Windows in which the arm is touched.
         touch_force: Range of these forces in N.
         person: Windows in which a person comes near the base.
-        too_near: How far inside of the base's first footprint the person wants to stand.
+        too_near: How far inside of where the base was the person wants to stand.
         turn: When the object is turned about the vertical, and back.
         turn_angle: By how much, in degrees.
         largest_free: Limit of the RMS error of the force without interactions; 0 for none.
@@ -134,7 +135,8 @@ class ForceTracking(Experiment):
         self._felt = 0.0
         self._errors: dict[str, list[float]] = {"free": [], "disturbed": [], "distance": []}
         self._lost = self._highest = self._tilt = self._moved = 0.0
-        self._nearest = math.inf
+        self._nearest, self._bumped = math.inf, 0.0
+        self._guided, self._steps = 0.0, 0
         self._base = np.zeros(3)
         self._places: dict[str, NDArray[np.float64]] = {}
 
@@ -172,7 +174,7 @@ class ForceTracking(Experiment):
         floor.contype = floor.conaffinity = 0
         floor.rgba = [0.75, 0.77, 0.8, 1.0]
         board = spec.worldbody.add_body(name="object", pos=[2.0, 0.0, 1.0], mocap=True)
-        shape = board.add_geom(name="object", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_HALF_THICK, 0.75, 0.62])
+        shape = board.add_geom(name="object", type=mujoco.mjtGeom.mjGEOM_BOX, size=[_HALF_THICK, 0.75, 0.85])
         shape.group, shape.rgba = OBSTACLE_GROUP, [0.6, 0.75, 0.65, 0.6]
         self._fist.add_to(spec)
         self._visitor.add_to(spec)
@@ -230,45 +232,50 @@ class ForceTracking(Experiment):
         mujoco.mju_mat2Quat(world.data.mocap_quat[place], rotation.ravel())
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
-        s = self.settings
-        self._felt = float(np.linalg.norm(sensor.on_obstacles["fist"][:3]))
+        self._felt = math.sqrt(float(np.square(sensor.on_obstacles["fist"][:3]).sum()))
+        force = sensor.patch_force("hand")
+        self._bumped += 1e-3 * (world.data.ncon > 0)  # skin has no contacts of MuJoCo's, so it is the base or the arm
+        if self._in_contact(time):
+            self._highest = max(self._highest, force)
+            if self._counts(time):
+                name = "disturbed" if self._disturbed(time) else "free"
+                self._errors[name].append(force - self.wanted(time))
+                self._lost += 1e-3 * (force == 0.0)
+        self._steps += 1
+        if self._steps % _EVERY == 0:
+            self._judge_motion(world, sensor, time, force)
+
+    def _judge_motion(self, world: World, sensor: SkinSensor, time: float, force: float) -> None:
+        """Where hand, base and person are, and how the hand is turned."""
         hand, rotation = world.pose("hand")
         middle, turned = world.pose("object")
         front = -turned[:, 0]
         distance = float((hand - middle) @ front) - _HALF_THICK
         tilt = math.degrees(math.acos(min(1.0, float(-front @ rotation[:, 2]))))
-        force = sensor.patch_force("hand")
-        base = world.data.qpos[world.positions[:3]]
-        wrench = sensor.wrenches[sensor.skin.links.index("hand")]
-        phase = "distance" if not s.contact or time < s.contact else "contact"
-        self._note(time, force, distance, tilt)
-        if phase == "contact" and time >= s.contact + self.control.sigmoid + _SETTLING:
+        in_contact = self._in_contact(time)
+        if in_contact and self._counts(time):
             self._places.setdefault("held", hand)
             self._moved = max(self._moved, float(np.linalg.norm(hand - self._places["held"])))
-        if time <= _first(s.touch):
+            self._tilt = max(self._tilt, tilt)
+        elif not in_contact and time >= _SETTLING:
+            self._errors["distance"].append(distance - self.settings.distance)
+        if time <= _first(self.settings.touch):
             self._places["guided from"] = hand
-        elif phase == "distance":
-            self._places["guided to"] = hand
-            way = float(np.linalg.norm(hand - self._places["guided from"]))
-            self._places["guided"] = np.maximum(self._places.get("guided", np.zeros(1)), way)
+        elif not in_contact:
+            self._guided = max(self._guided, float(np.linalg.norm(hand - self._places["guided from"])))
+        base = world.data.qpos[world.positions[:3]]
         self._base = np.maximum(self._base, np.abs(base))
         if self.settings.person:
             self._nearest = min(self._nearest, self._clearance(world))
-        wanted = self.wanted(time) if phase == "contact" else math.nan
-        self.record.add(time, wanted, force, distance, rotation.T @ wrench[3:], hand, base, tilt)
+        moment = rotation.T @ sensor.wrenches[sensor.skin.links.index("hand"), 3:]
+        self.record.add(time, self.wanted(time) if in_contact else math.nan, force, distance, moment, hand, base, tilt)
 
-    def _note(self, time: float, force: float, distance: float, tilt: float) -> None:
-        """Errors of force or distance, once they count."""
-        s = self.settings
-        if s.contact and time >= s.contact:
-            self._highest = max(self._highest, force)
-            if time >= s.contact + self.control.sigmoid + _SETTLING:
-                name = "disturbed" if self._disturbed(time) else "free"
-                self._errors[name].append(force - self.wanted(time))
-                self._lost += float(force == 0.0) * 1e-3
-                self._tilt = max(self._tilt, tilt)
-        elif time >= _SETTLING:
-            self._errors["distance"].append(distance - s.distance)
+    def _in_contact(self, time: float) -> bool:
+        return 0.0 < self.settings.contact <= time
+
+    def _counts(self, time: float) -> bool:
+        """Whether the force has to be right: the hand has landed."""
+        return time >= self.settings.contact + self.control.sigmoid + _SETTLING
 
     def _disturbed(self, time: float) -> bool:
         spans = (span for spans in self.settings.windows().values() for span in spans)
@@ -287,7 +294,6 @@ class ForceTracking(Experiment):
         s = self.settings
         rms = {name: _rms(errors) for name, errors in self._errors.items()}
         worst = max((abs(v) for v in self._errors["distance"]), default=0.0)
-        guided = float(self._places["guided"][0]) if "guided" in self._places else 0.0
         why = []
         for name, limit in (("free", s.largest_free), ("disturbed", s.largest_disturbed)):
             if limit and not rms[name] <= limit:
@@ -300,8 +306,12 @@ class ForceTracking(Experiment):
             )
         if self._nearest <= 0.0:
             why.append(failed("person", self._nearest, 0.0, "the base was touched by the person"))
-        if s.guided and guided < s.guided:
-            why.append(failed("guidance", guided, s.guided, f"hand guided {guided:.3f} m; at least {s.guided:g} m"))
+        if self._bumped:
+            why.append(failed("collision", self._bumped, 0.0, f"base or arm hit the object for {self._bumped:.3f} s"))
+        if s.guided and self._guided < s.guided:
+            why.append(
+                failed("guidance", self._guided, s.guided, f"hand guided {self._guided:.3f} m; at least {s.guided:g} m")
+            )
         figures = {
             "force_rms_free_N": _rounded(rms["free"]),
             "force_rms_disturbed_N": _rounded(rms["disturbed"]),
@@ -309,7 +319,7 @@ class ForceTracking(Experiment):
             "contact_lost_s": round(self._lost, 4),
             "distance_error_max_mm": round(1e3 * worst, 3),
             "person_nearest_m": _rounded(self._nearest),
-            "guided_m": round(guided, 4),
+            "guided_m": round(self._guided, 4),
             "hand_moved_mm": round(1e3 * self._moved, 2),
             "tilt_max_deg": round(self._tilt, 3),
             "base_moved_m": [round(float(v), 4) for v in self._base],

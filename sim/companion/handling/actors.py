@@ -78,7 +78,8 @@ class Fist:
     def add_to(self, spec: Any) -> None:
         """Put it into a world, far away."""
         body = spec.worldbody.add_body(name="fist", pos=[0.0, 0.0, 5.0], mocap=True)
-        body.add_geom(name="fist", size=[FIST, 0.0, 0.0], group=OBSTACLE_GROUP, rgba=[0.9, 0.7, 0.55, 1.0])
+        shape = body.add_geom(name="fist", size=[FIST, 0.0, 0.0], group=OBSTACLE_GROUP, rgba=[0.9, 0.7, 0.55, 1.0])
+        shape.contype = shape.conaffinity = 0  # it pushes skin alone
 
     def act(self, world: World, time: float, felt: float) -> None:
         """Move for a physics step.
@@ -114,8 +115,8 @@ class Visit:
     Attributes:
         start: When it begins in s.
         end: When the person is gone in s.
-        goal: Where (2,) in m the person stops.
-        far: Where (2,) the person comes from.
+        goal: Where (2,) in m the person stops, in the frame that the base has when the visit begins.
+        far: Where (2,) the person comes from, likewise.
         speed: Walking speed in m/s.
     """
 
@@ -126,7 +127,7 @@ class Visit:
     speed: float
 
     def place(self, time: float) -> NDArray[np.float64]:
-        """Where (2,) in m the person is at a time in s."""
+        """Where (2,) in m the person is at a time in s, in that frame."""
         way = float(np.linalg.norm(self.goal - self.far)) / self.speed
         near = smooth_step((time - self.start) / way) * smooth_step((self.end - time) / way)
         return self.far + near * (self.goal - self.far)
@@ -141,6 +142,7 @@ class Visitor:
 
     def __init__(self, visits: list[Visit]) -> None:
         self.visits = visits
+        self._frame: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
 
     def add_to(self, spec: Any) -> None:
         """Put the person into a world, far away."""
@@ -162,5 +164,11 @@ class Visitor:
             time: Time in s.
         """
         visit = next((v for v in self.visits if v.start <= time < v.end), None)
-        place = np.array([-9.0, 0.0]) if visit is None else visit.place(time)
+        place = np.array([-9.0, 0.0])
+        if visit is None:
+            self._frame = None
+        else:
+            self._frame = self._frame or world.pose(world.machine.base.link)
+            origin, rotation = self._frame
+            place = origin[:2] + rotation[:2, :2] @ visit.place(time)
         world.data.mocap_pos[world.model.body("person").mocapid[0], :2] = place

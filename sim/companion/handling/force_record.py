@@ -13,7 +13,6 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 
 __all__ = ["ForceRecord"]
 
-_EVERY = 5  # physics steps from one sample of the record to the next
 _SHADES = {"touch": "#8fd19e", "person": "#f1a7a9", "turn": "#ffe08a", "circle": "#cfd8dc", "swing": "#b0bec5"}
 
 
@@ -26,13 +25,10 @@ class ForceRecord:
 
     def __init__(self) -> None:
         self.rows: list[list[float]] = []
-        self._count = 0
 
     def add(self, *values: float | Sequence[float] | NDArray[np.float64]) -> None:
-        """Add a sample, if it is one's turn: time, wanted force, true force, distance, moment, hand, base, tilt."""
-        if self._count % _EVERY == 0:
-            self.rows.append(np.hstack(values).tolist())
-        self._count += 1
+        """Add a sample: time, wanted force, true force, distance, moment, hand, base, tilt."""
+        self.rows.append(np.hstack(values).tolist())
 
     def plot(self, path: Path, title: str, windows: Mapping[str, Sequence[tuple[float, float]]], force: bool) -> Path:
         """Draw force or distance, moments, hand, base and orientation over time.

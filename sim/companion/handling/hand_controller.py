@@ -44,6 +44,7 @@ class HandControl(CompanionControl):
         approach_speed: Speed at which the hand comes near to the surface.
         landing_speed: Speed at which it comes to the surface in the contact phase, until it feels it.
         force_damping: D_1 / Lambda_1.
+        free_damping: D_1 / Lambda_1 while the hand feels nothing.
         force_integral: Rate at which a lasting error is taken back, as a share of the proportional part.
         distance_rate: Rate at which an error of the distance decays.
         wrist_gain: K_2 / Lambda_2 of A 10: angular acceleration for a newton metre.
@@ -54,6 +55,10 @@ class HandControl(CompanionControl):
         guidance_damping: D_3.
         arm_stiffness: K_c of A 18 of each joint of the arm.
         arm_damping: D_c of each joint of the arm.
+        elbow_least: Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still
+            while the base goes on.
+        elbow_most: Bend from which it resists likewise.
+        elbow_stiffness: How stiffly.
         base_stiffness: K_c of the base along x and y, and in N m/rad about z.
         base_damping: D_c of the base likewise.
         avoidance_force: f_max of A 16.
@@ -68,21 +73,25 @@ class HandControl(CompanionControl):
     force_gain: float = number(0.1, "m/(s^2 N)", 0, 100)
     approach_speed: float = number(0.1, "m/s", 1e-3, 10)
     landing_speed: float = number(0.01, "m/s", 1e-3, 10)
-    force_damping: float = number(20.0, "1/s", 0, 1e4)
+    force_damping: float = number(12.0, "1/s", 0, 1e4)
+    free_damping: float = number(100.0, "1/s", 0, 1e4)
     force_integral: float = number(50.0, "1/s", 0, 1e3)
     distance_rate: float = number(6.0, "1/s", 0, 100)
     wrist_gain: float = number(50.0, "1/(kg m^2)", 0, 1e4)
     wrist_damping: float = number(40.0, "1/s", 0, 1e4)
-    wrist_stiffness: float = number(500.0, "N/m", 0, 1e5)
+    wrist_stiffness: float = number(300.0, "N/m", 0, 1e5)
     hand_stiffness: float = number(400.0, "1/s^2", 0, 1e5)
     guidance_mass: float = number(5.0, "kg", 0.01, 1e3)
     guidance_damping: float = number(60.0, "N s/m", 0, 1e5)
     arm_stiffness: float = number(30.0, "N m/rad", 0, 1e5)
     arm_damping: float = number(15.0, "N m s/rad", 0, 1e5)
+    elbow_least: float = number(40.0, "deg", 0, 180)
+    elbow_most: float = number(145.0, "deg", 0, 180)
+    elbow_stiffness: float = number(150.0, "N m/rad", 0, 1e5)
     base_stiffness: float = number(0.0, "N/m", 0, 1e6)
-    base_damping: float = number(200.0, "N s/m", 0, 1e6)
-    avoidance_force: float = number(1000.0, "N", 0, 1e5)
-    avoidance_decay: float = number(0.12, "m", 1e-3, 10)
+    base_damping: float = number(150.0, "N s/m", 0, 1e6)
+    avoidance_force: float = number(300.0, "N", 0, 1e5)
+    avoidance_decay: float = number(0.2, "m", 1e-3, 10)
     sigmoid: float = number(2.0, "s", 0, 60)
     wrist: bool = switch(True)
     avoidance: bool = switch(True)
@@ -112,7 +121,9 @@ class HandController:
         taxels = next(p for p in skin.patches if p.name == "hand").positions
         middle, normal = taxels.mean(axis=0), np.array([0.0, 0.0, 1.0])  # level with a surface all feel it alike
         self._arm = [p.name for p in skin.patches if p.name != "hand"]
-        gains = ContactGains(1.0, s.force_damping, s.force_gain, s.force_integral, self._distance_stiffness())
+        gains = ContactGains(
+            1.0, s.force_damping, s.force_gain, s.force_integral, self._distance_stiffness(), s.free_damping
+        )
         self.force = ContactForce(skin, "hand", middle, normal, gains)
         self.wrist = CompliantWrist(
             skin, "hand", middle, WristGains(1.0, s.wrist_damping, s.wrist_gain, s.wrist_stiffness)
@@ -131,7 +142,8 @@ class HandController:
         self._keep_clear = BaseAvoidance(
             machine.base.link, (float(half[0]), float(half[1])), AvoidanceField(s.avoidance_force, s.avoidance_decay)
         )
-        away: list[Task] = [self._keep_clear] if s.avoidance else []
+        away: list[Task] = [_BentElbow(list(machine.joints).index("elbow"), s)]
+        away += [self._keep_clear] if s.avoidance else []
         first: list[list[Task]] = [[self.force], [self.wrist] if s.wrist else [_Still(self.wrist)]]
         self.phases = ContactPhases(
             [
@@ -195,6 +207,31 @@ class HandController:
             rotation, rows = robot.pose(link)[1], robot.jacobian(link)
             known += rows[:3].T @ (rotation @ wrench[:3]) + rows[3:].T @ (rotation @ wrench[3:])
         return np.asarray(known)
+
+
+class _BentElbow(Task):
+    """A torque that keeps the elbow off the ends of its range, damped critically for an inertia of 1 kg m^2.
+
+    Args:
+        joint: The elbow's place among the joints.
+        settings: Range and stiffness.
+    """
+
+    def __init__(self, joint: int, settings: HandControl) -> None:
+        self._joint = joint
+        self._low, self._high = np.radians([settings.elbow_least, settings.elbow_most]).tolist()
+        self._stiffness = settings.elbow_stiffness
+
+    def demand(self, robot: RobotDynamics, skin: SkinReading | None) -> Demand | None:
+        bend = float(robot.joint_positions[self._joint])
+        missing = min(max(bend, self._low), self._high) - bend
+        if missing == 0.0:
+            return None
+        place = robot.joints[self._joint]
+        row = np.zeros((1, len(robot.velocity)))
+        row[0, place] = 1.0
+        damping = 2.0 * float(np.sqrt(self._stiffness)) * robot.velocity[place]
+        return Demand(row, force=np.array([self._stiffness * missing - damping]))
 
 
 class _Still(Task):
