@@ -6,6 +6,7 @@ say; what it is judged by is the true state, which the controller never sees.
 
 from __future__ import annotations
 
+import math
 import pkgutil
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -106,14 +107,15 @@ def failed(criterion: str, value: float, limit: float, text: str) -> dict[str, A
 
     Args:
         criterion: Its name, words joined by underscores.
-        value: What was found.
+        value: What was found; not finite becomes None.
         limit: What is allowed.
         text: Both in words.
 
     Returns:
         The criterion.
     """
-    return {"criterion": criterion, "value": round(float(value), 6), "limit": limit, "text": text}
+    found = round(float(value), 6) if math.isfinite(value) else None
+    return {"criterion": criterion, "value": found, "limit": limit, "text": text}
 
 
 @dataclass(frozen=True)

@@ -271,11 +271,11 @@ class ForceTracking(Experiment):
         self.record.add(time, self.wanted(time) if in_contact else math.nan, force, distance, moment, hand, base, tilt)
 
     def _in_contact(self, time: float) -> bool:
-        return 0.0 < self.settings.contact <= time
+        return bool(0.0 < self.settings.contact <= time)
 
     def _counts(self, time: float) -> bool:
         """Whether the force has to be right: the hand has landed."""
-        return time >= self.settings.contact + self.control.sigmoid + _SETTLING
+        return bool(time >= self.settings.contact + self.control.sigmoid + _SETTLING)
 
     def _disturbed(self, time: float) -> bool:
         spans = (span for spans in self.settings.windows().values() for span in spans)
