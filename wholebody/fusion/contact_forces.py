@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.contact import Contact
-from plantar.mechanics.wrench_distribution import WrenchDistribution, WrenchShare
+from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution, WrenchShare
 from wholebody.dynamics import RobotDynamics
-from wholebody.tasks.support import Support
+from wholebody.tasks.support import Standing, Support
 from wholebody.tasks.task import Demand
 
 __all__ = ["ContactForces"]
@@ -25,17 +25,25 @@ class ContactForces:
         base: Link whose motion is the free coordinates.
         weight: Weight of the robot in N.
         least: Least normal force of a contact as a share of that.
+        weights: What counts how much where there is a choice.
 
     Attributes:
         shares: Share of the load that each contact shall take by its name; equal ones where None.
         last: What each contact was given at last, in its own frame.
     """
 
-    def __init__(self, support: Support, base: str, weight: float, least: float = 0.01) -> None:
+    def __init__(
+        self,
+        support: Support,
+        base: str,
+        weight: float,
+        least: float = 0.01,
+        weights: DistributionWeights | None = None,
+    ) -> None:
         self.shares: Mapping[str, float] | None = None
         self.last: WrenchShare | None = None
         self._support, self._base = support, base
-        self._distribution = WrenchDistribution(weight, minimum_force=least * weight)
+        self._distribution = WrenchDistribution(weight, weights, minimum_force=least * weight)
 
     def __call__(
         self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
@@ -55,19 +63,37 @@ class ContactForces:
         """
         if support is None:
             raise InputError("contact forces need a support")
+        wrenches = self.share(robot, force).wrenches
+        parts = []
+        for name, standing in self._support.contacts.items():
+            turn = _rotation(robot, standing)
+            turned = np.concatenate([turn @ wrenches[name][:3], turn @ wrenches[name][3:]])
+            parts.append(turned[: standing.rows])
+        carried = np.concatenate(parts)
+        return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
+
+    def share(self, robot: RobotDynamics, force: NDArray[np.float64]) -> WrenchShare:
+        """What each contact would carry of a generalized force (n,) on the base.
+
+        Args:
+            robot: The robot.
+            force: Generalized force (n,).
+
+        Returns:
+            The wrench of each contact in its own frame.
+        """
         free = np.setdiff1d(np.arange(len(force)), robot.joints)
         net = np.asarray(np.linalg.solve(robot.jacobian(self._base)[:, free].T, force[free]))
         contacts = {}
         for name, standing in self._support.contacts.items():
             origin, rotation = robot.pose(standing.link)
-            turn = rotation if standing.rotation is None else rotation @ standing.rotation
             place = origin + rotation @ standing.point
-            contacts[name] = Contact(place, turn, standing.area, standing.friction)
+            contacts[name] = Contact(place, _rotation(robot, standing), standing.area, standing.friction)
         self.last = self._distribution.solve(contacts, net, robot.pose(self._base)[0], self.shares)
-        parts = []
-        for name, contact in contacts.items():
-            wrench = self.last.wrenches[name]
-            turned = np.concatenate([contact.rotation @ wrench[:3], contact.rotation @ wrench[3:]])
-            parts.append(turned[: self._support.contacts[name].rows])
-        carried = np.concatenate(parts)
-        return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
+        return self.last
+
+
+def _rotation(robot: RobotDynamics, standing: Standing) -> NDArray[np.float64]:
+    """Rotation (3, 3) from a contact's frame to the world."""
+    rotation = robot.pose(standing.link)[1]
+    return rotation if standing.rotation is None else rotation @ standing.rotation

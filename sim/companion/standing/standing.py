@@ -165,14 +165,19 @@ class StandingExperiment(Experiment):
         self._steps += 1
         if self._steps % _LOOK_EVERY:
             return
+        self.look_at_trunk(world)
+        if time < _SETTLING:
+            return
+        base = world.data.body(self.machine.base.link)
+        off = world.data.subtree_com[base.id][:2] - self.com[:2]
+        self.com_off_max = max(self.com_off_max, float(np.hypot(*off)))
+
+    def look_at_trunk(self, world: World) -> None:
+        """Whether it falls: its base tilts or sinks."""
         base = world.data.body(self.machine.base.link)
         up = float(base.xmat[8])
         self.tilt_max = max(self.tilt_max, math.degrees(math.acos(min(1.0, up))))
         self.fell = bool(self.fell or up < _TILTED or base.xpos[2] < 0.7 * self.first[2])
-        if time < _SETTLING:
-            return
-        off = world.data.subtree_com[base.id][:2] - self.com[:2]
-        self.com_off_max = max(self.com_off_max, float(np.hypot(*off)))
 
     def pressing(self, pad: Pad) -> float:
         """True force in N with which a pad presses at the last physics step."""

@@ -1,0 +1,401 @@
+"""A robot leans on a table with one forearm and reaches out farther than its feet can hold, one of them on an edge.
+
+The forearm is lowered until its skin feels the table. Then it is a contact as the feet are: what the skin says of where
+it touches goes into the support and into how the load is shared. What of a sole stands on the ground its taxels see.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, ClassVar
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.mechanics.lip import GRAVITY
+from plantar.mechanics.wrench_cone import Rectangle
+from plantar.mechanics.wrench_distribution import DistributionWeights
+from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.settings.schema import Settings, number
+from sim.companion.experiment import Controller, Verdict, World, failed
+from sim.companion.machine import Machine
+from sim.companion.skin_sensing import SkinSensor
+from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.companion.standing.controller import StandingControl
+from sim.companion.standing.standing import StandingExperiment
+from wholebody.dynamics import RobotDynamics
+from wholebody.fusion.contact_forces import ContactForces
+from wholebody.fusion.hierarchy import fuse
+from wholebody.skin.patch import BodySkin
+from wholebody.skin.reading import SkinReading
+from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
+from wholebody.tasks.center_of_mass import CenterOfMass
+from wholebody.tasks.posture import Posture
+from wholebody.tasks.support import Standing
+from wholebody.tasks.task import Demand, Task
+
+__all__ = ["Lean"]
+
+ARM, PATCH = "right_lower_arm", "right_lower_arm"
+UNDERSIDE = np.array([-0.045, 0.0, -0.12])
+LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+"""Rotation of a forearm that points forward, its underside down."""
+HAND = np.array([0.0, 0.0, -0.09])
+SHARES = {"left_foot": 0.55, "right_foot": 0.3, ARM: 0.15}
+"""How the load is shared where there is a choice: little on the foot that stands on an edge."""
+
+_LOOK_EVERY = 5  # physics steps between two looks at the contacts
+_SEEN_LOWER = 0.008  # m below the ground where taxels see it: skin that would carry has no stiction
+_NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
+_OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon of the feet
+_EDGE = 0.006  # m: half of what a taxel reaches around its middle, the rest is margin
+
+
+class LeanSettings(Settings):
+    """What is leant on, and how far.
+
+    Attributes:
+        table_height: Height of the table's top that the robot expects.
+        height_error: Largest difference of the true height from it, either way; the seed draws it.
+        table_edge: Distance of the table's edge from the middle of the feet; the seed moves it by up to 2 cm.
+        sole_share: Share of the right sole that stands on ground; the seed draws which side of it.
+        beyond: Distance by which the centre of mass goes beyond the front of the ground that the soles see.
+        reach: Distance of the left hand's target from the middle of the feet, forward.
+    """
+
+    table_height: float = number(1.05, "m", 0.5, 1.5)
+    height_error: float = number(0.03, "m", 0.0, 0.2)
+    table_edge: float = number(0.32, "m", 0.1, 1.0)
+    sole_share: float = number(0.3, "1", 0.1, 1.0)
+    beyond: float = number(0.05, "m", -0.2, 0.2)
+    reach: float = number(0.58, "m", 0.3, 1.5)
+
+    @property
+    def hand_target(self) -> NDArray[np.float64]:
+        """Where (3,) the left hand reaches, from the middle of the feet in m."""
+        return np.array([self.reach, 0.38, 1.15])
+
+
+class LeanControl(StandingControl):
+    """How it leans.
+
+    Attributes:
+        touch: Force in N, as a share of body weight, from which the forearm is taken to lie on the table.
+        lowering: Speed in m/s of the forearm while it looks for the table.
+        pitch: Angle by which the trunk bends forward.
+        posture_rate: Stiffness of the posture.
+        press_gain: Gain on what the forearm presses less than it shall.
+    """
+
+    touch: float = number(0.01, "1", 1e-3, 0.2)
+    lowering: float = number(0.05, "m/s", 0.005, 0.5)
+    pitch: float = number(10.0, "deg", 0.0, 45.0)
+    posture_rate: float = number(30.0, "1/s^2", 0.0, 1e4)
+    press_gain: float = number(0.5, "1", 0.0, 10.0)
+
+
+class LeanController:
+    """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
+
+    How the load shall be shared among feet and forearm is planned in their cones; the forearm presses with its share,
+    by what its skin feels, and the feet carry what is left. Without skin it can only hold the forearm where it expects
+    the table.
+
+    Args:
+        experiment: The experiment, for its stance and first posture; nothing of what is true of the table.
+        skin: The skin.
+
+    Attributes:
+        began: When each phase began in s by its name.
+        areas: What of each sole is seen to stand on the ground, about its middle.
+    """
+
+    def __init__(self, experiment: Lean, skin: BodySkin) -> None:
+        self.settings, self.control = experiment.settings, experiment.control
+        self.skin, self.stance = skin, experiment.stance
+        self.began: dict[str, float] = {}
+        self.areas: dict[str, Rectangle] = {}
+        base = experiment.machine.base.link
+        self._weight = GRAVITY * float(experiment.robot.model.body_subtreemass[0])
+        self._feet, self._all = self.stance.support(), self.stance.support()
+        # The forearm shall help by its share, not carry until each sole's centre of pressure is in its middle.
+        # Feet that push each other sideways would cost the hips what they need for the trunk.
+        weights = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
+        self._carried = ContactForces(self._feet, base, self._weight, weights=weights)
+        self._carried.shares = {link: SHARES[link] for link in self.stance.feet}
+        self._planned = ContactForces(self._all, base, self._weight, weights=weights)
+        self._com = CenterOfMass(experiment.com, self.control.balance)
+        # A forearm has five joints of its own: its orientation must not ask the trunk for a sixth.
+        self._arm = CartesianPose(ARM, UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")
+        self._trunk = CartesianPose(base, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
+        self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
+        self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
+        self._felt = self.wanted = 0.0
+        # Accelerations, not torques: what a level above releases must not let springs of the posture loose.
+        self._posture = Posture(experiment.first[7:], self.control.posture_rate)
+        self._waist = list(experiment.machine.joints).index("waist_pitch")
+        self._middle = np.mean(list(self.stance.places.values()), axis=0)
+        self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
+
+    def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
+        """Torques (k,) for the next period, see `sim.companion.experiment.Controller`."""
+        self.stance.locate(robot)
+        self._see_ground(reading)
+        felt = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
+        self._move(robot, felt, robot.time)
+        leaning = "lean" in self.began and self.control.skin
+        tasks: list[Task] = [self._com, self._trunk, self._arm, self._hand, self._posture]
+        if not leaning:
+            tasks.insert(3, self._turn)
+        demands = [[task.demand(robot, reading)] for task in tasks]
+        self._felt += 0.1 * (felt - self._felt)
+        split = self._split if leaning else self._carried
+        return fuse(robot, demands, self._feet.demand(robot, reading), split=split).torque
+
+    def _split(
+        self, robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+        """Share what is to be done among the joints, the feet and the forearm, which presses as its skin says."""
+        torque, carried = self._planned(robot, force, self._all.demand(robot, None))
+        assert self._planned.last is not None
+        self.wanted = float(self._planned.last.wrenches[ARM][2])
+        missing = self.wanted - self._felt
+        inward = robot.pose(ARM)[1][:, 0]
+        more = self.control.press_gain * missing * inward @ robot.jacobian(ARM, UNDERSIDE)[:3]
+        return torque - more[robot.joints], carried
+
+    def _move(self, robot: Any, felt: float, time: float) -> None:
+        """Set the targets of this instant."""
+        s = self.settings
+        if "lean" not in self.began:
+            self._posture.target[self._waist] = np.radians(self.control.pitch) * min(1.0, time / 3.0)
+        if "lean" not in self.began and len(self.areas) == len(self.stance.feet):
+            over = self._between_feet()
+            self._paths.setdefault("over", (self._com.target, np.array([*over, self._com.target[2]])))
+            self._com.target = _along(*self._paths["over"], time / 1.5)
+        if "bring" not in self.began:
+            if time < 1.0:
+                return
+            self.began["bring"] = time
+            origin, rotation = robot.pose(ARM)
+            over = self._middle + np.array([s.table_edge + 0.08, -0.27, s.table_height + 0.10])
+            self._paths["arm"] = (origin + rotation @ UNDERSIDE, over)
+        if "lean" in self.began:
+            share = (time - self.began["lean"] - 0.5) / 3.0
+            self._com.target = _along(*self._paths["com"], share)
+            self._hand.target_position = _along(*self._paths["hand"], share)
+            return
+        since = time - self.began["bring"]
+        low = max(0.0, since - 2.2) * self.control.lowering
+        self._arm.target_position = _along(*self._paths["arm"], since / 2.0) - [0.0, 0.0, low]
+        if since > 1.0:
+            self._turn.target_rotation = LEVEL
+        if felt > self.control.touch * self._weight if self.control.skin else low >= 0.10:
+            self.began["lean"] = time
+            self._start_leaning(robot)
+
+    def _start_leaning(self, robot: Any) -> None:
+        """The forearm is a contact from now on, and stays where it is."""
+        s = self.settings
+        self._posture.target = robot.joint_positions.copy()  # nothing turns back now that the forearm's angle is free
+        origin, rotation = robot.pose(ARM)
+        self._arm.target_position = origin + rotation @ UNDERSIDE
+        frame = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # z into the forearm: its own x
+        self._all.contacts[ARM] = Standing(ARM, UNDERSIDE, flat=False, rotation=frame, friction=0.02)
+        self._planned.shares = SHARES
+        # What the forearm takes over pulls the centre of pressure under the feet to the other side: they keep theirs.
+        aside = (1.0 - SHARES[ARM]) * self._between_feet()[1] + SHARES[ARM] * self._arm.target_position[1]
+        front = _foremost(self._ground_seen(), aside)
+        com = robot.com()[0]
+        self._paths["com"] = (com, np.array([front + s.beyond, aside, com[2]]))
+        origin, rotation = robot.pose("left_hand")
+        self._paths["hand"] = (origin + rotation @ HAND, self._middle + self.settings.hand_target)
+
+    def _ground_seen(self) -> NDArray[np.float64]:
+        """Polygon (m, 2) of what the soles see of the ground that they stand on, in the world in m."""
+        corners = []
+        for link, area in self.areas.items():
+            x, y = self.stance.places[link][:2]
+            corners += [[x + dx, y + dy] for dx in (area.x_min, area.x_max) for dy in (area.y_min, area.y_max)]
+        return convex_hull(corners)
+
+    def _between_feet(self) -> NDArray[np.float64]:
+        """Where (2,) the weight is shared by the feet as `SHARES` has it."""
+        places, total = np.zeros(2), 0.0
+        for link, area in self.areas.items():
+            places += SHARES[link] * (self.stance.places[link][:2] + area.center)
+            total += SHARES[link]
+        return places / total
+
+    def _see_ground(self, reading: SkinReading) -> None:
+        """Find what of each sole stands on ground, and let no more of it carry; before anything was seen, all."""
+        for link, middle in self.stance.feet.items():
+            own = self.skin.slices[f"{link}_sole"]
+            places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
+            if len(places) < 2:
+                continue
+            low, high = places.min(axis=0) - _EDGE, places.max(axis=0) + _EDGE
+            area = Rectangle(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+            if self.areas.get(link) != area:
+                self.areas[link] = area
+                for support in (self._feet, self._all):
+                    support.contacts[link] = Standing(link, middle, area=area)
+
+
+def _foremost(polygon: NDArray[np.float64], y: float) -> float:
+    """Largest x of a convex polygon (m, 2) at some y; of all where y is beside it."""
+    found = []
+    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        if min(a[1], b[1]) <= y <= max(a[1], b[1]) and a[1] != b[1]:
+            found.append(float(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1])))
+    return max(found, default=float(polygon[:, 0].max()))
+
+
+def _along(start: NDArray[np.float64], end: NDArray[np.float64], share: float) -> NDArray[np.float64]:
+    """A place on the way from one to another, at rest at both ends."""
+    s = min(1.0, max(0.0, share))
+    return np.asarray(start + (end - start) * (s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)))
+
+
+class Lean(StandingExperiment):
+    """A table, ground under one sole and under 30 % of the other, and the load's way to the ground."""
+
+    settings_type: ClassVar = LeanSettings
+    control_type: ClassVar = LeanControl
+    columns: ClassVar = ("beyond_mm", "forearm_N", "reach_error_mm", "tilt_max_deg", "sole_part")
+
+    def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
+        super().__init__(machine, settings, control, seed)
+        self.duration = 12.0
+        s = self.settings
+        self.part = str(self.rng.choice(["front", "rear", "inner", "outer"]))
+        self.height = s.table_height + self.rng.uniform(-1.0, 1.0) * s.height_error
+        self.edge = s.table_edge + self.rng.uniform(-0.02, 0.02)
+        self._controller: LeanController | None = None
+        self._carried = (0.0, 0.0)
+        self._trace: list[tuple[float, ...]] = []
+
+    def _first_posture(self) -> NDArray[np.float64]:
+        """The right forearm is held up, so that it comes down on the table from above."""
+        qpos = super()._first_posture()
+        names = list(self.machine.joints)
+        for joint, angle in (("right_shoulder_pitch", -20.0), ("right_elbow", 130.0)):
+            qpos[7 + names.index(joint)] = np.radians(angle)
+        self.robot.update(qpos, np.zeros(self.robot.model.nv), 0.0)
+        over = self.robot.com()[0] * [0.0, 0.0, 1.0] + self._middle()
+        return self.stance.solve(self.robot, over, (self.machine.base.link, np.eye(3)), {})
+
+    def _middle(self) -> NDArray[np.float64]:
+        return np.asarray(np.mean(list(self.stance.places.values()), axis=0))
+
+    def add_to(self, spec: Any) -> None:
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        for side, (low, high) in self._ground().items():
+            middle, half = 0.5 * (low + high), 0.5 * (high - low)
+            ground = spec.worldbody.add_geom(name=f"{side}_ground", type=box, size=[*half, 0.05])
+            ground.pos, ground.rgba = [*middle, -0.05], [0.72, 0.74, 0.72, 1.0]
+            ground.contype, ground.conaffinity, ground.friction = 2, 1, [0.8, 0.005, 0.0001]
+            seen = spec.worldbody.add_geom(name=f"{side}_seen", type=box, size=[*half, 0.01], group=OBSTACLE_GROUP)
+            seen.pos, seen.rgba = [*middle, -0.01 - _SEEN_LOWER], [0.72, 0.74, 0.72, 0.0]
+            seen.contype = seen.conaffinity = 0
+        middle = self.stance.places["left_foot"][0]
+        table = spec.worldbody.add_geom(name="table", type=box, size=[0.3, 0.3, 0.02], group=OBSTACLE_GROUP)
+        table.pos, table.rgba = [middle + self.edge + 0.3, -0.42, self.height - 0.02], [0.66, 0.5, 0.36, 1.0]
+        table.contype = table.conaffinity = 0
+
+    def _ground(self) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Corners (2,) of the ground under each sole in the world."""
+        found = {}
+        for side in ("left", "right"):
+            place = self.stance.places[f"{side}_foot"][:2]
+            half = self.robot.model.geom(f"{side}_sole_box").size[:2]
+            low, high = place - half, place + half
+            if side == "right":
+                share = self.settings.sole_share
+                axis = 0 if self.part in ("front", "rear") else 1
+                cut = 2.0 * half[axis] * (1.0 - share)
+                if self.part in ("front", "inner"):
+                    low[axis] += cut
+                else:
+                    high[axis] -= cut
+            found[side] = (low, high)
+        return found
+
+    def controller(self, machine: Machine, skin: BodySkin) -> Controller:
+        self._controller = LeanController(self, skin)
+        return self._controller
+
+    def act(self, world: World, time: float) -> None:
+        if self._steps % _LOOK_EVERY == 0:  # forces of contacts belong to the contacts that there are until the step
+            self._carried = self._loads(world)
+
+    def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        self._steps += 1
+        if self._steps % _LOOK_EVERY:
+            return
+        self.look_at_trunk(world)
+        com = world.data.subtree_com[world.data.body(self.machine.base.link).id].copy()
+        corners = [
+            [x, y] for low, high in self._ground().values() for x in (low[0], high[0]) for y in (low[1], high[1])
+        ]
+        beyond = -signed_margin(convex_hull(corners), com[:2])
+        hand = world.pose("left_hand")
+        reached = float(np.linalg.norm(hand[0] + hand[1] @ HAND - self._target()))
+        self._trace.append((time, beyond, *self._carried, sensor.patch_force(PATCH), reached, *com))
+
+    def _target(self) -> NDArray[np.float64]:
+        return np.asarray(self._middle() + self.settings.hand_target)
+
+    def _loads(self, world: World) -> tuple[float, float]:
+        """True vertical force in N on the ground under the left and the right sole."""
+        loads, wrench = {"left_ground": 0.0, "right_ground": 0.0}, np.zeros(6)
+        ids = {world.model.geom(name).id: name for name in loads}
+        for i in range(world.data.ncon):
+            contact = world.data.contact[i]
+            name = ids.get(contact.geom1) or ids.get(contact.geom2)
+            if name is not None:
+                mujoco.mj_contactForce(world.model, world.data, i, wrench)
+                loads[name] += float(wrench[0])
+        return loads["left_ground"], loads["right_ground"]
+
+    def verdict(self) -> Verdict:
+        trace = np.array(self._trace)
+        held = trace[trace[:, 0] > self.duration - 3.0]
+        reasons = self.balance_reasons()
+        if not len(held):
+            held = trace[-1:]
+        beyond, force, error = held[:, 1].min(), held[:, 4].min(), held[:, 5].max()
+        wanted = _OUTSIDE
+        if not reasons and beyond < wanted:
+            reasons.append(failed("beyond", beyond, wanted, f"centre of mass {1e3 * beyond:.0f} mm beyond the feet"))
+        if not reasons and force <= 0.0:
+            reasons.append(failed("forearm", force, 0.0, "the forearm lost the table"))
+        if not reasons and error > 0.03:
+            reasons.append(failed("reach", error, 0.03, f"the hand stays {1e3 * error:.0f} mm off its target"))
+        figures = {
+            "tilt_max_deg": round(self.tilt_max, 2),
+            "sole_part": self.part,
+            "table_off_mm": round(1e3 * (self.height - self.settings.table_height), 1),
+            "beyond_mm": round(1e3 * float(beyond), 1),
+            "forearm_N": [round(float(v), 1) for v in (force, held[:, 4].max())],
+            "foot_loads_N": [round(float(v), 1) for v in held[:, 2:4].mean(axis=0)],
+            "reach_error_mm": round(1e3 * float(error), 1),
+        }
+        return Verdict(reasons, figures)
+
+    def plot(self, folder: Path) -> Sequence[Path]:
+        trace = np.array(self._trace)
+        figure, (upper, lower) = new_figure(8.0, 6.5, rows=2)
+        names = ("left foot", "right foot, on 30 % of its sole", "forearm")
+        for i, (name, colour) in enumerate(zip(names, ("left", "right", "measured"), strict=True)):
+            upper.plot(trace[:, 0], trace[:, 2 + i], color=COLOURS.get(colour), label=name)
+        upper.set(xlabel="time [s]", ylabel="true load [N]")
+        upper.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        lower.plot(trace[:, 0], 1e3 * trace[:, 1], label="beyond the feet's polygon")
+        lower.axhline(0.0, linewidth=0.8, color="0.5")
+        lower.set(xlabel="time [s]", ylabel="true centre of mass [mm]")
+        lower.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        return [save_figure(figure, folder / "lean.png")]

@@ -1,0 +1,50 @@
+"""Leaning on a table: parts of it in short, and whole runs with and without the forearm's skin."""
+
+import numpy as np
+import pytest
+
+from sim.companion.experiments.lean import _foremost
+from sim.companion.runner import Companion, run_companion
+from sim.run.scene_kind import open_scene
+
+
+def test_the_foremost_edge_of_a_polygon():
+    polygon = np.array([[0.0, -1.0], [2.0, -1.0], [1.0, 1.0], [0.0, 1.0]])
+    assert _foremost(polygon, 0.0) == pytest.approx(1.5)
+    assert _foremost(polygon, -1.0) == pytest.approx(2.0)
+    assert _foremost(polygon, 5.0) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_soles_see_what_they_stand_on(seed):
+    companion = Companion(open_scene("lean"), seed)
+    companion.experiment.duration = 0.3
+    companion.run()
+    experiment, seen = companion.experiment, companion.controller.areas
+    for side, (low, high) in experiment._ground().items():
+        link = f"{side}_foot"
+        place, area = experiment.stance.places[link][:2], seen[link]
+        assert (place + [area.x_min, area.y_min] > low - 0.008).all()
+        assert (place + [area.x_max, area.y_max] < high + 0.008).all()
+        assert area.x_max - area.x_min > 0.5 * (high - low)[0]
+        assert area.y_max - area.y_min > 0.5 * (high - low)[1]
+
+
+def test_the_load_of_the_ground_is_the_robot_s_weight():
+    companion = Companion(open_scene("lean"), 0)
+    companion.experiment.duration = 0.8
+    companion.run()
+    trace = np.array(companion.experiment._trace)
+    loads = trace[trace[:, 0] > 0.5][:, 2:4].sum(axis=1)
+    assert np.median(loads) == pytest.approx(86.0 * 9.81, rel=0.01)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [0, 1, 5])
+def test_the_forearm_carries_what_the_feet_cannot(seed):
+    summary = run_companion(open_scene("lean"), seed)
+    assert summary["completed"], summary["reasons"]
+    assert summary["beyond_mm"] > 10.0
+    assert min(summary["forearm_N"]) > 50.0
+    blind = run_companion(open_scene("lean", ["skin=false"]), seed)
+    assert blind["fell"]
