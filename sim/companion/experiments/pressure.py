@@ -148,16 +148,18 @@ class Pressure(StandingExperiment):
         areas = float(np.mean(many.taxels or [0.0]) / np.mean(one.taxels or [np.nan]))
         forces = float(np.mean(one.forces or [np.nan]) / np.mean(many.forces or [np.nan]))
         ratio = one.speed / many.speed / forces
-        off = abs(ratio / areas - 1.0) if areas > 0.0 else float("inf")
+        off = abs(ratio / areas - 1.0) if areas > 0.0 and np.isfinite(ratio) else 1.0
         if not off <= self.settings.tolerance:
             text = f"speeds differ by {ratio:.1f}, areas by {areas:.1f}; allowed: {self.settings.tolerance:.0%} apart"
             reasons.append(failed("area_law", off, self.settings.tolerance, text))
         figures = {
             **self.balance_figures(),
-            "speed_ratio": round(ratio, 2),
-            "area_ratio": round(areas, 2),
-            "speeds_rad_s": {name: round(p.speed, 5) for name, p in self._pushes.items()},
-            "forces_N": {name: round(float(np.mean(p.forces or [np.nan])), 2) for name, p in self._pushes.items()},
+            "speed_ratio": round(ratio, 2) if np.isfinite(ratio) else None,
+            "area_ratio": round(areas, 2) if np.isfinite(areas) else None,
+            "speeds_rad_s": {
+                name: round(p.speed, 5) if np.isfinite(p.speed) else None for name, p in self._pushes.items()
+            },
+            "forces_N": {name: round(float(np.mean(p.forces or [0.0])), 2) for name, p in self._pushes.items()},
             "taxels": {name: round(float(np.mean(p.taxels or [0.0])), 1) for name, p in self._pushes.items()},
         }
         return Verdict(reasons, figures)

@@ -22,6 +22,8 @@ from wholebody.tasks.task import Task
 
 __all__ = ["StandingControl", "StandingController"]
 
+_WARMING = 0.2  # s: time constant of the filter of temperatures
+
 
 class StandingControl(CompanionControl):
     """How a standing machine is controlled.
@@ -84,6 +86,7 @@ class StandingController:
         self.torque: NDArray[np.float64] = np.zeros(0)
         self.after: Callable[[NDArray[np.float64], float], NDArray[np.float64]] | None = None
         self._force: NDArray[np.float64] | None = None
+        self._warmth: NDArray[np.float64] | None = None
         self._balance = balance
         self._upright = np.zeros(3) if balance is None else balance.target.copy()
         self._shift = np.zeros(2)
@@ -123,7 +126,11 @@ class StandingController:
             force = np.nan_to_num(force)
         share = self.settings.period / (self.settings.period + self.settings.filter)
         self._force = force.copy() if self._force is None else self._force + share * (force - self._force)
-        return SkinReading(reading.time, self._force, reading.distance, reading.temperature)
+        warmth = reading.temperature
+        if warmth is not None:
+            slow = self.settings.period / (self.settings.period + _WARMING)
+            self._warmth = warmth.copy() if self._warmth is None else self._warmth + slow * (warmth - self._warmth)
+        return SkinReading(reading.time, self._force, reading.distance, self._warmth)
 
     def _external(
         self, robot: MujocoDynamics, felt: SkinReading

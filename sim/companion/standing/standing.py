@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import mujoco
@@ -52,6 +52,8 @@ class StandingExperiment(Experiment):
     """Roll of the base in degrees; towards the only foot it stands on it relieves that hip."""
     cop_margin_least: ClassVar[float] = 5.0
     """Least distance in mm of the true centre of pressure to the edge of the soles."""
+    posture: ClassVar[Mapping[str, float]] = {}
+    """Joints in degrees that stand in another posture than the machine's."""
     lift: ClassVar[float] = 0.06
     """Height in m to which a foot that does not stand is lifted."""
 
@@ -76,6 +78,8 @@ class StandingExperiment(Experiment):
         robot, model = self.robot, self.robot.model
         qpos = model.qpos0.copy()
         qpos[7:] = self.machine.posture
+        for name, degrees in self.posture.items():
+            qpos[model.joint(name).qposadr[0]] = math.radians(degrees)
         robot.update(qpos, np.zeros(model.nv), 0.0)
         link, point = next(iter(self.stance.feet.items()))
         qpos[2] -= (robot.pose(link)[0] + robot.pose(link)[1] @ point)[2]

@@ -1,0 +1,104 @@
+"""How a hot plate warms taxels: radiation, and the warm air above it.
+
+A taxel is a layer of skin with one temperature T: C T' = eps^2 sigma F (T_p^4 - T^4) - h (T - T_air), with the view
+factor F of the plate's disc from the taxel, summed over small areas of it as cos cos dA / (pi r^2) (Incropera,
+Fundamentals of heat and mass transfer, ch. 13), and air that is the hotter the lower above the plate. What it radiates
+to the room is in h.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.schema import Settings, number
+
+__all__ = ["HotPlate", "PlateSettings"]
+
+_STEFAN_BOLTZMANN = 5.670374e-8  # W/(m^2 K^4)
+_KELVIN = 273.15
+_RINGS, _SECTORS = 4, 10
+
+
+class PlateSettings(Settings):
+    """The plate and the skin's thermal properties.
+
+    Attributes:
+        temperature: Of the plate; 180 in T.
+        room: Of the room.
+        radius: Of the plate: a cooker's small plate.
+        emissivity: Of plate and skin: oxidised iron and dark silicone rubber.
+        capacity: Heat capacity of a taxel's area: 0.5 mm of silicone rubber (1100 kg/m^3, 1460 J/(kg K)) and what is
+            bonded to it.
+        loss: Heat transfer to the air: natural convection of a small plate and radiation to the room.
+        plume: Height above the plate at which the air's excess temperature has fallen to 37 %.
+    """
+
+    temperature: float = number(180.0, "degC", 20.0, 1000.0)
+    room: float = number(25.0, "degC", -50.0, 60.0)
+    radius: float = number(0.09, "m", 0.01, 1.0)
+    emissivity: float = number(0.9, "1", 0.0, 1.0)
+    capacity: float = number(1200.0, "J/(m^2 K)", 1.0, 1e6)
+    loss: float = number(12.0, "W/(m^2 K)", 0.0, 1e4)
+    plume: float = number(0.05, "m", 1e-3, 1.0)
+
+
+class HotPlate:
+    """A level round plate that warms taxels above it.
+
+    Args:
+        middle: Middle (3,) of its upper face in the world in m.
+        settings: Its properties.
+        count: How many taxels it warms.
+
+    Attributes:
+        temperature: Temperature (count,) of the taxels in degC.
+    """
+
+    def __init__(self, middle: NDArray[np.float64], settings: PlateSettings, count: int) -> None:
+        self.settings, self.middle = settings, np.asarray(middle, dtype=float)
+        self.temperature = np.full(count, settings.room)
+        radii = (np.arange(_RINGS) + 0.5) / _RINGS * settings.radius
+        angles = (np.arange(_SECTORS) + 0.5) / _SECTORS * 2.0 * math.pi
+        r, a = (grid.ravel() for grid in np.meshgrid(radii, angles))
+        self._spots = self.middle + np.column_stack([r * np.cos(a), r * np.sin(a), np.zeros(len(r))])
+        self._areas = r * (settings.radius / _RINGS) * (2.0 * math.pi / _SECTORS)
+
+    def view_factors(self, points: NDArray[np.float64], outward: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Share (n,) of what taxels see that is the plate.
+
+        Args:
+            points: Places (n, 3) of the taxels in the world in m.
+            outward: Their outward normals (n, 3).
+
+        Returns:
+            The view factors, 0 to 1.
+        """
+        to = self._spots - points[:, None]
+        square = np.maximum(np.einsum("nsi,nsi->ns", to, to), 1e-8)
+        at_taxel = np.maximum(np.einsum("nsi,ni->ns", to, outward), 0.0)
+        at_plate = np.maximum(-to[:, :, 2], 0.0)
+        return np.asarray(np.minimum((at_taxel * at_plate / (math.pi * square**2)) @ self._areas, 1.0))
+
+    def step(self, points: NDArray[np.float64], outward: NDArray[np.float64], period: float) -> NDArray[np.float64]:
+        """Warm or cool the taxels for a time.
+
+        Args:
+            points: Places (n, 3) of the taxels in the world in m.
+            outward: Their outward normals (n, 3).
+            period: The time in s, short against C / h.
+
+        Returns:
+            Their temperatures (n,) in degC.
+        """
+        s = self.settings
+        hot, own = s.temperature + _KELVIN, self.temperature + _KELVIN
+        radiated = s.emissivity**2 * _STEFAN_BOLTZMANN * self.view_factors(points, outward) * (hot**4 - own**4)
+        above = points - self.middle
+        over = np.hypot(above[:, 0], above[:, 1]) < s.radius
+        excess = np.where(over, np.exp(-np.maximum(above[:, 2], 0.0) / s.plume), 0.0)
+        air = s.room + (s.temperature - s.room) * excess
+        self.temperature = self.temperature + period / s.capacity * (radiated - s.loss * (self.temperature - air))
+        return self.temperature
