@@ -37,7 +37,7 @@ from wholebody.tasks.posture import Posture
 from wholebody.tasks.support import Standing
 from wholebody.tasks.task import Demand, Task
 
-__all__ = ["Lean"]
+__all__ = ["Lean", "LeanControl", "LeanController", "LeanSettings"]
 
 ARM, PATCH = "right_lower_arm", "right_lower_arm"
 UNDERSIDE = np.array([-0.045, 0.0, -0.12])

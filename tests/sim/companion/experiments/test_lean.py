@@ -24,8 +24,8 @@ def test_the_soles_see_what_they_stand_on(seed):
     for side, (low, high) in experiment._ground().items():
         link = f"{side}_foot"
         place, area = experiment.stance.places[link][:2], seen[link]
-        assert (place + [area.x_min, area.y_min] > low - 0.008).all()
-        assert (place + [area.x_max, area.y_max] < high + 0.008).all()
+        assert (place + np.array([area.x_min, area.y_min]) > low - 0.008).all()
+        assert (place + np.array([area.x_max, area.y_max]) < high + 0.008).all()
         assert area.x_max - area.x_min > 0.5 * (high - low)[0]
         assert area.y_max - area.y_min > 0.5 * (high - low)[1]
 
