@@ -141,7 +141,15 @@ class LeanController:
         self._paths: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
 
     def step(self, robot: Any, reading: SkinReading) -> NDArray[np.float64]:
-        """Torques (k,) for the next period, see `sim.companion.experiment.Controller`."""
+        """See `sim.companion.experiment.Controller`.
+
+        Args:
+            robot: The machine at its measured state.
+            reading: What its skin says.
+
+        Returns:
+            Torques (k,) for the next period in N m.
+        """
         self.stance.locate(robot)
         self._see_ground(reading)
         felt = float(np.nan_to_num(reading.force[self.skin.slices[PATCH]]).sum())
