@@ -28,6 +28,7 @@ class ContactSettings(Settings):
         release: Share of the limit below which the force has to fall before it tries again.
         stuck: Time in s for which it has to be slow before it approaches.
         retreat: Least time in s of a retreat.
+        patience: Time in s for which it presses on what does not move before it retreats.
         free: Time in s without contact and with nothing near, after which it avoids again.
         shrink: Time in s in which the sensing range shrinks to nothing while it approaches, and grows again after.
     """
@@ -37,6 +38,7 @@ class ContactSettings(Settings):
     release: float = number(0.5, "1", 0.0, 1.0)
     stuck: float = number(0.3, "s", 0.0, 60.0)
     retreat: float = number(0.3, "s", 0.0, 60.0)
+    patience: float = number(2.0, "s", 0.0, 60.0)
     free: float = number(0.5, "s", 0.0, 60.0)
     shrink: float = number(0.5, "s", 1e-3, 60.0)
 
@@ -88,7 +90,7 @@ class IntentionalContact:
             "retreat": (contact, goal, avoidance),
         }
         self._time = -math.inf
-        self._held = 0.0  # for how long what leads on has held
+        self._held = self._pressed = 0.0  # for how long what leads on has held, and what leads to a retreat
 
     @property
     def levels(self) -> Sequence[Sequence[Task]]:
@@ -107,7 +109,9 @@ class IntentionalContact:
         s, before = self.settings, self.arrangement
         period = max(0.0, time - self._time) if math.isfinite(self._time) else 0.0
         self._time = time
-        if signs.contact >= s.force_limit:
+        pressing = self.arrangement == "approach" and signs.contact > 0.0 and signs.speed <= s.slow
+        self._pressed = self._pressed + period if pressing and not signs.arrived else 0.0
+        if signs.contact >= s.force_limit or self._pressed > s.patience:
             self.arrangement, self._held = "retreat", 0.0
         else:
             leads_on, wait, following = self._way_on(signs)

@@ -168,6 +168,8 @@ def _descend(
             continue
         across, strengths, along = np.linalg.svd(rows[counted] @ left)
         rank = int(np.count_nonzero(strengths > RANK * sizes.max()))
+        if rank == 0:
+            continue
         own, strengths, weights = along[:rank], strengths[:rank], np.ones(rank)
         if wanted is not None:
             lengths = np.linalg.norm(jacobian[counted], axis=1)

@@ -61,3 +61,10 @@ def test_signs_that_swing_about_their_thresholds_do_not_chatter(policy):
     for t in np.arange(4.0, 8.0, 2e-3):
         changes += policy.update(ContactSigns(0.0, 1.0, 10.0 + 3.0 * np.sin(80.0 * t)), t)
     assert changes == 1
+
+
+def test_it_gives_up_what_it_presses_on_in_vain(policy):
+    run(policy, ContactSigns(0.0, 1.0, 0.0), 0.0, 0.4)
+    assert run(policy, ContactSigns(0.1, 1.0, 5.0), 0.4, 4.0) == []  # what it pushes moves
+    assert run(policy, ContactSigns(0.0, 1.0, 5.0), 4.0, 6.3) == [pytest.approx(6.0, abs=0.02)]
+    assert policy.arrangement == "retreat"

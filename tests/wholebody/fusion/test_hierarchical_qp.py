@@ -112,6 +112,15 @@ def test_the_best_compromise_is_that_of_a_general_solver(random_robot):
     assert 0.5 * residual @ residual == pytest.approx(best.cost, rel=1e-8)
 
 
+def test_a_level_whose_rows_are_taken_already_changes_nothing(random_robot):
+    rng = np.random.default_rng(9)
+    robot = random_robot(rng, 8)
+    levels = stack(rng, 8, (3, 2))
+    qp = HierarchicalQP(limits(8, torque=0.9 * np.abs(fuse(robot, levels).torque).max()), shortcut=False)
+    again = [*levels[:1], [Demand(2.0 * levels[0][0].jacobian, acceleration=np.ones(3))], *levels[1:]]
+    assert largest_difference(qp(robot, again).torque, qp(robot, levels).torque) < 1e-9
+
+
 def test_a_joint_slows_down_before_its_end_and_keeps_its_speed(random_robot):
     robot = random_robot(np.random.default_rng(6), 3)
     robot.velocity = np.zeros(3)

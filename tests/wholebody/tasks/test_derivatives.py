@@ -12,6 +12,7 @@ import pytest
 import wholebody.tasks
 from wholebody.skin.patch import BodySkin, SkinPatch
 from wholebody.skin.reading import SkinReading
+from wholebody.tasks.along_force import AlongForce
 from wholebody.tasks.base_avoidance import BaseAvoidance
 from wholebody.tasks.body_compliance import BodyCompliance
 from wholebody.tasks.cartesian_pose import CartesianPose
@@ -61,6 +62,13 @@ def along_normal(before, after, middle):
     return np.array([outward @ moved_pose(before, after, HAND, POINT)[:3]])
 
 
+def along_push(before, after, middle, skin):
+    reading = SkinReading(0.0, np.ones(6), np.full(6, np.inf))
+    wrenches = DirectInteraction(skin).demand(middle, reading).force.reshape(2, 6)
+    moved = links_that_feel(before, after).reshape(2, 6)
+    return (wrenches * moved).sum(1) / np.linalg.norm(wrenches[:, :3], axis=1)
+
+
 def apart(robot):
     return np.linalg.norm(place(robot, HAND, POINT) - place(robot, ARM, -POINT))
 
@@ -90,6 +98,7 @@ def generalized(before, after, middle):
 
 # Each task, and how far what its rows stand for moves from one configuration to another.
 CASES = {
+    "along_force": (lambda r, s: AlongForce(DirectInteraction(s)), along_push),
     "base_avoidance": (lambda r, s: avoiding(), on_the_ground),
     "body_compliance": (lambda r, s: BodyCompliance(Posture(np.zeros(JOINTS), torques=True)), generalized),
     "cartesian_pose": (lambda r, s: CartesianPose(HAND, POINT), lambda a, b, m: moved_pose(a, b, HAND, POINT)),
@@ -163,7 +172,8 @@ def test_jacobian_and_drift_are_derivatives(random_chain, skin, name, floating):
         robot.update(position, velocity, 0.0)
     reading = SkinReading(0.0, np.ones(6), np.full(6, 0.02), np.full(6, 60.0))
     before, now, after = (make(robot, skin).demand(robot, reading) for robot in robots)
-    moving = moves(robots[0], robots[2], robots[1]) / (2.0 * STEP)
+    given = (robots[0], robots[2], robots[1], skin)
+    moving = moves(*given[: moves.__code__.co_argcount]) / (2.0 * STEP)
     assert np.allclose(now.jacobian @ velocity, moving, rtol=1e-6, atol=1e-6)
     if now.acceleration is not None:
         speeds = (after.jacobian @ velocity - before.jacobian @ velocity) / (2.0 * STEP)
