@@ -51,7 +51,7 @@ _LOOK_EVERY = 5  # physics steps between two looks at the contacts
 _SEEN_LOWER = 0.008  # m below the ground where taxels see it: skin that would carry has no stiction
 _NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
 _OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon of the feet
-_EDGE = 0.006  # m: half of what a taxel reaches around its middle, the rest is margin
+_MARGIN = 0.004  # m by which what can carry is smaller than the middles of the taxels that see ground
 
 
 class LeanSettings(Settings):
@@ -70,13 +70,13 @@ class LeanSettings(Settings):
     height_error: float = number(0.03, "m", 0.0, 0.2)
     table_edge: float = number(0.32, "m", 0.1, 1.0)
     sole_share: float = number(0.3, "1", 0.1, 1.0)
-    beyond: float = number(0.05, "m", -0.2, 0.2)
-    reach: float = number(0.58, "m", 0.3, 1.5)
+    beyond: float = number(0.06, "m", -0.2, 0.2)
+    reach: float = number(0.55, "m", 0.3, 1.5)
 
     @property
     def hand_target(self) -> NDArray[np.float64]:
         """Where (3,) the left hand reaches, from the middle of the feet in m."""
-        return np.array([self.reach, 0.38, 1.15])
+        return np.array([self.reach, 0.42, 1.15])
 
 
 class LeanControl(StandingControl):
@@ -245,7 +245,8 @@ class LeanController:
             places = self.skin.positions[own][reading.distance[own] < _NEAR] - middle
             if len(places) < 2:
                 continue
-            low, high = places.min(axis=0) - _EDGE, places.max(axis=0) + _EDGE
+            low, high = places.min(axis=0) + _MARGIN, places.max(axis=0) - _MARGIN
+            low, high = np.minimum(low, 0.5 * (low + high)), np.maximum(high, 0.5 * (low + high))
             area = Rectangle(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
             if self.areas.get(link) != area:
                 self.areas[link] = area
@@ -398,7 +399,7 @@ class Lean(StandingExperiment):
         trace = np.array(self._trace)
         figure, (upper, lower) = new_figure(8.0, 6.5, rows=2)
         names = ("left foot", "right foot, on 30 % of its sole", "forearm")
-        for i, (name, colour) in enumerate(zip(names, ("left", "right", "measured"), strict=True)):
+        for i, (name, colour) in enumerate(zip(names, ("left", "right", "polygon"), strict=True)):
             upper.plot(trace[:, 0], trace[:, 2 + i], color=COLOURS.get(colour), label=name)
         upper.set(xlabel="time [s]", ylabel="true load [N]")
         upper.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
