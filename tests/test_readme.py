@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
-LONG = ("plantar demo", "plantar sweep", "plantar bench")
+LONG = ("plantar demo", "plantar sweep", "plantar bench", "plantar sim lean")
 
 
 def blocks(text: str, language: str) -> list[str]:
