@@ -165,6 +165,7 @@ class Experiment:
     Attributes:
         duration: Simulated time in s.
         fell: Whether the machine fell; the run ends then.
+        done: Whether there is nothing left to see; the run ends then.
         rng: Random numbers of the seed, for what the experiment leaves to chance.
     """
 
@@ -182,7 +183,7 @@ class Experiment:
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         self.machine, self.settings, self.control, self.seed = machine, settings, control, seed
         self.duration = 5.0
-        self.fell = False
+        self.fell = self.done = False
         self.rng = np.random.default_rng([seed, 0xE])
 
     def add_to(self, spec: Any) -> None:

@@ -100,7 +100,7 @@ class Companion:
                 self._check()
                 ticks.append(self._tick())
             experiment.judge(world, self.skin, float(data.time))
-            if experiment.fell:
+            if experiment.fell or experiment.done:
                 break
             if film is not None and k % frame == 0:
                 film()

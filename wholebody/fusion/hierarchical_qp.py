@@ -43,6 +43,7 @@ class JointLimits:
         high: Highest position (k,).
         slow_down: Time in s in which the distance to a limit of position may be crossed at most.
         reach: Time in s in which a speed beyond what is allowed is brought back: some control periods.
+        acceleration: Largest acceleration in rad/s^2 or m/s^2 of every joint.
 
     Raises:
         InputError: If a limit is not above 0, or a range is empty.
@@ -54,9 +55,10 @@ class JointLimits:
     high: NDArray[np.float64]
     slow_down: float = 0.1
     reach: float = 0.02
+    acceleration: float = np.inf
 
     def __post_init__(self) -> None:
-        smallest = min(np.min(self.torque), np.min(self.velocity), self.slow_down, self.reach)
+        smallest = min(np.min(self.torque), np.min(self.velocity), self.slow_down, self.reach, self.acceleration)
         if not smallest > 0.0 or not (np.asarray(self.low) < self.high).all():
             raise InputError(f"a limit of torque, speed or time is {smallest:g}, or a range of positions is empty")
 
@@ -65,7 +67,10 @@ class JointLimits:
         position, speed = robot.joint_positions, robot.velocity[robot.joints]
         slowest = np.maximum(-self.velocity, (self.low - position) / self.slow_down)
         fastest = np.minimum(self.velocity, (self.high - position) / self.slow_down)
-        return (slowest - speed) / self.reach, (fastest - speed) / self.reach
+        most = self.acceleration
+        return np.clip((slowest - speed) / self.reach, -most, most), np.clip(
+            (fastest - speed) / self.reach, -most, most
+        )
 
 
 class _Box(NamedTuple):

@@ -18,7 +18,7 @@ class AlongForce(Task):
 
     Args:
         task: The task, whose demand holds six rows for each link.
-        damping: Force in N for each m/s of a motion against the push.
+        damping: Force in N for each m/s of the motion along the push, whichever way it goes.
     """
 
     def __init__(self, task: Task, damping: float = 0.0) -> None:
@@ -36,5 +36,4 @@ class AlongForce(Task):
         wrenches, sizes = wrenches[pushing], sizes[pushing]
         links = asked.jacobian.reshape(-1, 6, asked.jacobian.shape[1])[pushing]
         rows = np.einsum("ij,ijk->ik", wrenches / sizes[:, None], links)
-        against = np.minimum(rows @ robot.velocity, 0.0)
-        return Demand(rows, force=sizes - self.damping * against)
+        return Demand(rows, force=sizes - self.damping * (rows @ robot.velocity))

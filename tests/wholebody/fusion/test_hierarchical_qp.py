@@ -137,6 +137,13 @@ def test_a_joint_slows_down_before_its_end_and_keeps_its_speed(random_robot):
     assert np.allclose(position, [0.5, -0.5, 0.5], atol=1e-3)
 
 
+def test_accelerations_are_bounded_where_a_task_asks_for_too_much(random_robot):
+    robot = random_robot(np.random.default_rng(10), 4)
+    bound = JointLimits(*(np.full(4, v) for v in (1e6, 1e6, -1e6, 1e6)), acceleration=20.0)
+    level = [Demand(np.eye(4), acceleration=np.array([500.0, -30.0, 5.0, 0.0]), drift=np.zeros(4))]
+    assert np.allclose(HierarchicalQP(bound)(robot, [level]).acceleration, [20.0, -20.0, 5.0, 0.0])
+
+
 def test_limits_that_nothing_keeps_give_way_in_their_order(random_robot):
     """Gravity needs more than the speed's limit leaves torque for: torques stay within, the joint moves on."""
     robot = random_robot(np.random.default_rng(7), 4)

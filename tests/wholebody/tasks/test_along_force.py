@@ -39,11 +39,11 @@ def test_it_acts_as_the_task_does_but_leaves_the_rest_of_the_link(random_chain):
     assert error["row"] < error["whole"]
 
 
-def test_it_brakes_what_moves_against_the_push_only(random_chain):
+def test_it_damps_the_motion_along_the_push(random_chain):
     robot = random_chain(np.random.default_rng(1), 7)
     task = AlongForce(Pushes(np.array([0.0, 0.0, 5.0, 0.0, 0.0, 0.0])), damping=10.0)
     row = task.demand(robot, None).jacobian[0]
-    for speed, force in ((-0.2, 7.0), (0.2, 5.0)):
+    for speed, force in ((-0.2, 7.0), (0.2, 3.0)):
         robot.update(robot.model.qpos0, speed * row / (row @ row), 0.0)
         assert np.allclose(task.demand(robot, None).force, force)
 
