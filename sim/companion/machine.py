@@ -25,11 +25,13 @@ from plantar.files.structured_text import read_toml
 from plantar.mechanics.lip import GRAVITY
 from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.settings.unknown_keys import refuse_unknown_keys
+from sim.companion.skin_surface import OBSTACLE_GROUP
 
 __all__ = ["BaseTable", "JointTable", "Machine", "ServoTable", "builtin_machines", "load_machine"]
 
 _FOLDER = Path(__file__).parent / "machines"
 _KEYS = ("name", "description", "model", "base", "servo", "joint_defaults", "joints", "patch")
+_UNSEEN = 4  # geom group that pictures leave out
 _ONE_DOF = (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE)
 
 
@@ -134,6 +136,8 @@ class Machine:
         spec.option.density = spec.option.viscosity = 0.0
         spec.option.timestep = 0.001
         for geom in spec.geoms:
+            if geom.group == OBSTACLE_GROUP:
+                geom.group = _UNSEEN  # many models keep their collision shapes in the group of obstacles
             if geom.contype or geom.conaffinity:
                 geom.contype, geom.conaffinity = 1, 2
         for name, joint in self.joints.items():

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.arrays import array
-from plantar.errors import LayoutError, RobotError
+from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.schema import Settings, number, tables, text, whole
@@ -124,7 +124,10 @@ def _rays(shape: PatchShape, where: str) -> tuple[NDArray[np.float64], NDArray[n
     if shape.wrap and size[1] == 0.0:
         size[1] = 2.0 * math.pi * shape.wrap
     lattice = HexLattice(shape.cell_area)
-    cells = lattice.centres(lattice.cells_near(-0.5 * size, 0.5 * size))
+    try:
+        cells = lattice.centres(lattice.cells_near(-0.5 * size, 0.5 * size))
+    except InputError as problem:
+        raise RobotError(f"{where}: {problem}") from None
     cells = cells[(np.abs(cells[:, 0]) <= 0.5 * size[0]) & (cells[:, 1] >= -0.5 * size[1] - 1e-9)]
     cells = cells[cells[:, 1] < 0.5 * size[1] + (-1e-9 if shape.wrap else 1e-9)]
     if shape.taxels:

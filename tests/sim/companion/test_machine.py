@@ -7,6 +7,8 @@ import pytest
 from plantar.errors import RobotError
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.machine import builtin_machines, load_machine
+from sim.companion.skin_sensing import SkinSensing, SkinSensor
+from sim.companion.skin_surface import OBSTACLE_GROUP, skin_from_tables
 
 ARM = """
 <mujoco>
@@ -110,3 +112,23 @@ def test_motors_are_limited_as_the_joints_are():
     data.ctrl[:] = 1e4
     mujoco.mj_forward(model, data)
     np.testing.assert_allclose(data.qfrc_actuator, load_machine("mobile-arm").efforts)
+
+
+@pytest.mark.parametrize("group", range(6))
+def test_skin_is_laid_on_geoms_of_any_group_and_sees_obstacles_alone(tmp_path, group):
+    """Public models keep their collision shapes in a group of their own, often that of the obstacles here."""
+    arm = f"""<mujoco><worldbody><body name="arm"><joint name="a"/>
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04" mass="1" group="{group}"/></body></worldbody></mujoco>"""
+    patch = "[[patch]]\nname = 'p'\nlink = 'arm'\nposition = [0.15, 0, 0]\nsize = [0.2, 0]\nwrap = 0.04\n"
+    found = machine(tmp_path, patch, model=arm)
+    spec = found.spec()
+    spec.worldbody.add_geom(size=[0.03, 0, 0], pos=[0.15, 0.0, 0.08], group=OBSTACLE_GROUP)
+    model = spec.compile()
+    skin = skin_from_tables(found.spec().compile(), found.patches, found.name)
+    data = mujoco.MjData(model)
+    sensor = SkinSensor(model, skin, SkinSensing(), 0)
+    mujoco.mj_forward(model, data)
+    sensor.apply(data)
+    assert len(skin) > 20
+    assert np.isfinite(sensor.distance).sum() > 0
+    assert sensor.distance.min() == pytest.approx(0.01, abs=0.008)
