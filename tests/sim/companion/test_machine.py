@@ -118,7 +118,8 @@ def test_motors_are_limited_as_the_joints_are():
 def test_skin_is_laid_on_geoms_of_any_group_and_sees_obstacles_alone(tmp_path, group):
     """Public models keep their collision shapes in a group of their own, often that of the obstacles here."""
     arm = f"""<mujoco><worldbody><body name="arm"><joint name="a"/>
-        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04" mass="1" group="{group}"/></body></worldbody></mujoco>"""
+        <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.04" mass="1" group="{group}"/>
+        </body></worldbody></mujoco>"""
     patch = "[[patch]]\nname = 'p'\nlink = 'arm'\nposition = [0.15, 0, 0]\nsize = [0.2, 0]\nwrap = 0.04\n"
     found = machine(tmp_path, patch, model=arm)
     spec = found.spec()
