@@ -55,14 +55,13 @@ def link_wrenches(skin: BodySkin, signal: NDArray[np.float64], active: NDArray[n
     Returns:
         A wrench for each link that has an active taxel, in the order of `skin.links`.
     """
-    taxels = np.flatnonzero(active)
+    taxels = active.nonzero()[0]
     if not len(taxels):
         return []
     owners = skin.link_of[taxels]
-    begins = np.flatnonzero(np.diff(owners, prepend=-1))
-    ends = [*begins[1:].tolist(), len(taxels)]
+    ends = [*((owners[1:] != owners[:-1]).nonzero()[0] + 1).tolist(), len(taxels)]
     found = []
-    for begin, end in zip(begins.tolist(), ends, strict=True):
+    for begin, end in zip([0, *ends], ends, strict=False):
         own = taxels[begin:end]
         found.append(LinkWrench(skin.links[owners[begin]], signal[own] @ skin.unit_wrenches[own], own))
     return found

@@ -89,6 +89,7 @@ class StandingController:
         self._warmth: NDArray[np.float64] | None = None
         self._balance = balance
         self._upright = np.zeros(3) if balance is None else balance.target.copy()
+        self._middle = self._upright * [1.0, 1.0, 0.0]
         self._shift = np.zeros(2)
         self._weight = GRAVITY * float(stance.model.body_subtreemass[0])
 
@@ -135,22 +136,26 @@ class StandingController:
     def _external(
         self, robot: MujocoDynamics, felt: SkinReading
     ) -> tuple[NDArray[np.float64] | None, NDArray[np.float64]]:
-        """Generalized force (n,) of what the skin feels, None for nothing, and its moment (3,) about the feet."""
+        """Generalized force (n,) of what the skin feels, None for nothing, and its moments (2,) about x and y at
+        the feet."""
         wrenches = link_wrenches(self.skin, felt.force, felt.force >= self.skin.thresholds)
         self.active.append(len(wrenches))
         if not wrenches:
-            return None, np.zeros(3)
+            return None, np.zeros(2)
         total = np.zeros(len(robot.velocity))
-        moment = np.zeros(3)
+        mx = my = 0.0
         for link, wrench, _taxels in wrenches:
             origin, rotation = robot.pose(link)
-            turned = np.concatenate([rotation @ wrench[:3], rotation @ wrench[3:]])
+            turned = (wrench.reshape(2, 3) @ rotation.T).ravel()
             total += turned @ robot.jacobian(link)
-            moment += np.cross(origin - self._upright * [1.0, 1.0, 0.0], turned[:3]) + turned[3:]
-        return total, moment
+            fx, fy, fz, tx, ty, _tz = turned.tolist()
+            x, y, z = (origin - self._middle).tolist()
+            mx += y * fz - z * fy + tx
+            my += z * fx - x * fz + ty
+        return total, np.array([mx, my])
 
     def _lean(self, balance: CenterOfMass, moment: NDArray[np.float64]) -> None:
-        """Shift the centre of mass until its weight holds against a moment (3,) about the feet (K 9 corrected)."""
+        """Shift the centre of mass until its weight holds against moments (2,) about the feet (K 9 corrected)."""
         s = self.settings
         wanted = s.lean / self._weight * np.array([-moment[1], moment[0]])
         wanted *= min(1.0, s.lean_limit / max(float(np.hypot(*wanted)), 1e-9))

@@ -51,7 +51,7 @@ class PressedSettings(Settings):
     """
 
     strength: float = number(1.0, "1", 0.0, 10.0)
-    yield_limb: float = number(0.4, "mm/N", 0.0, 100.0)
+    yield_limb: float = number(0.2, "mm/N", 0.0, 100.0)
     yield_trunk: float = number(0.0, "mm/N", 0.0, 100.0)
 
 
@@ -154,6 +154,6 @@ class PressedExperiment(StandingExperiment):
             lower.plot([int(n) for n in medians], list(medians.values()), "o-", color=COLOURS["right"], label="median")
             lower.set(ylim=(0.0, 1.1 * float(np.percentile(took, 99))))
             lower.legend()
-        lower.set(xlabel="active instances", ylabel="control tick [us]")
+        lower.set(xlabel="links with active taxels", ylabel="control tick [us]")
         name = type(self).__name__.lower()
         return [save_figure(figure, folder / f"{name}.png")]
