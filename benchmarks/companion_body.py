@@ -1,4 +1,4 @@
-"""Count the experiments on h1-body: `python benchmarks/companion_body.py FOLDER [SCENE...]`, or `... FOLDER report`.
+"""Count the experiments on h1-body: `python benchmarks/companion_body.py FOLDER [SCENE...]`, or `FOLDER report`.
 
 Each case is a sweep in FOLDER, on seeds from 1000 on that nothing was tuned on; stopped, it goes on where it was. The
 rows go to companion_body.csv, the counts between the markers of companion_body.md.

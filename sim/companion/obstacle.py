@@ -50,29 +50,30 @@ class Obstacle:
         self._ids = np.arange(len(pieces), dtype=np.int32)
         self._sizes = np.tile(size, (len(pieces), 1))
         self._bounds = np.full(len(pieces), float(model.geom_rbound[geom]))
-        self._position, self._rotation = np.zeros(3), np.eye(3)
-        self._linear, self._angular = np.zeros(3), np.zeros(3)
 
-    def follow(self, data: Any, period: float) -> None:
-        """Take over where it is; its velocity follows from where it was.
+    def velocity(
+        self,
+        points: NDArray[np.float64],
+        now: tuple[NDArray[np.float64], NDArray[np.float64]],
+        before: tuple[NDArray[np.float64], NDArray[np.float64]],
+        period: float,
+    ) -> NDArray[np.float64]:
+        """How fast its points move, by where it is and where it was.
 
         Args:
-            data: The MjData.
-            period: Time in s since the last call; 0 where the velocity shall count as 0.
-        """
-        position, rotation = data.geom_xpos[self.geom], data.geom_xmat[self.geom].reshape(3, 3)
-        if period and (position != self._position).any() | (rotation != self._rotation).any():
-            turn = rotation @ self._rotation.T
-            self._linear = (position - self._position) / period
-            self._angular = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-            self._angular *= 0.5 / period
-        else:
-            self._linear = self._angular = np.zeros(3)
-        self._position, self._rotation = position.copy(), rotation.copy()
+            points: Its points (m, 3) in the world in m.
+            now: Its middle (3,) in m and its rotation (9,) to the world, row by row.
+            before: Both a while ago.
+            period: Length of that while in s; 0 where its velocity shall count as 0.
 
-    def velocity(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Velocity (m, 3) in m/s of its points (m, 3) in the world."""
-        return np.asarray(self._linear + np.cross(self._angular, points - self._position))
+        Returns:
+            Their velocity (m, 3) in m/s.
+        """
+        if not period or ((now[0] == before[0]).all() and (now[1] == before[1]).all()):
+            return np.zeros_like(points)
+        turn = now[1].reshape(3, 3) @ before[1].reshape(3, 3).T
+        spin = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+        return np.asarray((now[0] - before[0]) / period + np.cross(0.5 / period * spin, points - now[0]))
 
     def lengths(
         self, data: Any, starts: NDArray[np.float64], ways: NDArray[np.float64], reach: float

@@ -101,6 +101,9 @@ class SkinSensor:
         self.temperature: NDArray[np.float64] | None = None
         self.cast = self.skipped = 0
         self._time = -np.inf
+        self._period = 0.0
+        self._geoms = np.array(geoms, dtype=np.int64)
+        self._before = self._now = (np.zeros((len(geoms), 3)), np.zeros((len(geoms), 9)))
         self._dirty = True
         self._electronics = SkinElectronics(skin, settings, seed)
 
@@ -115,8 +118,8 @@ class SkinSensor:
         """
         period = float(data.time) - self._time
         self._time = float(data.time)
-        for obstacle in self._obstacles:
-            obstacle.follow(data, period if 0.0 < period < _LONGEST_STEP else 0.0)
+        self._period = period if 0.0 < period < _LONGEST_STEP else 0.0
+        self._before, self._now = self._now, (data.geom_xpos[self._geoms], data.geom_xmat[self._geoms])
         if self._dirty:
             self._clear(data)
         near = self._broad.everything if self.settings.everything else self._broad.near(data)
@@ -159,22 +162,24 @@ class SkinSensor:
             pressed = np.flatnonzero(distance < 0.0)
             if len(pressed):
                 points = starts[pressed] + lengths[pressed, None] * ways[pressed]
-                self._press(data, patch, self._obstacles[k], pressed, (points, -ways[pressed], -distance[pressed]))
+                self._press(data, patch, k, pressed, (points, -ways[pressed], -distance[pressed]))
 
     def _press(
         self,
         data: Any,
         patch: _Patch,
-        obstacle: Obstacle,
+        index: int,
         pressed: NDArray[np.int64],
         contact: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]],
     ) -> None:
         """Normal force and friction at contact points (m, 3) with inward normals (m, 3) and depths (m,)."""
         points, normals, depths = contact
+        obstacle = self._obstacles[index]
+        now, before = (tuple(part[index] for part in where) for where in (self._now, self._before))
         s, body = self.settings, patch.body
         spin, drift = data.cvel[body, :3], data.cvel[body, 3:]
         middle = data.subtree_com[patch.root]
-        sliding = obstacle.velocity(points) - drift - np.cross(spin, points - middle)
+        sliding = obstacle.velocity(points, now, before, self._period) - drift - np.cross(spin, points - middle)
         rates = np.einsum("ij,ij->i", sliding, normals)
         forces = np.maximum(patch.areas[pressed] * (s.stiffness * depths + s.damping * rates), 0.0)
         sliding -= rates[:, None] * normals

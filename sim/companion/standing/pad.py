@@ -32,11 +32,13 @@ class Pad:
 
     Attributes:
         wanted: Force in N that it shall press with; 0 or less lifts it off.
+        parked: Whether it is out of everybody's way.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
         self.name, self.patch, self.face = f"pad {name}", patch, face
         self.wanted = 0.0
+        self.parked = True
         self._point, self._turn = patch.positions[taxel], patch.rotations[taxel]
         self._half = 0.02
         self._gap = _CLEAR
@@ -69,6 +71,8 @@ class Pad:
             rate = rate if force > 0.0 else -_SEARCH
             self._gap = max(self._gap + rate * period, -0.018)
         else:
+            if self.parked:
+                return
             self._gap = min(self._gap + _APPROACH * period, _CLEAR)
         origin, rotation = world.pose(self.patch.link)
         before = self._last or (origin, rotation)
@@ -76,8 +80,10 @@ class Pad:
         ahead, turned = 2.0 * origin - before[0], rotation @ before[1].T @ rotation
         inward = turned @ self._turn[:, 2]
         number = int(world.model.body(self.name).mocapid[0])
-        if self.wanted <= 0.0 and self._gap >= _CLEAR:  # out of everybody's way
+        self.parked = self.wanted <= 0.0 and self._gap >= _CLEAR
+        if self.parked:  # out of everybody's way
             world.data.mocap_pos[number] = [0.0, 0.0, 5.0]
+            self._last = None
             return
         world.data.mocap_pos[number] = ahead + turned @ self._point - (self._gap + self._half) * inward
         mujoco.mju_mat2Quat(world.data.mocap_quat[number], np.ascontiguousarray(turned @ self._turn).ravel())

@@ -163,7 +163,10 @@ class StandingExperiment(Experiment):
         return SelfCollision(pairs, margin=0.03, stiffness=2000.0, damping=60.0)
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
+        self._forces.clear()
         for pad in self.pads:
+            if pad.parked:
+                continue
             rotation = world.data.body(pad.patch.link).xmat.reshape(3, 3)
             self._forces[pad.name] = pad.force(sensor.on_obstacles, rotation)
         self._steps += 1
