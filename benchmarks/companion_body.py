@@ -1,7 +1,7 @@
-"""Count the experiments on h1-body: `python benchmarks/companion_body.py FOLDER [SCENE...]`, or `FOLDER report`.
+"""Count the experiments on h1-body: `python benchmarks/companion_body.py FOLDER [CASE...]`, or `FOLDER report`.
 
-Each case is a sweep in FOLDER, on seeds from 1000 on that nothing was tuned on; stopped, it goes on where it was. The
-rows go to companion_body.csv, the counts between the markers of companion_body.md.
+Each case is a sweep in FOLDER, on seeds from 1000 on that nothing was tuned on; stopped, it goes on where it was. With
+`report` the rows go to companion_body.csv, the counts between the markers of companion_body.md.
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ def run(folder: Path, scenes: list[str]) -> None:
 
     Args:
         folder: Folder of the sweeps.
-        scenes: Scenes to run; all where empty.
+        scenes: Folders of the cases to run; all where empty.
     """
     for case in CASES:
-        if not scenes or case.scene in scenes:
+        if not scenes or case.folder in scenes:
             sweep = Sweep(case.scene, seeds=case.seeds, settings=case.settings, first_seed=FIRST)
             result = run_sweep(sweep, folder / case.folder)
             print(case.folder, result["points"][0]["completed"], "of", case.seeds, flush=True)
@@ -114,6 +114,7 @@ def _range(rows: list[dict[str, str]], column: str) -> str:
 
 if __name__ == "__main__":
     place = Path(sys.argv[1])
-    if sys.argv[2:] != ["report"]:
+    if sys.argv[2:] == ["report"]:
+        report(place)
+    else:
         run(place, sys.argv[2:])
-    report(place)

@@ -29,8 +29,9 @@ __all__ = ["Pressure", "PressureControl", "PressureSettings"]
 
 _PATCH, _JOINTS = "torso_front", ("waist_yaw", "waist_pitch")  # the joints that carry the torso
 _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius is 14 mm
-_SETTLE, _WINDOW = 0.4, 0.3  # s: from the full force to the measurement, and its length
-_PRESS, _REST = 1.8, 2.2  # s
+_WINDOWS = {"one": (0.35, 0.55), "hundred": (0.8, 2.2)}
+"""When a probe is measured, in s from its full force on: slow motion drowns in the jitter of a short measurement."""
+_PRESS, _REST = 4.5, 1.6  # s
 
 
 class PressureSettings(Settings):
@@ -68,15 +69,16 @@ class _Push:
     full: float = np.inf
     taxels: list[float] = field(default_factory=list)
     forces: list[float] = field(default_factory=list)
-    first: tuple[float, NDArray[np.float64]] | None = None
-    last: tuple[float, NDArray[np.float64]] | None = None
+    window: tuple[float, float] = (0.0, 0.0)
+    times: list[float] = field(default_factory=list)
+    joints: list[NDArray[np.float64]] = field(default_factory=list)
 
     @property
     def speed(self) -> float:
-        """Norm of the mean velocities of the waist's joints in rad/s in the window; NaN where there was none."""
-        if self.first is None or self.last is None or self.last[0] <= self.first[0]:
+        """Norm of the velocities of the waist's joints in rad/s, fitted in the window; NaN where there was none."""
+        if len(self.times) < 2:
             return float("nan")
-        return float(np.linalg.norm(self.last[1] - self.first[1]) / (self.last[0] - self.first[0]))
+        return float(np.linalg.norm(np.polyfit(self.times, np.array(self.joints), 1)[0]))
 
 
 class Pressure(StandingExperiment):
@@ -102,7 +104,7 @@ class Pressure(StandingExperiment):
         for i, name in enumerate(order):
             pad = Pad(name, patch, taxel, _FACES[name], 7e3 if name == "one" else 7e5)
             self.pads.append(pad)
-            self._pushes[name] = _Push(pad, 0.5 + i * (_PRESS + _REST))
+            self._pushes[name] = _Push(pad, 0.5 + i * (_PRESS + _REST), window=_WINDOWS[name])
         self.duration = 0.5 + 2 * (_PRESS + _REST)
         self._slice = skin.slices[_PATCH]
         self._control: StandingController | None = None
@@ -122,7 +124,7 @@ class Pressure(StandingExperiment):
 
     def act(self, world: World, time: float) -> None:
         for push in self._pushes.values():
-            done = time >= min(push.begin + _PRESS, push.full + _SETTLE + _WINDOW)
+            done = time >= min(push.begin + _PRESS, push.full + push.window[1])
             push.pad.wanted = self.force if push.begin <= time and not done else 0.0
         super().act(world, time)
 
@@ -133,11 +135,11 @@ class Pressure(StandingExperiment):
             force = self.pressing(push.pad)
             if not np.isfinite(push.full) and force > 0.95 * self.force:
                 push.full = time
-            if push.full + _SETTLE <= time < push.full + _SETTLE + _WINDOW:
+            if push.full + push.window[0] <= time < push.full + push.window[1]:
                 push.taxels.append(float((sensor.force[self._slice] >= 0.15).sum()))
                 push.forces.append(force)
-                push.first = push.first or (time, joints)
-                push.last = (time, joints)
+                push.times.append(time)
+                push.joints.append(joints)
         if self._steps % 10 == 0:
             speed = float(np.linalg.norm([world.data.joint(name).qvel[0] for name in _JOINTS]))
             self._trace.append((time, sum(self.pressing(p.pad) for p in self._pushes.values()), speed))
@@ -171,8 +173,8 @@ class Pressure(StandingExperiment):
         upper.set(ylabel="force of the probe [N]")
         lower.semilogy(trace[:, 0], np.maximum(trace[:, 2], 1e-5), color=COLOURS["left"], label="joint speed")
         for name, push in self._pushes.items():
-            if push.first is not None and push.last is not None:
-                window = [push.first[0], push.last[0]]
+            if len(push.times) > 1:
+                window = [push.times[0], push.times[-1]]
                 lower.plot(window, [push.speed] * 2, color=COLOURS["right"], linewidth=3)
                 lower.annotate(f"{name} ({push.speed:.3g} rad/s)", (window[0], 1.3 * push.speed), fontsize=7)
         lower.set(xlabel="time [s]", ylabel="speed of the waist [rad/s]")

@@ -41,13 +41,13 @@ class StandingControl(CompanionControl):
     """
 
     skin: bool = switch(True)
-    gain: float = number(4.5, "1", 0.0, 100.0)
+    gain: float = number(3.0, "1", 0.0, 100.0)
     lean: float = number(0.7, "1", 0.0, 1.5)
     lean_filter: float = number(0.15, "s", 0.0, 10.0)
     lean_limit: float = number(0.035, "m", 0.0, 0.5)
     filter: float = number(0.04, "s", 0.0, 1.0)
     balance: float = number(60.0, "1/s^2", 1.0, 1000.0)
-    posture: float = number(100.0, "N m/rad", 0.0, 5000.0)
+    posture: float = number(120.0, "N m/rad", 0.0, 5000.0)
     posture_damping: float = number(12.0, "N m s/rad", 0.0, 500.0)
 
 

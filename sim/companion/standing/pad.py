@@ -16,6 +16,7 @@ __all__ = ["Pad"]
 _CLEAR = 0.03  # m off the skin while it does not press
 _APPROACH = 0.15  # m/s
 _SEARCH = 0.06  # m/s with which it comes near
+_SOFTLY = 600.0  # 1/s: a large face comes slower, or it would land with far more than its force
 _SETTLE = 60.0  # 1/s: how fast its force is corrected
 _COLOUR = (0.85, 0.6, 0.45, 1.0)
 
@@ -68,7 +69,7 @@ class Pad:
         """
         if self.wanted > 0.0:
             rate = np.clip((force - self.wanted) * _SETTLE / self._stiffness, -_APPROACH, _APPROACH)
-            rate = rate if force > 0.0 else -_SEARCH
+            rate = rate if force > 0.0 else -min(_SEARCH, _SOFTLY * self.wanted / self._stiffness)
             self._gap = max(self._gap + rate * period, -0.018)
         else:
             if self.parked:

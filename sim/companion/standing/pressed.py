@@ -51,7 +51,7 @@ class PressedSettings(Settings):
     """
 
     strength: float = number(1.0, "1", 0.0, 10.0)
-    yield_limb: float = number(0.2, "mm/N", 0.0, 100.0)
+    yield_limb: float = number(0.1, "mm/N", 0.0, 100.0)
     yield_trunk: float = number(0.0, "mm/N", 0.0, 100.0)
 
 

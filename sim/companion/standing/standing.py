@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -34,6 +35,7 @@ _SETTLING = 0.3  # s until the soles carry evenly
 _MARGIN = math.radians(5.0)
 _BASE_STIFFER = 6.0  # than the balance: soles give way at first
 _LOOK_EVERY = 5  # physics steps between two looks at the contacts of the soles
+_CARRIED = 4  # looks over which the centre of pressure is taken
 
 
 class StandingExperiment(Experiment):
@@ -71,6 +73,7 @@ class StandingExperiment(Experiment):
         self.cop_margin_min = math.inf
         self.touched_max = 0
         self._steps = 0
+        self._borne: deque[tuple[float, ...]] = deque(maxlen=_CARRIED)
         self._forces: dict[str, float] = {}
 
     def _first_posture(self) -> NDArray[np.float64]:
@@ -199,7 +202,8 @@ class StandingExperiment(Experiment):
     def _cop_margin(self, world: World) -> float:
         """Distance in m of the true centre of pressure to the edge of the soles' common rectangle, negative outside.
 
-        Both soles are level and face forward, so the rectangle about them is their support polygon.
+        It is that of the last 20 ms: what lands on the skin rings in the soles for a few steps. Both soles are level
+        and face forward, so the rectangle about them is their support polygon.
         """
         model, data = world.model, world.data
         floor = model.geom("floor").id
@@ -210,6 +214,8 @@ class StandingExperiment(Experiment):
                 mujoco.mj_contactForce(model, data, i, wrench)
                 total += wrench[0]
                 moment += wrench[0] * contact.pos[:2]
+        self._borne.append((total, *moment.tolist()))
+        total, *moment = np.sum(self._borne, axis=0)
         if total < 0.2 * GRAVITY:
             return -1.0
         corners = []
@@ -217,7 +223,7 @@ class StandingExperiment(Experiment):
             geom = model.geom(f"{side}_sole_box")
             corners += [data.geom(geom.id).xpos[:2] + s * geom.size[:2] for s in (-1.0, 1.0)]
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-        cop = moment / total
+        cop = np.array(moment) / total
         return float(min((cop - low).min(), (high - cop).min()))
 
     def balance_reasons(self) -> list[dict[str, Any]]:
