@@ -12,24 +12,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
-import daqp
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import null_space, solve_triangular
+from scipy.linalg import solve_triangular
 
 from plantar.errors import InputError
+from plantar.mechanics.within_limits import Box, nearest_within
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchy import DAMPED, RANK, Fused, fuse, joint_torques
 from wholebody.fusion.null_space import mass_factor
 from wholebody.tasks.task import Demand
 
 __all__ = ["HierarchicalQP", "JointLimits"]
-
-_KEPT = 1e-9  # share of a limit's row by which it may be missed
-_ROUNDS = 4  # of limits that are found to act only once others do
-_LEAST = 1e-6  # weight of motion that a level does not care for, while its limits are looked for
 
 
 @dataclass(frozen=True)
@@ -73,15 +68,6 @@ class JointLimits:
         )
 
 
-class _Box(NamedTuple):
-    """Limits of y: low <= rows y <= high, each row of size 1; the first `hard` are those of torque."""
-
-    rows: NDArray[np.float64]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
-    hard: int
-
-
 class HierarchicalQP:
     """A fusion, to be called as `wholebody.fusion.hierarchy.fuse` is.
 
@@ -123,25 +109,11 @@ class HierarchicalQP:
             shared = np.linalg.lstsq(support.jacobian[:, base].T, factor[base], rcond=None)[0]
             columns = columns - support.jacobian[:, robot.joints].T @ shared
         moves = np.asarray(solve_triangular(factor, np.eye(len(factor)), lower=True).T)[robot.joints]
-        box = _box(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
+        box = Box.of(columns, -self.limits.torque - still, self.limits.torque - still, moves, low, high)
         y = _descend(factor, box, levels, support)
         acceleration = np.asarray(solve_triangular(factor, y, lower=True, trans=1))
         torque, force = joint_torques(robot, factor @ y + robot.bias - outer, support)
         return Fused(np.clip(torque, -self.limits.torque, self.limits.torque), acceleration, force)
-
-
-def _box(
-    columns: NDArray[np.float64],
-    least: NDArray[np.float64],
-    most: NDArray[np.float64],
-    moves: NDArray[np.float64],
-    low: NDArray[np.float64],
-    high: NDArray[np.float64],
-) -> _Box:
-    """Limits of torques, then of accelerations, their rows scaled to size 1."""
-    rows = np.vstack([columns, moves])
-    sizes = np.maximum(np.sqrt(np.einsum("ij,ij->i", rows, rows)), np.finfo(float).tiny)
-    return _Box(rows / sizes[:, None], np.hstack([least, low]) / sizes, np.hstack([most, high]) / sizes, len(columns))
 
 
 def _sublevels(
@@ -160,7 +132,7 @@ def _sublevels(
 
 
 def _descend(
-    factor: NDArray[np.float64], box: _Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
+    factor: NDArray[np.float64], box: Box, levels: Sequence[Sequence[Demand | None]], support: Demand | None
 ) -> NDArray[np.float64]:
     """Meet level after level, the support as if there were no limits; what nobody asks for moves least."""
     y, left = np.zeros(len(factor)), np.eye(len(factor))  # and an orthonormal basis of what is left
@@ -184,72 +156,13 @@ def _descend(
         else:
             target = own @ (left.T @ np.asarray(solve_triangular(factor, force, lower=True)))
         if limited:
-            box, target = _within(box, y, left, own, target, weights)
+            box, target = nearest_within(box, y, left, own, target, weights)
         limited = True
         y = y + left @ (target @ own)
         left = left @ along[rank:].T
     rest = left.shape[1]
-    return y + left @ _within(box, y, left, np.eye(rest), np.zeros(rest), np.ones(rest))[1] if rest else y
+    return y + left @ nearest_within(box, y, left, np.eye(rest), np.zeros(rest), np.ones(rest))[1] if rest else y
 
 
 def _back(factor: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(solve_triangular(factor, y, lower=True, trans=1))
-
-
-def _within(
-    box: _Box,
-    y: NDArray[np.float64],
-    left: NDArray[np.float64],
-    own: NDArray[np.float64],
-    target: NDArray[np.float64],
-    weights: NDArray[np.float64],
-) -> tuple[_Box, NDArray[np.float64]]:
-    """What is nearest to the target in the directions `own` of what is left, so that some of the rest keeps the limits.
-
-    The solver finds which limits act; with these as equations the level is solved once more, to rounding.
-    """
-    reached = box.rows @ y
-    rows, low, high = box.rows @ left, box.low - reached, box.high - reached
-    z = target @ own
-    if _miss(rows, low, high, z).max(initial=0.0) <= 0.0:
-        return box, target
-    seen = np.einsum("ij,ij->i", rows, rows) > _KEPT**2  # others are decided by the levels above
-    rows, low, high = rows[seen], low[seen], high[seen]
-    scale = weights / weights.max()
-    hessian = (own.T * scale) @ own + _LEAST * np.eye(left.shape[1])
-    z, _, flag, info = daqp.solve(hessian, -(scale * target) @ own, rows, high, low, primal_tol=_KEPT)
-    if flag < 0:
-        return _within(_widened(box, y, left), y, left, own, target, weights)
-    acting, root = np.abs(info["lam"]) > 0.0, np.sqrt(scale)
-    for _ in range(_ROUNDS):
-        held = np.where(rows[acting] @ z > (low + high)[acting] / 2.0, high[acting], low[acting])
-        fixed = np.linalg.lstsq(rows[acting], held, rcond=_KEPT)[0]
-        free = null_space(rows[acting], rcond=_KEPT)
-        exact = fixed + free @ np.linalg.lstsq((root[:, None] * own) @ free, root * (target - own @ fixed), _KEPT)[0]
-        missed = _miss(rows, low, high, exact) > _KEPT * (1.0 + np.abs(exact).max())
-        if not missed.any():
-            return box, own @ exact
-        acting |= missed
-    return box, own @ z
-
-
-def _widened(box: _Box, y: NDArray[np.float64], left: NDArray[np.float64]) -> _Box:
-    """Limits that can be kept: those of accelerations give way, and those of torques where this is not enough."""
-    reached, least = box.rows @ y, _LEAST * np.eye(left.shape[1])
-    for hard in (box.hard, 0):
-        soft = np.where(np.arange(len(box.rows)) < hard, 0, 8).astype(np.int32)
-        rows, nothing = box.rows @ left, np.zeros(left.shape[1])
-        z, _, flag, _ = daqp.solve(least, nothing, rows, box.high - reached, box.low - reached, soft)
-        if flag > 0:
-            break
-    at = reached + rows @ z
-    slack = 1e-6 * (1.0 + np.abs(at))
-    return box._replace(low=np.minimum(box.low, at - slack), high=np.maximum(box.high, at + slack))
-
-
-def _miss(
-    rows: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64], z: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """By how much each row misses its limits; negative within them."""
-    at = rows @ z
-    return np.asarray(np.maximum(low - at, at - high))

@@ -51,6 +51,7 @@ class ReachControl(CompanionControl):
         stuck: Time for which it has to be slow before it approaches.
         transition: Time in which priorities change.
         acceleration: Largest acceleration of a joint: what is seen on two sides leaves the goal almost no direction.
+        joint_speed: Largest speed of a joint, so that no link strikes what it does not see in time.
         upright: Whether the tip's orientation is held, below everything that is touched or seen.
     """
 
@@ -67,6 +68,7 @@ class ReachControl(CompanionControl):
     stuck: float = number(0.3, "s", 0.0, 10.0)
     transition: float = number(0.05, "s", 0.0, 2.0)
     acceleration: float = number(40.0, "rad/s^2", 1.0, 1e6)
+    joint_speed: float = number(0.8, "rad/s", 0.01, 100.0)
     upright: bool = switch(False)
 
 
@@ -116,7 +118,8 @@ class ReachController:
         self.signs = ContactSigns(np.inf, 0.0, 0.0)
         self._velocity, self._seen, self._time = np.zeros(3), 0.0, np.inf
         self._blend = PriorityTransition(TransitionSettings(duration=s.transition))
-        limits_of_joints = 0.98 * machine.efforts, machine.velocities, *_ranges(machine)
+        speeds = np.minimum(machine.velocities, s.joint_speed)
+        limits_of_joints = 0.98 * machine.efforts, speeds, *_ranges(machine)
         within = HierarchicalQP(JointLimits(*limits_of_joints, acceleration=s.acceleration))
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
