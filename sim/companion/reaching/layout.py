@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mechanics.lip import GRAVITY
 from sim.companion.skin_surface import OBSTACLE_GROUP
 
 __all__ = ["KINDS", "Layout", "Post", "random_layout"]
@@ -50,7 +51,7 @@ class Post:
         shape.group, shape.rgba = OBSTACLE_GROUP, [0.85, 0.35, 0.3, 1.0]
         if self.friction:
             shape.rgba = [0.35, 0.6, 0.85, 1.0]
-            shape.mass = self.friction / (0.4 * 9.81)  # a coefficient of 0.4 on the table
+            shape.mass = self.friction / (0.4 * GRAVITY)  # a coefficient of 0.4 on the table
             for i, axis in enumerate(np.eye(3)[:2]):
                 slide = body.add_joint(name=f"{self.name}_{'xy'[i]}", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
                 slide.frictionloss = self.friction
