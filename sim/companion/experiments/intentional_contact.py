@@ -41,6 +41,7 @@ class ReachSettings(Settings):
         largest_angle: Largest.
         least_friction: Least force that it takes to push what can be moved.
         largest_friction: Largest.
+        half_height: Half of the height of what stands around, whose middle is at the tip's height.
         tolerance: Distance from the goal at which it is reached.
     """
 
@@ -55,6 +56,7 @@ class ReachSettings(Settings):
     largest_angle: float = number(90.0, "deg", -360.0, 360.0)
     least_friction: float = number(2.0, "N", 0.1, 1e3)
     largest_friction: float = number(5.0, "N", 0.1, 1e3)
+    half_height: float = number(0.12, "m", 0.01, 1.0)
     tolerance: float = number(0.015, "m", 1e-3, 1.0)
 
 
@@ -89,12 +91,13 @@ class IntentionalContactExperiment(Experiment):
         self._since = self._reached = math.inf
         self._error = math.inf
         self._due = 0.0
+        self._pressed: dict[str, np.ndarray[Any, np.dtype[np.float64]]] = {}
         self._hand: ReachController
 
     def add_to(self, spec: Any) -> None:
         spec.worldbody.add_light(pos=[0.5, 0.3, 4.0])
         for post in self.layout.posts:
-            post.add_to(spec, self._height)
+            post.add_to(spec, self._height, self.settings.half_height)
         mark = spec.worldbody.add_site(name="goal", pos=self._goal, size=[0.02, 0.02, 0.02])
         mark.rgba = [0.2, 0.7, 0.3, 1.0]
 
@@ -103,10 +106,24 @@ class IntentionalContactExperiment(Experiment):
         self._hand.goal.target_position = self._goal
         return self._hand
 
+    def act(self, world: World, time: float) -> None:
+        """Take note of what parts without skin press on the posts: MuJoCo's contacts are whole until the next step."""
+        wrench = np.zeros(6)
+        self._pressed = {post.name: np.zeros(3) for post in self.layout.posts}
+        for i in range(world.data.ncon):
+            contact = world.data.contact[i]
+            names = [world.model.geom(geom).name for geom in (contact.geom1, contact.geom2)]
+            touched = [name for name in names if name in self._pressed]
+            if len(touched) == 1:  # two posts that lean on each other are not the arm's
+                mujoco.mj_contactForce(world.model, world.data, i, wrench)
+                sign = 1.0 if names[1] == touched[0] else -1.0
+                self._pressed[touched[0]] += sign * (contact.frame.reshape(3, 3).T @ wrench[:3])
+
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         origin, rotation = world.pose(self._tip[0])
         tip = origin + rotation @ self._tip[1]
-        force = max(float(np.sqrt(w[:3] @ w[:3])) for w in sensor.on_obstacles.values())
+        pushes = (w[:3] + self._pressed[name] for name, w in sensor.on_obstacles.items())
+        force = max(float(np.sqrt(push @ push)) for push in pushes)
         self._highest = max(self._highest, force)
         self._error = float(np.linalg.norm(tip - self._goal))
         if self._error > self.settings.tolerance:

@@ -18,7 +18,6 @@ __all__ = ["KINDS", "Layout", "Post", "random_layout"]
 KINDS = ("movable", "goal", "beside")
 """Movable things on the way, one where the goal is, and a fixed one beside movable ones (T Figures 24-27)."""
 
-_HALF_HEIGHT = 0.12  # m
 _SPACING = 0.155  # m between the middles of neighbours in the bow, along it
 
 
@@ -38,15 +37,16 @@ class Post:
     radius: float
     friction: float = 0.0
 
-    def add_to(self, spec: Any, height: float) -> None:
+    def add_to(self, spec: Any, height: float, half: float) -> None:
         """Add it to an `mujoco.MjSpec`, its middle at a height in m: what can be moved slides in the plane.
 
         Args:
             spec: The specification.
             height: Height in m.
+            half: Half of its own height in m.
         """
         body = spec.worldbody.add_body(name=self.name, pos=[*self.place, height])
-        size = [self.radius, _HALF_HEIGHT, 0.0]
+        size = [self.radius, half, 0.0]
         shape = body.add_geom(name=self.name, type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=size)
         shape.group, shape.rgba = OBSTACLE_GROUP, [0.85, 0.35, 0.3, 1.0]
         if self.friction:

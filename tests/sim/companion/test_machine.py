@@ -102,7 +102,7 @@ def test_model_that_mujoco_refuses_is_told_in_a_line(tmp_path):
 
 
 def test_unknown_machine_is_told_with_those_that_there_are():
-    with pytest.raises(RobotError, match=r"allowed: .*mobile-arm, planar-arm"):
+    with pytest.raises(RobotError, match=r"allowed: .*mobile-arm, planar-arm, table-arm"):
         load_machine("mobile-amr")
 
 

@@ -30,3 +30,19 @@ def test_without_touching_it_stays_in_the_local_minimum(policy):
     assert not summary["completed"]
     assert [r["criterion"] for r in summary["reasons"]] == ["goal"]
     assert summary["error_mm"] > 50.0
+
+
+@pytest.mark.long
+def test_a_finger_over_a_table_pushes_what_stands_at_its_goal():
+    companion = Companion(open_scene("table-contact"), 1)
+    summary = companion.run()
+    assert summary["completed"], summary["reasons"]
+    assert 1.0 < summary["force_max_N"] < 16.5
+
+
+def test_what_parts_without_skin_press_counts_too():
+    """The wrist of the table's arm has no skin: pushed against a post it is judged all the same."""
+    companion = Companion(open_scene("table-contact", ["half_height=0.12", "duration=4.2"]), 1)
+    summary = companion.run()
+    assert summary["force_max_N"] > 1.0
+    assert max(abs(w[:3]).max() for w in companion.skin.on_obstacles.values()) == 0.0
