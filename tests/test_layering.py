@@ -32,7 +32,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "controller_tables",
     ),
     "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
-    "wholebody": ("dynamics", "skin", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
+    "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
         *("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "companion", "run"),
         "sweep",

@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import SkinReading
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchy import Fused, fuse
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["Fusion", "TaskStack"]

@@ -20,13 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import SceneError
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, choice, number
 from sim.companion.machine import Machine
 from sim.companion.skin_sensing import SkinSensor
 from sim.figures.render import View
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 
 __all__ = [
     "CompanionControl",

@@ -7,9 +7,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number, whole
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 
 __all__ = ["SkinElectronics", "SkinElectronicsSettings"]
 

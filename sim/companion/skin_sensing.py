@@ -15,12 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number, switch
 from sim.companion.obstacle import Obstacle
 from sim.companion.skin_electronics import SkinElectronics, SkinElectronicsSettings
 from sim.companion.skin_surface import OBSTACLE_GROUP
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 
 __all__ = ["LIFT", "SkinSensing", "SkinSensor"]
 

@@ -19,8 +19,8 @@ from plantar.arrays import array
 from plantar.errors import InputError, LayoutError, RobotError
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.settings.schema import Settings, number, tables, text, whole
-from wholebody.skin.patch import BodySkin, SkinPatch
 
 __all__ = ["OBSTACLE_GROUP", "PatchShape", "skin_from_tables"]
 

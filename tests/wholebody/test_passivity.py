@@ -6,8 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from wholebody.skin.patch import BodySkin, SkinPatch
-from wholebody.skin.reading import SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from wholebody.stack import TaskStack
 from wholebody.tasks.base_avoidance import BaseAvoidance
 from wholebody.tasks.body_compliance import BodyCompliance

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from plantar.sensing.link_skin import SkinReading
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.posture import Posture
 from wholebody.tasks.task import Demand, Task
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.rotation import rotation_error
+from plantar.sensing.link_skin import SkinReading
 from plantar.settings.schema import Settings, number
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["CartesianPose", "PoseGains"]

@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sensing.body_skin import patch_signal
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["CompliantWrist", "WristGains"]

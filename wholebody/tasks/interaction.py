@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.skin_interaction import SkinInteraction
 from wholebody.tasks.task import Demand
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import LinkWrench, SkinReading
+from plantar.sensing.link_skin import BodySkin, LinkWrench, SkinReading
 from wholebody.tasks.interaction import DirectInteraction
 
 __all__ = ["PressureInteraction"]

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from wholebody.tasks.skin_interaction import SkinInteraction
 
 __all__ = ["ProximityInteraction"]

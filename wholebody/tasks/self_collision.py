@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
+from plantar.sensing.link_skin import SkinReading
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["SelfCollision", "Sphere"]

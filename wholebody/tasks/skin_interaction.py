@@ -7,9 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, LinkWrench, SkinReading, link_wrenches
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import LinkWrench, SkinReading, link_wrenches
 from wholebody.tasks.task import Demand, Task, wrench_demand
 
 __all__ = ["SkinInteraction"]

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.wrench_cone import Rectangle
+from plantar.sensing.link_skin import SkinReading
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["Standing", "Support"]

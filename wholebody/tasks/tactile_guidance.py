@@ -7,10 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.schema import Settings, number
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading, link_wrenches
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["GuidanceGains", "TactileGuidance"]

@@ -8,8 +8,8 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import LinkWrench, SkinReading
 from wholebody.dynamics import RobotDynamics
-from wholebody.skin.reading import LinkWrench, SkinReading
 
 __all__ = ["Demand", "Task", "wrench_demand"]
 

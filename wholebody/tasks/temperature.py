@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from wholebody.tasks.skin_interaction import SkinInteraction
 
 __all__ = ["TemperatureInteraction"]

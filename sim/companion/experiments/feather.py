@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
@@ -18,7 +19,6 @@ from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.standing import StandingExperiment, patch_named
 from sim.companion.standing.visitor import Visitor
-from wholebody.skin.patch import BodySkin
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.proximity import ProximityInteraction
 from wholebody.tasks.task import Task

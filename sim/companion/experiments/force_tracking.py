@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, tables
 from sim.companion.experiment import Experiment, Verdict, World, failed
 from sim.companion.handling.actors import Fist, Push, Visit, Visitor, smooth_step
@@ -22,7 +23,6 @@ from sim.companion.machine import Machine
 from sim.companion.skin_sensing import SkinSensor
 from sim.companion.skin_surface import OBSTACLE_GROUP
 from sim.figures.render import View
-from wholebody.skin.patch import BodySkin
 
 __all__ = ["ForceTracking", "ForceTrackingSettings"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from plantar.sensing.link_skin import BodySkin
 from sim.companion.machine import Machine
 from sim.companion.standing.pressed import PressedExperiment
-from wholebody.skin.patch import BodySkin
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.task import Task
 

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import mujoco
 import numpy as np
 
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, tables, text
 from sim.companion.experiment import Experiment, Verdict, World, failed
 from sim.companion.machine import Machine
@@ -18,7 +19,6 @@ from sim.companion.reaching.reach_controller import ReachControl, ReachControlle
 from sim.companion.reaching.reach_record import ReachRecord
 from sim.companion.skin_sensing import SkinSensor
 from sim.figures.render import View
-from wholebody.skin.patch import BodySkin
 
 __all__ = ["IntentionalContactExperiment", "ReachSettings"]
 
@@ -107,7 +107,12 @@ class IntentionalContactExperiment(Experiment):
         return self._hand
 
     def act(self, world: World, time: float) -> None:
-        """Take note of what parts without skin press on the posts: MuJoCo's contacts are whole until the next step."""
+        """Take note of what parts without skin press on the posts: MuJoCo's contacts are whole until the next step.
+
+        Args:
+            world: The world.
+            time: Time in s.
+        """
         wrench = np.zeros(6)
         self._pressed = {post.name: np.zeros(3) for post in self.layout.posts}
         for i in range(world.data.ncon):

@@ -19,6 +19,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
@@ -29,8 +30,6 @@ from sim.companion.standing.standing import StandingExperiment
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.contact_forces import ContactForces
 from wholebody.fusion.hierarchy import fuse
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.center_of_mass import CenterOfMass
 from wholebody.tasks.posture import Posture

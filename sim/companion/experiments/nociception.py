@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number, switch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Controller, Verdict, World, failed
@@ -25,8 +26,6 @@ from sim.companion.standing.pad import Pad
 from sim.companion.standing.standing import StandingExperiment, patch_named
 from wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
 from wholebody.fusion.priority_transition import PriorityTransition
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.cartesian_pose import CartesianPose
 from wholebody.tasks.pressure import PressureInteraction
 from wholebody.tasks.task import Task

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
@@ -20,7 +21,6 @@ from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.standing import StandingExperiment, patch_named
-from wholebody.skin.patch import BodySkin
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.pressure import PressureInteraction
 from wholebody.tasks.task import Task

@@ -16,6 +16,7 @@ import mujoco
 import numpy as np
 
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number, switch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Controller, Verdict, World, failed
@@ -26,8 +27,6 @@ from sim.companion.standing.controller import StandingControl, StandingControlle
 from sim.companion.standing.heat import HotPlate, PlateSettings
 from sim.companion.standing.standing import StandingExperiment
 from wholebody.fusion.priority_transition import PriorityTransition
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.task import Task
 from wholebody.tasks.temperature import TemperatureInteraction

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.schema import choice, number, switch
 from sim.companion.experiment import CompanionControl
 from sim.companion.machine import Machine
@@ -13,8 +14,6 @@ from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchy import fuse
 from wholebody.fusion.priority_transition import PriorityTransition
 from wholebody.fusion.weighted_sum import weighted_sum
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading, link_wrenches
 from wholebody.stack import TaskStack
 from wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
 from wholebody.tasks.body_compliance import BodyCompliance

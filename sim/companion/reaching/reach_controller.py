@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import choice, number, switch
 from sim.companion.experiment import CompanionControl
 from sim.companion.machine import Machine
@@ -15,8 +16,6 @@ from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
 from wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings
 from wholebody.fusion.weighted_sum import weighted_sum
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading
 from wholebody.stack import TaskStack
 from wholebody.tasks.along_force import AlongForce
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains

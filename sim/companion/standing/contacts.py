@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import SkinPatch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.standing.pad import Pad
-from wholebody.skin.patch import SkinPatch
 
 __all__ = ["PlannedContact", "outer_taxel"]
 

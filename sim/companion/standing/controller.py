@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.schema import number, switch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import CompanionControl
 from sim.companion.standing.stance import Stance
-from wholebody.skin.patch import BodySkin
-from wholebody.skin.reading import SkinReading, link_wrenches
 from wholebody.stack import TaskStack
 from wholebody.tasks.center_of_mass import CenterOfMass
 from wholebody.tasks.task import Task

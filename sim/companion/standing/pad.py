@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.sensing.link_skin import SkinPatch
 from sim.companion.skin_surface import OBSTACLE_GROUP
-from wholebody.skin.patch import SkinPatch
 
 __all__ = ["Pad"]
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
@@ -19,7 +20,6 @@ from sim.companion.standing.contacts import PlannedContact, outer_taxel
 from sim.companion.standing.controller import StandingController
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.standing import StandingExperiment, by_active, patch_named
-from wholebody.skin.patch import BodySkin
 from wholebody.tasks.task import Task
 
 __all__ = ["UPPER_BODY", "PressedExperiment", "PressedSettings"]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Experiment, World, failed
 from sim.companion.machine import Machine
@@ -21,7 +22,6 @@ from sim.companion.standing.controller import StandingControl
 from sim.companion.standing.joint_range import JointRange
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.stance import Stance, add_floor
-from wholebody.skin.patch import BodySkin, SkinPatch
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.center_of_mass import CenterOfMass
 from wholebody.tasks.posture import Posture

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 import wholebody.tasks
-from wholebody.skin.patch import BodySkin, SkinPatch
-from wholebody.skin.reading import SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from wholebody.tasks.along_force import AlongForce
 from wholebody.tasks.base_avoidance import BaseAvoidance
 from wholebody.tasks.body_compliance import BodyCompliance

@@ -4,9 +4,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from sim.companion.dynamics import MujocoDynamics
-from wholebody.skin.patch import BodySkin, SkinPatch
-from wholebody.skin.reading import SkinReading
 from wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
 from wholebody.tasks.contact_force import ContactForce, ContactGains
 from wholebody.tasks.posture import Posture

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from wholebody.skin.patch import BodySkin, SkinPatch
-from wholebody.skin.reading import SkinReading
+from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from wholebody.stack import TaskStack
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.pressure import PressureInteraction

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError, LayoutError
-from wholebody.skin.patch import BodySkin, SkinPatch
-from wholebody.skin.reading import link_wrenches
+from plantar.sensing.link_skin import BodySkin, SkinPatch, link_wrenches
 
 
 def patch(name, link, count, seed=0, **options):

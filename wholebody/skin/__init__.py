@@ -1,1 +1,0 @@
-"""Where the taxels of a body are, and what they say together."""
