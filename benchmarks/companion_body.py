@@ -49,6 +49,7 @@ CASES = (
     Case("stove"),
     Case("multi-contact"),
     Case("hug"),
+    Case("lean"),
     Case("feather", "without proximity", ("proximity=false",), 5),
     Case("nociception", "without the reflex", ("reflex=false",), 5),
     Case("nociception", "priorities that jump", ("smooth=false",), 5),
@@ -56,6 +57,7 @@ CASES = (
     Case("stove", "without temperature", ("control.temperature=false",), 5),
     Case("multi-contact", "without skin", ("control.skin=false",), 5),
     Case("hug", "without skin", ("control.skin=false",), 5),
+    Case("lean", "without the forearm's skin", ("control.skin=false",), 5),
 )
 
 COLUMNS: dict[str, tuple[str, ...]] = {
@@ -65,6 +67,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "feather": ("distance_min_mm", "moved_mm", "cop_margin_min_mm"),
     "stove": ("temperature_max", "retreat_mm", "cop_margin_min_mm"),
     "nociception": ("threshold_ratio", "torque_jump", "moved_mm", "cop_margin_min_mm"),
+    "lean": ("beyond_mm", "reach_error_mm", "tilt_max_deg"),
 }
 """Figures of each scene in the table, as its experiment calls them."""
 
