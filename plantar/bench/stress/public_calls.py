@@ -49,6 +49,10 @@ INNER: frozenset[str] = frozenset(
         *(f"rotation.{name}" for name in ("heading", "orthonormalised", "rotation_error", "rotation_from_vector")),
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
         *("wrench.wrench_in_frame", "wrench.Wrench.of", "contact.Contact", "contact.Contact.wrench_in_world"),
+        *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches"),
+        *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),
+        *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
+        *("wrench_distribution.Program", "wrench_distribution.WrenchShare"),
         *("base_state.BaseState", "cell_edges.cells_overlap", "taxel_values.without_dead"),
         # What functions return; nobody else makes them.
         *("batch.GroundPlanes", "batch.Loads", "batch.SupportPolygons", "partial_contact.GroundEdges"),
@@ -60,6 +64,8 @@ INNER: frozenset[str] = frozenset(
             "inscribed.BoundedRectangle",
         ),
         *("foot_tick.FootTick",),
+        # Its arrays go with a name, a link and thresholds; its own tests hand it wrong ones.
+        "link_skin.SkinPatch",
         # Hands views of what it is given to the caller, who may pass a memory map.
         "batch.blocks",
     }

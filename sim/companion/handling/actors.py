@@ -30,7 +30,7 @@ def smooth_step(share: float) -> float:
     """From 0 to 1 without a jump of speed; held outside of 0 to 1.
 
     Example:
-        >>> smooth_step(-1.0), smooth_step(0.5), smooth_step(2.0)
+        >>> smooth_step(-1.0), round(smooth_step(0.5), 9), smooth_step(2.0)
         (0.0, 0.5, 1.0)
     """
     return 0.5 - 0.5 * math.cos(math.pi * min(max(share, 0.0), 1.0))

@@ -5,7 +5,10 @@ from __future__ import annotations
 import pytest
 
 from plantar.errors import InputError
+from sim.companion.experiment import experiment_names
+from sim.companion.scene import companion_tables
 from sim.run.scene import load_scene
+from sim.run.scene_kind import open_scene
 from sim.run.setting_list import settings_listed
 
 
@@ -21,6 +24,13 @@ def test_what_is_listed_is_taken() -> None:
         table, _, name = full.rpartition(".")
         section, _, kind = table.partition(".")
         if name in ("kind", "solid"):
+            continue
+        if section in experiment_names():
+            kinds = companion_tables(section).items()
+            owner = next(t for t, k in kinds if (name, told.default) in [(d.name, d.default) for d in k.described()])
+            open_scene(
+                "force-tracking-1" if section == "force-tracking" else section, [f"{owner}.{name}={told.default}"]
+            )
             continue
         given = [f"terrain.kind={kind}"] if section == "terrain" else []
         load_scene("flat", [*given, f"{section}.{name}={told.default}"])
