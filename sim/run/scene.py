@@ -35,6 +35,7 @@ __all__ = [
     "load_scene",
     "override",
     "scene_file",
+    "scene_of",
     "setting_name",
 ]
 
@@ -357,7 +358,24 @@ def load_scene(name: str | os.PathLike[str], settings: Sequence[str] = (), robot
         4
     """
     path = scene_file(name)
-    source = read_toml(path, SceneError, f"scene file {path}")
+    return scene_of(read_toml(path, SceneError, f"scene file {path}"), path, settings, robot)
+
+
+def scene_of(source: Mapping[str, Any], path: Path, settings: Sequence[str] = (), robot: str | None = None) -> Scene:
+    """Make a scene of what a TOML file holds.
+
+    Args:
+        source: What it holds.
+        path: The file, for names and messages.
+        settings: `key=value` settings that override the file's.
+        robot: Robot to use instead of the file's.
+
+    Returns:
+        The scene.
+
+    Raises:
+        SceneError: If a field is not valid; the message names it.
+    """
     given = set(source)
     source = override(source, settings)
     where = f"scene '{path.stem}'"

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from plantar.errors import SceneError
 from plantar.files.structured_text import read_toml
-from sim.run.scene import Scene, load_scene, scene_file, setting_name
+from sim.run.scene import Scene, scene_file, scene_of, setting_name
 
 if TYPE_CHECKING:
     from sim.companion.scene import CompanionScene
@@ -53,7 +53,7 @@ def open_scene(
         from sim.companion.scene import companion_scene
 
         return companion_scene(source, path, settings, robot)
-    return load_scene(name, settings, robot)
+    return scene_of(source, path, settings, robot)
 
 
 def full_setting_name(scene: Scene | CompanionScene, key: str) -> str:
