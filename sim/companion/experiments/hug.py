@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from plantar.sensing.link_skin import BodySkin
 from sim.companion.machine import Machine
 from sim.companion.standing.pressed import PressedExperiment
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.task import Task
 
 __all__ = ["Hug"]
 
@@ -29,11 +26,3 @@ class Hug(PressedExperiment):
         begin = self.rng.uniform(5.8, 6.2)
         for patch in _HUGGING:
             self.press(f"together {patch.replace('_', ' ')}", [patch], begin + self.rng.uniform(0.0, 0.3), 2.5)
-
-    def levels(self, skin: BodySkin) -> list[list[Task]]:
-        yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
-        return [
-            self.balance_tasks(),
-            [self.self_collision_task(), self.joint_range_task()],
-            [*yielding, self.posture_task()],
-        ]

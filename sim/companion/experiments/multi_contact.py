@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from plantar.sensing.link_skin import BodySkin
 from sim.companion.machine import Machine
 from sim.companion.standing.pressed import UPPER_BODY, PressedExperiment
-from wholebody.tasks.interaction import DirectInteraction
-from wholebody.tasks.task import Task
 
 __all__ = ["MultiContact"]
 
@@ -38,8 +35,3 @@ class MultiContact(PressedExperiment):
         begin = self.rng.uniform(7.7, 8.0)
         for name, patches in self.instances.items():
             self.press(f"together {name}", patches, begin + self.rng.uniform(0.0, 0.2), 2.2)
-
-    def levels(self, skin: BodySkin) -> list[list[Task]]:
-        yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
-        apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
-        return [self.balance_tasks(), apart, [*yielding, self.posture_task()]]

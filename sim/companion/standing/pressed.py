@@ -20,6 +20,7 @@ from sim.companion.standing.contacts import PlannedContact, outer_taxel
 from sim.companion.standing.controller import StandingController
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.standing import StandingExperiment, by_active, patch_named
+from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.task import Task
 
 __all__ = ["UPPER_BODY", "PressedExperiment", "PressedSettings"]
@@ -96,8 +97,10 @@ class PressedExperiment(StandingExperiment):
         self.contacts.append(PlannedContact(pad, begin, hold, force))
 
     def levels(self, skin: BodySkin) -> list[list[Task]]:
-        """Tasks by priority."""
-        raise NotImplementedError
+        """Tasks by priority: balance, what keeps links and joints apart, and last skin and posture together."""
+        yielding = [DirectInteraction(skin, self.control.gain, patches) for patches in self.instances.values()]
+        apart: list[Task] = [self.self_collision_task(), self.joint_range_task()]
+        return [self.balance_tasks(), apart, [*yielding, self.posture_task()]]
 
     def controller(self, machine: Machine, skin: BodySkin) -> Controller:
         levels = self.levels(skin)
