@@ -115,6 +115,17 @@ class BodySkin:
     def __len__(self) -> int:
         return len(self.positions)
 
+    def patch(self, name: str) -> SkinPatch:
+        """The patch of a name.
+
+        Raises:
+            InputError: If there is none.
+        """
+        found = next((p for p in self.patches if p.name == name), None)
+        if found is None:
+            raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")
+        return found
+
     def taxels_of(self, patches: Sequence[str] | None) -> NDArray[np.bool_]:
         """Mask (N,) of the taxels of some patches; of all where None.
 
@@ -125,9 +136,7 @@ class BodySkin:
             return np.ones(len(self), dtype=bool)
         found = np.zeros(len(self), dtype=bool)
         for name in patches:
-            if name not in self.slices:
-                raise InputError(f"no patch is called '{name}'; allowed: {', '.join(self.slices)}")
-            found[self.slices[name]] = True
+            found[self.slices[self.patch(name).name]] = True
         return found
 
 

@@ -48,11 +48,10 @@ class CompliantWrist(Task):
     """
 
     def __init__(self, skin: BodySkin, patch: str, point: NDArray[np.float64], gains: WristGains | None = None) -> None:
-        skin.taxels_of([patch])
         self.gains = gains or WristGains()
         self.weight, self.moment = 0.0, np.zeros(3)
+        self._link = skin.patch(patch).link
         self._own = skin.slices[patch]
-        self._link = next(p.link for p in skin.patches if p.name == patch)
         self._ranges = skin.ranges[self._own]
         unit = skin.unit_wrenches[self._own]
         self._arms = unit[:, 3:] - np.cross(np.asarray(point, dtype=float), unit[:, :3])  # about the middle

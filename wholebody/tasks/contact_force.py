@@ -69,13 +69,12 @@ class ContactForce(Task):
         normal: NDArray[np.float64],
         gains: ContactGains | None = None,
     ) -> None:
-        skin.taxels_of([patch])
         self.gains = gains or ContactGains()
         self.weight, self.target_force, self.target_distance = 0.0, 0.0, 0.03
         self.approach_speed = float("inf")
         self.force, self.distance = 0.0, np.inf
+        self._link = skin.patch(patch).link
         self._own = skin.slices[patch]
-        self._link = next(p.link for p in skin.patches if p.name == patch)
         self._point, self._normal = np.asarray(point, dtype=float), np.asarray(normal, dtype=float)
         self._push = -skin.unit_wrenches[self._own, :3] @ self._normal  # share of each taxel's force along it
         self._reach = float(skin.ranges[self._own].max())

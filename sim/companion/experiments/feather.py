@@ -17,7 +17,7 @@ from sim.companion.machine import Machine
 from sim.companion.skin_sensing import SkinSensor
 from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
-from sim.companion.standing.standing import StandingExperiment, patch_named
+from sim.companion.standing.standing import StandingExperiment
 from sim.companion.standing.visitor import Visitor
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.proximity import ProximityInteraction
@@ -79,7 +79,7 @@ class Feather(StandingExperiment):
         self.side = str(self.rng.choice(["left", "right"]))
         end = 0.5
         for visitor in self.visitors:
-            patch = patch_named(skin, f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
+            patch = skin.patch(f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
             central = np.argsort(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1))
             taxel = int(self.rng.choice(central[:4]))
             origin, rotation = self.robot.pose(patch.link)

@@ -23,7 +23,7 @@ from sim.companion.skin_sensing import SkinSensor
 from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.pad import Pad
-from sim.companion.standing.standing import StandingExperiment, patch_named
+from sim.companion.standing.standing import StandingExperiment
 from wholebody.behaviours.nociceptive_reflex import NociceptiveReflex, ReflexSettings
 from wholebody.fusion.priority_transition import PriorityTransition
 from wholebody.tasks.cartesian_pose import CartesianPose
@@ -95,7 +95,7 @@ class Nociception(StandingExperiment):
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
         skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
-        patch = patch_named(skin, _PATCH)
+        patch = skin.patch(_PATCH)
         middle = int(np.argmin(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1)))
         self.rate = _RATE * self.rng.uniform(0.7, 1.3)
         self.probes: dict[str, _Probe] = {}

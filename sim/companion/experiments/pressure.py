@@ -20,7 +20,7 @@ from sim.companion.skin_sensing import SkinSensor
 from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.pad import Pad
-from sim.companion.standing.standing import StandingExperiment, patch_named
+from sim.companion.standing.standing import StandingExperiment
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.pressure import PressureInteraction
 from wholebody.tasks.task import Task
@@ -94,7 +94,7 @@ class Pressure(StandingExperiment):
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
         skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
-        patch = patch_named(skin, _PATCH)
+        patch = skin.patch(_PATCH)
         central = np.argsort(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1))
         taxel = int(self.rng.choice(central[:5]))
         weight = GRAVITY * float(self.robot.model.body_subtreemass[0])

@@ -19,7 +19,7 @@ from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.contacts import PlannedContact, outer_taxel
 from sim.companion.standing.controller import StandingController
 from sim.companion.standing.pad import Pad
-from sim.companion.standing.standing import StandingExperiment, by_active, patch_named
+from sim.companion.standing.standing import StandingExperiment, by_active
 from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.task import Task
 
@@ -86,7 +86,7 @@ class PressedExperiment(StandingExperiment):
             hold: Time in s for which it presses.
         """
         free = [p for p in patches if p not in ("torso_left", "torso_right")]
-        patch = patch_named(self.skin, str(self.rng.choice(free)))
+        patch = self.skin.patch(str(self.rng.choice(free)))
         kind = next(k for k in _SHARES if k in patch.name)
         weight = GRAVITY * float(self.robot.model.body_subtreemass[0])
         force = _SHARES[kind] * weight * self.rng.uniform(0.6, 1.0) * self.settings.strength

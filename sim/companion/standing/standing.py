@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.sensing.link_skin import BodySkin, SkinPatch
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Experiment, World, failed
 from sim.companion.machine import Machine
@@ -28,7 +27,7 @@ from wholebody.tasks.posture import Posture
 from wholebody.tasks.self_collision import SelfCollision, Sphere
 from wholebody.tasks.task import Task
 
-__all__ = ["StandingExperiment", "by_active", "patch_named"]
+__all__ = ["StandingExperiment", "by_active"]
 
 _TILTED = math.cos(math.radians(35.0))  # of the base: it falls
 _SETTLING = 0.3  # s until the soles carry evenly
@@ -245,19 +244,6 @@ class StandingExperiment(Experiment):
             "com_off_max_mm": round(1e3 * self.com_off_max, 1),
             "cop_margin_min_mm": round(1e3 * self.cop_margin_min, 1),
         }
-
-
-def patch_named(skin: BodySkin, name: str) -> SkinPatch:
-    """A patch of a skin.
-
-    Args:
-        skin: The skin.
-        name: Name of one of its patches.
-
-    Returns:
-        The patch.
-    """
-    return next(p for p in skin.patches if p.name == name)
 
 
 def by_active(took: Sequence[float], active: Sequence[int]) -> dict[str, float]:
