@@ -11,7 +11,7 @@ from plantar.errors import InputError
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution, WrenchShare
 from wholebody.dynamics import RobotDynamics
-from wholebody.tasks.support import Standing, Support
+from wholebody.tasks.support import Support
 from wholebody.tasks.task import Demand
 
 __all__ = ["ContactForces"]
@@ -43,6 +43,7 @@ class ContactForces:
         self.shares: Mapping[str, float] | None = None
         self.last: WrenchShare | None = None
         self._support, self._base = support, base
+        self._free: NDArray[np.int64] | None = None  # coordinates that no joint drives
         self._distribution = WrenchDistribution(weight, weights, minimum_force=least * weight)
 
     def __call__(
@@ -63,12 +64,12 @@ class ContactForces:
         """
         if support is None:
             raise InputError("contact forces need a support")
-        wrenches = self.share(robot, force).wrenches
+        contacts = self._contacts(robot)
+        wrenches = self._shared(robot, force, contacts).wrenches
         parts = []
-        for name, standing in self._support.contacts.items():
-            turn = _rotation(robot, standing)
-            turned = np.concatenate([turn @ wrenches[name][:3], turn @ wrenches[name][3:]])
-            parts.append(turned[: standing.rows])
+        for name, contact in contacts.items():
+            turned = np.concatenate([contact.rotation @ wrenches[name][:3], contact.rotation @ wrenches[name][3:]])
+            parts.append(turned[: self._support.contacts[name].rows])
         carried = np.concatenate(parts)
         return force[robot.joints] - support.jacobian[:, robot.joints].T @ carried, carried
 
@@ -82,18 +83,20 @@ class ContactForces:
         Returns:
             The wrench of each contact in its own frame.
         """
-        free = np.setdiff1d(np.arange(len(force)), robot.joints)
-        net = np.asarray(np.linalg.solve(robot.jacobian(self._base)[:, free].T, force[free]))
-        contacts = {}
-        for name, standing in self._support.contacts.items():
-            origin, rotation = robot.pose(standing.link)
-            place = origin + rotation @ standing.point
-            contacts[name] = Contact(place, _rotation(robot, standing), standing.area, standing.friction)
+        return self._shared(robot, force, self._contacts(robot))
+
+    def _shared(self, robot: RobotDynamics, force: NDArray[np.float64], contacts: Mapping[str, Contact]) -> WrenchShare:
+        if self._free is None:
+            self._free = np.setdiff1d(np.arange(len(force)), robot.joints)
+        net = np.asarray(np.linalg.solve(robot.jacobian(self._base)[:, self._free].T, force[self._free]))
         self.last = self._distribution.solve(contacts, net, robot.pose(self._base)[0], self.shares)
         return self.last
 
-
-def _rotation(robot: RobotDynamics, standing: Standing) -> NDArray[np.float64]:
-    """Rotation (3, 3) from a contact's frame to the world."""
-    rotation = robot.pose(standing.link)[1]
-    return rotation if standing.rotation is None else rotation @ standing.rotation
+    def _contacts(self, robot: RobotDynamics) -> dict[str, Contact]:
+        """The support's contacts where they are now."""
+        contacts = {}
+        for name, standing in self._support.contacts.items():
+            origin, rotation = robot.pose(standing.link)
+            turn = rotation if standing.rotation is None else rotation @ standing.rotation
+            contacts[name] = Contact(origin + rotation @ standing.point, turn, standing.area, standing.friction)
+        return contacts
