@@ -227,8 +227,8 @@ def biped_mjcf(
     sole_half_size: tuple[float, float],
     shoe_thickness: float,
     shoe_mass: float,
-    stiffness: float,
-    damping: float,
+    stiffness: Sequence[float],
+    damping: Sequence[float],
 ) -> str:
     """MJCF text of the biped, without ground.
 
@@ -240,8 +240,8 @@ def biped_mjcf(
         sole_half_size: Half lengths (x, y) of the contact rectangle in m.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
-        stiffness: Position gain of every servo in N m/rad.
-        damping: Velocity gain of every servo in N m s/rad.
+        stiffness: Position gain of each of a leg's six servos in N m/rad.
+        damping: Velocity gain of each in N m s/rad.
 
     Returns:
         The MJCF, with bodies "base", "<side>_foot", sites "<side>_sole" and "imu", geoms "<side>_sole_box" and one
@@ -266,7 +266,7 @@ def biped_mjcf(
     sole = {"center": sole_center, "half_size": sole_half_size}
     legs = "".join(_leg(side, p, sole, shoe_mass, shoe_thickness) for side in SIDES)
     servos = "\n".join(
-        f'    <position name="{side}_{joint}" joint="{side}_{joint}" kp="{stiffness:.6g}" kv="{damping:.6g}" '
+        f'    <position name="{side}_{joint}" joint="{side}_{joint}" kp="{stiffness[i]:.6g}" kv="{damping[i]:.6g}" '
         f'forcerange="{-p.effort_limits[i]:.6g} {p.effort_limits[i]:.6g}"/>'
         for side in SIDES
         for i, joint in enumerate(_JOINTS)

@@ -203,9 +203,9 @@ def _put_on_shoe(spec: Any, robot: Robot, side: Any) -> None:
         foot.add_site(name=ankle, pos=[0.0, 0.0, 0.0])
     for name, kind in (("force", mujoco.mjtSensor.mjSENS_FORCE), ("torque", mujoco.mjtSensor.mjSENS_TORQUE)):
         spec.add_sensor(name=f"{side}_ankle_{name}", type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=ankle)
-    mirror = 1.0 if side == "left" else -1.0
-    x, y, z = robot.sole_origin
-    shoe = foot.add_body(pos=[x, mirror * y, z])
+    quaternion = np.empty(4)
+    mujoco.mju_mat2Quat(quaternion, robot.sole_rotations[side].ravel())
+    shoe = foot.add_body(pos=robot.sole_origins[side], quat=quaternion)
     thickness = max(robot.shoe_thickness, 1e-3)
     mass = max(robot.shoe_mass, 1e-3)
     lx, ly, lz = 2.0 * half[0], 2.0 * half[1], thickness
@@ -232,8 +232,8 @@ def _add_servos(spec: Any, robot: Robot, side: Any) -> None:
         servo = spec.add_actuator(
             name=f"{name}_servo", target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, biastype=mujoco.mjtBias.mjBIAS_AFFINE
         )
-        servo.gainprm[0] = robot.stiffness
-        servo.biasprm[1], servo.biasprm[2] = -robot.stiffness, -robot.damping
+        servo.gainprm[0] = robot.stiffness[i]
+        servo.biasprm[1], servo.biasprm[2] = -robot.stiffness[i], -robot.damping[i]
         servo.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
         if limit > 0.0:
             servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE

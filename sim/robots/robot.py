@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side
 from sim.robots.biped import BipedParameters
@@ -61,7 +64,8 @@ class Robot:
         foot: Shape of the bare foot, where the file gives it.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
-        sole_origin: Sole frame's origin (3,) in the left foot's body frame in m; y changes sign for the right.
+        sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
+        sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
         effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
         velocity_limits: Speed limit of each leg joint in rad/s; empty for none.
         layouts: Sole layout of each side.
@@ -77,8 +81,8 @@ class Robot:
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
         single_support: t_ss in s of a walk whose scene does not say.
         double_support: t_ds in s of a walk whose scene does not say.
-        stiffness: Servo position gain in N m/rad.
-        damping: Servo velocity gain in N m s/rad.
+        stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
+        damping: Servo velocity gain of each leg joint in N m s/rad.
         balance: Balance law and its gains.
         controller: Settings of the controller's other parts by table and name (`gait.controller_tables`).
         path: The TOML file.
@@ -92,7 +96,8 @@ class Robot:
     foot: FootShape | None
     shoe_thickness: float
     shoe_mass: float
-    sole_origin: tuple[float, float, float]
+    sole_origins: Mapping[Side, NDArray[np.float64]]
+    sole_rotations: Mapping[Side, NDArray[np.float64]]
     effort_limits: tuple[float, ...]
     velocity_limits: tuple[float, ...]
     layouts: Mapping[Side, SoleLayout]
@@ -107,8 +112,8 @@ class Robot:
     trunk_lean: float
     single_support: float
     double_support: float
-    stiffness: float
-    damping: float
+    stiffness: tuple[float, ...]
+    damping: tuple[float, ...]
     balance: Mapping[str, Any]
     controller: Mapping[str, Mapping[str, Any]]
     path: Path

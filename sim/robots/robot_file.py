@@ -8,6 +8,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gait.balance.balance_laws import balance_gains
 from gait.controller_tables import CONTROLLER_TABLES, check_controller_table
 from plantar.errors import InputError, LayoutError, RobotError
@@ -16,6 +19,7 @@ from plantar.files.model_files import named_file
 from plantar.files.structured_text import read_json, read_toml
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import read_layout
+from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sides import SIDES, Side
 from sim.robots.biped import BipedParameters
@@ -31,7 +35,7 @@ _LARGEST_ANGLE = 360.0  # degrees, of a posture
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "model": ("kind", "file"),
     "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
-    "shoe": ("layout", "origin", "thickness", "mass"),
+    "shoe": ("layout", "origin", "rotation", "origin_right", "rotation_right", "thickness", "mass"),
     "legs": SIDES,
     "torso": ("body", "imu_site"),
     "posture": SIDES,
@@ -190,13 +194,36 @@ class _RobotFile(RobotTables):
     def _shoe(self, kind: str) -> dict[str, Any]:
         """Layouts, and the shoe's mass, thickness and place: what `plantar shoe` wrote, or what the file says."""
         exported = _exported_shoe(self._layout_file("left"))
-        origin = (0.0, 0.0, 0.0) if kind == "biped" else self.numbers("origin", "shoe", 3, -1.0, 1.0)
+        places = self._sole_frames(kind)
         return {
             "layouts": {side: self._layout(side) for side in SIDES},
-            "sole_origin": origin,
+            "sole_origins": {side: place[0] for side, place in places.items()},
+            "sole_rotations": {side: place[1] for side, place in places.items()},
             "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
             "shoe_mass": self.number("mass", "shoe", 0.0, 20.0, exported.get("mass")),
         }
+
+    def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Origin (3,) in m and rotation (3, 3) of each sole frame in its foot's body; the right mirrors the left where
+        the file does not say otherwise."""
+        if kind == "biped":
+            return {side: (np.zeros(3), np.eye(3)) for side in SIDES}
+        given = self.table("shoe")
+        origin = np.array(self.numbers("origin", "shoe", 3, -1.0, 1.0))
+        angles = np.array(self._turn("rotation")) if "rotation" in given else np.zeros(3)
+        right = origin * (1.0, -1.0, 1.0)
+        if "origin_right" in given:
+            right = np.array(self.numbers("origin_right", "shoe", 3, -1.0, 1.0))
+        turned = np.array(self._turn("rotation_right")) if "rotation_right" in given else angles * (-1.0, 1.0, -1.0)
+
+        def rotation(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+            return rotation_from_angles(math.radians(yaw), math.radians(pitch), math.radians(roll))
+
+        return {"left": (origin, rotation(*angles)), "right": (right, rotation(*turned))}
+
+    def _turn(self, field: str) -> tuple[float, ...]:
+        """Roll, pitch and yaw in degrees."""
+        return self.numbers(field, "shoe", 3, -_LARGEST_ANGLE, _LARGEST_ANGLE)
 
     def _layout_file(self, side: Side) -> Path:
         path = self.path.parent / self.text("layout", "shoe").replace("{side}", side)
@@ -244,8 +271,8 @@ class _RobotFile(RobotTables):
         if "velocity_limits" in given:
             speeds = self.numbers("velocity_limits", "servo", joints, 1e-3, 1e3)
         return {
-            "stiffness": self.number("stiffness", "servo", 1.0, 1e6),
-            "damping": self.number("damping", "servo", 0.0, 1e5),
+            "stiffness": self.number_each("stiffness", "servo", joints, 1.0, 1e6),
+            "damping": self.number_each("damping", "servo", joints, 0.0, 1e5),
             "effort_limits": efforts,
             "velocity_limits": speeds,
         }

@@ -85,6 +85,23 @@ class RobotTables:
             raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: a list of {count} numbers")
         return tuple(_checked_number(v, field, self.place(table), low, high) for v in value)
 
+    def number_each(self, field: str, table: str, count: int, low: float, high: float) -> tuple[float, ...]:
+        """So many numbers of a table within limits, or one that counts for all of them.
+
+        Args:
+            field: Name of their list, or of the number.
+            table: Name of the table that holds it.
+            count: How many there are.
+            low: Smallest allowed value.
+            high: Largest allowed value.
+
+        Returns:
+            The numbers.
+        """
+        if isinstance(self.table(table).get(field), list):
+            return self.numbers(field, table, count, low, high)
+        return (self.number(field, table, low, high),) * count
+
 
 def _checked_number(value: Any, field: str, where: str, low: float, high: float) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not low <= value <= high:

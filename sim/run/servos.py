@@ -20,9 +20,9 @@ _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, t
 class LegServos:
     """Turns commands of the walking controller into servo set-points.
 
-    A servo computes torque = kp (u - q) - kv q'. With u = q_d + (kv q'_d + tau_ff) / kp it follows q_d without lag and
-    holds the expected load without error. Between control ticks u moves on at q'_d: held set-points would make a saw
-    tooth of kp q'_d dt in every torque. Where a joint would have to be faster than the robot's speed limits, all joints
+    A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
+    own damping, it follows q_d without lag and holds the expected load without error. Between control ticks u moves on
+    at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque. Where a joint would have to be faster than the robot's speed limits, all joints
     move on by the same smaller share of their way, and make up for it later.
 
     Args:
@@ -42,6 +42,7 @@ class LegServos:
         self._controls = world.data.ctrl
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
+        self._velocity_gain = world.damping + world.model.dof_damping[world.joint_qvel]
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
         self.out_of_reach_since: float | None = None
@@ -83,7 +84,7 @@ class LegServos:
                 joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world
-        self._setpoint = joints + (w.damping * velocity + torques) / w.stiffness
+        self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness
         self._rate = velocity * PHYSICS_PERIOD
         self._last = joints
         return joints

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError, SceneError
+from plantar.mechanics.rotation import rotation_from_angles
 from shoes import build_shoe, export_shoe, foot_from_mesh
-from sim.model.world import build_world, robot_spec
+from sim.model.world import build_leg_model, build_world, robot_spec
 from sim.robots import load_robot
 from sim.run.runner import run_scene
 from sim.run.scene import load_scene
@@ -124,6 +125,8 @@ def test_it_walks(own: Path) -> None:
         ("layout_{side}.json", "layout_{foot}.json", ("layout_{foot}.json", "cannot be read")),
         ("stiffness = 8000.0", "stiffness = 0", ("stiffness", "1 to 1e+06")),
         ("stiffness = 8000.0", "stiffness = inf", ("stiffness", "inf")),
+        ("stiffness = 8000.0", "stiffness = [8000.0]", ("stiffness", "6 numbers")),
+        ("thickness = 0.012", "rotation = [0.0, 20.0]\nthickness = 0.012", ("rotation", "3 numbers")),
         ("left = [0.0", "left = [1e9", ("[posture]", "left", "360")),
         ("left = [0.0", "left = [true", ("[posture]", "left", "True")),
         ("effort_limits = [51.0", "effort_limits = [-51.0", ("effort_limits", "-51")),
@@ -313,3 +316,67 @@ def test_a_leg_keeps_the_models_own_shapes_and_gets_capsules_where_it_has_none(o
         shank = mujoco.mjtGeom.mjGEOM_CYLINDER if side == "left" else mujoco.mjtGeom.mjGEOM_CAPSULE
         assert found == [(f"{side}_thigh", int(mujoco.mjtGeom.mjGEOM_CAPSULE)), (f"{side}_shank", int(shank))]
     assert not model.geom("belly").contype
+
+
+def test_a_gain_of_each_joint_reaches_its_servo(own: Path) -> None:
+    gains = [8000.0, 7000.0, 6000.0, 5000.0, 4000.0, 3000.0]
+    own.write_text(own.read_text().replace("stiffness = 8000.0", f"stiffness = {gains}"))
+    world = build_world(load_robot(own), Ground((), 0.0, 0.8))
+    np.testing.assert_array_equal(world.stiffness, gains * 2)
+    np.testing.assert_array_equal(world.damping, 150.0)
+
+
+def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
+    spec = mujoco.MjSpec.from_file(str(own.parent / "own.xml"))
+    spec.joint("left_knee").damping[0] = 30.0
+    (own.parent / "own.xml").write_text(spec.to_xml())
+    robot = load_robot(own)
+    world, legs = build_world(robot, Ground((), 0.0, 0.8)), build_leg_model(robot)
+    servos = LegServos(world, legs, 0.005)
+    np.testing.assert_allclose(servos._velocity_gain - world.damping, [0, 0, 0, 30.0, *[0] * 8])
+
+
+def test_a_foot_frame_that_is_turned_against_its_sole_walks_as_one_that_is_not(own: Path) -> None:
+    """The same robot, its left foot's frame turned and the right one's otherwise: the file says by how much."""
+    straight = robot_spec(load_robot(own)).compile()
+    spec = mujoco.MjSpec.from_file(str(own.parent / "own.xml"))
+    places = {}
+    for side, angles in (("left", (0.1, 0.3, -0.2)), ("right", (-0.2, 0.1, 0.35))):
+        foot = spec.body(f"{side}_foot")
+        turn, back, quaternion = rotation_from_angles(*angles), np.empty(4), np.empty(4)
+        mujoco.mju_mat2Quat(quaternion, turn.ravel())
+        mujoco.mju_negQuat(back, quaternion)
+        foot.quat = quaternion
+        for joint in foot.joints:
+            joint.axis = turn.T @ joint.axis
+        foot.ipos, inertia = turn.T @ foot.ipos, np.empty(4)
+        mujoco.mju_mulQuat(inertia, back, foot.iquat)
+        foot.iquat = inertia
+        for element in (*foot.geoms, *foot.sites):
+            element.pos = turn.T @ element.pos
+        places[side] = (turn.T @ [0.0, 0.0, -0.129], np.degrees(roll_pitch_yaw(turn.T)))
+    (own.parent / "own.xml").write_text(spec.to_xml())
+    (left, left_turn), (right, right_turn) = places["left"], places["right"]
+    own.write_text(
+        own.read_text().replace(
+            "origin = [0.0, 0.0, -0.129]",
+            f"origin = {left.tolist()}\nrotation = {left_turn.tolist()}\n"
+            f"origin_right = {right.tolist()}\nrotation_right = {right_turn.tolist()}",
+        )
+    )
+    turned = robot_spec(load_robot(own)).compile()
+    states = [mujoco.MjData(model) for model in (straight, turned)]
+    for model, data in zip((straight, turned), states, strict=True):
+        data.qpos[7:] = np.linspace(-0.3, 0.4, model.nq - 7)
+        mujoco.mj_forward(model, data)
+    for side in ("left", "right"):
+        for part in ("xpos", "xmat"):
+            a, b = (getattr(data.site(f"{side}_sole"), part) for data in states)
+            np.testing.assert_allclose(a, b, atol=1e-6)  # the XML has six digits
+    np.testing.assert_allclose(states[0].qM, states[1].qM, atol=1e-5)
+
+
+def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:
+    """Roll, pitch and yaw in rad of a rotation."""
+    pitch = float(-np.arcsin(rotation[2, 0]))
+    return float(np.arctan2(rotation[2, 1], rotation[2, 2])), pitch, float(np.arctan2(rotation[1, 0], rotation[0, 0]))
