@@ -26,6 +26,7 @@ from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.schema import Setting, Settings, number
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
@@ -85,9 +86,9 @@ class WrenchBalanceGains(Settings):
         return (*super().names(), *AdmittanceGains.names())
 
     @classmethod
-    def described(cls) -> tuple[Setting, ...]:
-        """What there is to say of each setting of the law and of the feet's admittance."""
-        return (*super().described(), *AdmittanceGains.described())
+    def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
+        """What there is to say of each setting of the law and of the feet's admittance, for a body."""
+        return (*super().described(body), *AdmittanceGains.described(body))
 
 
 class WrenchBalance:

@@ -10,11 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number
 from plantar.arrays import is_finite, numbers
 from plantar.errors import InputError
+from plantar.gravity import GRAVITY
 
 __all__ = ["GRAVITY", "divergent_component", "pendulum_frequency"]
-
-GRAVITY = 9.81
-"""Acceleration of free fall in m/s^2, as every part of the distribution takes it."""
 
 
 def pendulum_frequency(com_height: float) -> float:

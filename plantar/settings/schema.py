@@ -1,24 +1,31 @@
 """The schema of settings: a frozen dataclass whose fields say their default, unit, range or choices, and are checked.
 
 A class of settings derives from `Settings`, which makes it a frozen dataclass, and makes its fields with `number`,
-`whole`, `choice`, `switch`, `text` or `tables`; what each means stands under "Attributes" in its docstring. An instance
-checks itself when it is made, so a wrong value is refused wherever it comes from: code, a robot file, a scene, `--set`
-or a sweep.
+`share`, `whole`, `choice`, `switch`, `text` or `tables`; what each means stands under "Attributes" in its docstring. An
+instance checks itself when it is made, so a wrong value is refused wherever it comes from: code, a robot file, a scene,
+`--set` or a sweep.
+
+Numbers are in SI. What belongs to a robot's size is stated as a share of its body (`plantar.settings.body_scale`): by
+`share` for a default, by a text such as "0.5 sole" for any number with a dimension. An instance holds what it comes to
+in SI: for the reference body when it is made, and for a robot by `for_body`.
 """
 
 from __future__ import annotations
 
+import copy
 import inspect
 import math
 import re
 from collections.abc import Mapping
 from dataclasses import Field, dataclass, field, fields
-from typing import Any, NamedTuple, Self, dataclass_transform
+from types import MappingProxyType
+from typing import Any, ClassVar, NamedTuple, Self, dataclass_transform
 
 from plantar.errors import InputError, PlantarError
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale, Quantity, si_unit
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
-__all__ = ["Setting", "Settings", "choice", "number", "switch", "tables", "text", "whole"]
+__all__ = ["Setting", "Settings", "choice", "number", "share", "switch", "tables", "text", "whole"]
 
 
 def number(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
@@ -34,6 +41,22 @@ def number(default: float, unit: str, low: float = 0.0, high: float = math.inf) 
         The field of a dataclass.
     """
     return field(default=float(default), metadata={"unit": unit, "low": low, "high": high})
+
+
+def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
+    """A field for a number whose default grows with the robot.
+
+    Args:
+        default: Its default as a share.
+        unit: What of the body it is a share of, such as "weight", "leg" or "leg/beat".
+        low: Smallest allowed value, whatever the robot, in SI.
+        high: Largest allowed value, whatever the robot, in SI.
+
+    Returns:
+        The field of a dataclass.
+    """
+    quantity = Quantity(float(default), unit)
+    return field(default=quantity, metadata={"unit": si_unit(unit), "low": low, "high": high})
 
 
 def whole(default: int, unit: str, low: int = 0, high: float = math.inf) -> Any:
@@ -88,6 +111,7 @@ class Setting(NamedTuple):
         unit: Unit; empty for words and switches.
         allowed: Range or choices.
         meaning: What it does.
+        share: Default as a share of the body, where it grows with the robot; else empty.
     """
 
     name: str
@@ -95,6 +119,7 @@ class Setting(NamedTuple):
     unit: str
     allowed: str
     meaning: str
+    share: str = ""
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -116,15 +141,60 @@ class Settings:
         >>> Spring(stiffness=-3)
         Traceback (most recent call last):
         plantar.errors.InputError: setting 'stiffness' is -3; allowed: a number 1 to 1e+06
+        >>> Spring(stiffness="2 N/leg").for_body(BodyScale(30.0, 0.5, 0.1, 0.05)).stiffness
+        4.0
     """
+
+    _body: ClassVar[BodyScale] = (
+        REFERENCE_BODY  # of the class; for_body gives an instance its own, as __post_init__ does
+    )
+    _stated: ClassVar[Mapping[str, Quantity]] = {}
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         dataclass(frozen=True)(cls)
 
     def __post_init__(self) -> None:
+        stated: dict[str, Quantity] = {}
         for item in _settings(type(self)):
-            object.__setattr__(self, item.name, _checked(item, getattr(self, item.name)))
+            value = _quantity(item, getattr(self, item.name))
+            if isinstance(value, Quantity):
+                stated[item.name] = value
+            object.__setattr__(self, item.name, _checked(item, value, self._body))
+        object.__setattr__(self, "_stated", stated)
+
+    @property
+    def body(self) -> BodyScale:
+        """The body that these settings count for."""
+        return self._body
+
+    @property
+    def stated(self) -> Mapping[str, Quantity]:
+        """What was stated as a share, or with a unit, by name of the setting."""
+        return MappingProxyType(dict(self._stated))
+
+    def for_body(self, body: BodyScale) -> Self:
+        """The same settings for a robot: what was stated as a share comes to another number.
+
+        Args:
+            body: How large the robot is.
+
+        Returns:
+            The settings; those inside them count for the robot, too.
+
+        Raises:
+            InputError: If a share comes to a number that is not allowed.
+        """
+        found = copy.copy(self)
+        object.__setattr__(found, "_body", body)
+        for item in fields(self):
+            value = self._stated.get(item.name, getattr(self, item.name))
+            if isinstance(value, Quantity):
+                value = _checked(item, value, body)
+            elif isinstance(value, Settings):
+                value = value.for_body(body)
+            object.__setattr__(found, item.name, value)
+        return found
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
@@ -157,11 +227,25 @@ class Settings:
         return tuple(f.name for f in _settings(cls))
 
     @classmethod
-    def described(cls) -> tuple[Setting, ...]:
-        """What there is to say of each setting, in their order."""
+    def described(cls, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
+        """What there is to say of each setting, in their order.
+
+        Args:
+            body: The body for which defaults that are shares are told in SI.
+
+        Returns:
+            The settings.
+        """
         meanings = _meanings(cls)
         return tuple(
-            Setting(f.name, _as_toml(f.default), f.metadata["unit"], _allowed(f), meanings.get(f.name, ""))
+            Setting(
+                f.name,
+                _as_toml(f.default.si(body) if isinstance(f.default, Quantity) else f.default),
+                f.metadata["unit"],
+                _allowed(f),
+                meanings.get(f.name, ""),
+                str(f.default) if isinstance(f.default, Quantity) else "",
+            )
             for f in _settings(cls)
         )
 
@@ -170,9 +254,37 @@ def _settings(kind: type[Settings]) -> tuple[Field[Any], ...]:
     return tuple(f for f in fields(kind) if "unit" in f.metadata)
 
 
-def _checked(item: Field[Any], value: Any) -> Any:
-    """A value as its field's type, or an error that names both."""
-    default: Any = item.default
+def _quantity(item: Field[Any], value: Any) -> Any:
+    """A text such as "0.5 sole" for a number as the quantity that it means; every other value as it is.
+
+    Raises:
+        InputError: If the text has an unknown unit, or one of another kind than the field's.
+    """
+    if not isinstance(value, str) or not isinstance(item.default, float | Quantity):
+        return value
+    try:
+        found = Quantity.parsed(value)
+        if found is None or found.is_a(item.metadata["unit"]):
+            return value if found is None else found
+        problem = f"{found.unit} is no unit of it"
+    except InputError as error:
+        problem = str(error)
+    raise InputError(f"setting '{item.name}' is {value!r}: {problem}; allowed: {_allowed(item)}, in {_units(item)}")
+
+
+def _units(item: Field[Any]) -> str:
+    """The unit of a field, and that of its share."""
+    share = f", or in {item.default.unit}" if isinstance(item.default, Quantity) else ""
+    return f"{item.metadata['unit']}{share}"
+
+
+def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
+    """A value as its field's type, in SI, or an error that names both."""
+    default: Any = 0.0 if isinstance(item.default, Quantity) else item.default
+    told = repr(value)
+    if isinstance(value, Quantity):
+        told, value = repr(str(value)), value.si(body)
+        told += f" = {value:.4g} {item.metadata['unit']}"
     good = False
     if isinstance(default, bool):
         good = isinstance(value, bool)
@@ -187,12 +299,14 @@ def _checked(item: Field[Any], value: Any) -> Any:
         good = item.metadata["low"] <= value <= item.metadata["high"] and value == kind(value)
         value = kind(value) if good else value
     if not good:
-        raise InputError(f"setting '{item.name}' is {value!r}; allowed: {_allowed(item)}")
+        raise InputError(f"setting '{item.name}' is {told}; allowed: {_allowed(item)}")
     return value
 
 
 def _allowed(item: Field[Any]) -> str:
     """Range or choices of a field in words."""
+    if isinstance(item.default, Quantity):
+        return _range("a number", item)
     if isinstance(item.default, bool):
         return "true, false"
     if isinstance(item.default, tuple):
@@ -200,8 +314,11 @@ def _allowed(item: Field[Any]) -> str:
     if isinstance(item.default, str):
         choices = item.metadata.get("choices")
         return ", ".join(choices) if choices else "a text"
+    return _range("a whole number" if isinstance(item.default, int) else "a number", item)
+
+
+def _range(kind: str, item: Field[Any]) -> str:
     low, high = item.metadata["low"], item.metadata["high"]
-    kind = "a whole number" if isinstance(item.default, int) else "a number"
     return f"{kind} {low:g} to {high:g}" if math.isfinite(high) else f"a finite {kind[2:]}, {low:g} or more"
 
 
@@ -210,7 +327,7 @@ def _as_toml(value: Any) -> str:
         return str(value).lower()
     if isinstance(value, tuple):
         return "[]"
-    return f'"{value}"' if isinstance(value, str) else f"{value:g}"
+    return f'"{value}"' if isinstance(value, str) else f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:

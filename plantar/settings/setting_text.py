@@ -12,7 +12,8 @@ __all__ = ["setting_rows", "setting_text"]
 
 
 def setting_text(found: Mapping[str, Setting]) -> str:
-    """Each setting's default, unit and range in a line, and below it what it means.
+    """Each setting's default, unit and range in a line, and below it what it means; a default that grows with the robot
+    with the share that it is.
 
     Args:
         found: Settings by their dotted names.
@@ -29,7 +30,8 @@ def setting_text(found: Mapping[str, Setting]) -> str:
     lines = []
     for full, told in found.items():
         unit = f" {told.unit}" if told.unit not in ("", "1") else ""
-        lines.append(f"{full} = {told.default}{unit}  ({told.allowed})")
+        share = f" = {told.share}" if told.share else ""
+        lines.append(f"{full} = {told.default}{unit}{share}  ({told.allowed})")
         lines += [f"    {line}" for line in textwrap.wrap(told.meaning, 100)]
     return "\n".join(lines)
 

@@ -85,6 +85,7 @@ def test_each_setting_says_all_that_there_is_to_say() -> None:
         "N/m",
         "a number 1 to 1e+06",
         "Force for each metre, over two lines.",
+        "",
     )
     assert told["metal"][1:4] == ('"steel"', "", "steel, brass")
     assert told["loaded"][1:4] == ("false", "", "true, false")

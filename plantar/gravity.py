@@ -1,0 +1,8 @@
+"""Acceleration of free fall, which weights, pendulums and the time scale of a body depend on."""
+
+from __future__ import annotations
+
+__all__ = ["GRAVITY"]
+
+GRAVITY = 9.81
+"""Acceleration of free fall in m/s^2, as every part of the distribution takes it."""
