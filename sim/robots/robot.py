@@ -75,6 +75,8 @@ class Robot:
         posture: Joint angles of each leg in rad when standing.
         com_height: CoM height above the outer soles when walking in m.
         stance_width: Distance of the sole frames' origins when the feet stand side by side in m.
+        leg_length: Length of a leg from hip over knee to ankle in m, which lengths of a gait are shares of; 0 leaves it
+            to the model (`sim.model.body`).
         largest_crouch: How much lower than `com_height` a scene may make the robot walk in m.
         largest_crouch_partial: The same for a walk that stands on parts of its soles (`control.footholds`,
             `control.conform`), where a centre of pressure at the heel loads the knee more.
@@ -107,6 +109,7 @@ class Robot:
     posture: Mapping[Side, tuple[float, ...]]
     com_height: float
     stance_width: float
+    leg_length: float
     largest_crouch: float
     largest_crouch_partial: float
     trunk_lean: float

@@ -42,6 +42,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     "gait": (
         "com_height",
         "stance_width",
+        "leg_length",
         "largest_crouch",
         "largest_crouch_partial",
         "trunk_lean",
@@ -256,6 +257,7 @@ class _RobotFile(RobotTables):
         return {
             "com_height": self.number("com_height", "gait", 0.05, 5.0),
             "stance_width": self.number("stance_width", "gait", 0.01, 2.0),
+            "leg_length": self.number("leg_length", "gait", 0.02, 3.0) if "leg_length" in self.table("gait") else 0.0,
             "largest_crouch": crouch,
             "largest_crouch_partial": self.number("largest_crouch_partial", "gait", 0.0, crouch, crouch),
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),

@@ -1,0 +1,70 @@
+"""How large a robot is: the body that its settings are shares of."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from sim.model.leg_model import LegModel
+from sim.robots.robot import Robot
+
+__all__ = ["body_of", "leg_length"]
+
+_RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
+_PITCHES = 0.7  # cosine with the torso's y axis from which a joint pitches: nearer to it than to x and z
+
+
+def body_of(robot: Robot, legs: LegModel) -> BodyScale:
+    """The body that a robot's settings are shares of.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+
+    Returns:
+        Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, and the left
+        sole's size as its layout's outline has it.
+    """
+    _, (half_length, half_width) = robot.sole_rectangle("left")
+    return BodyScale(
+        mass=legs.mass,
+        leg=robot.leg_length or leg_length(robot, legs),
+        sole=2.0 * half_length,
+        sole_width=2.0 * half_width,
+    )
+
+
+def leg_length(robot: Robot, legs: LegModel) -> float:
+    """Length of a straight leg from hip to ankle, as the mean of both.
+
+    It is summed over the joints that pitch, which are hip, knee and ankle of a leg, in the plane in which they bend it;
+    their order and distance do not change with the posture. A leg with fewer than two of them counts from its first to
+    its last joint.
+
+    Args:
+        robot: The robot, which says which joints the legs have, and how it stands.
+        legs: Its kinematics.
+
+    Returns:
+        The length in m.
+    """
+    data = mujoco.MjData(legs.model)
+    for side in SIDES:
+        for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
+            data.qpos[legs.model.joint(name).qposadr[0]] = angle
+    mujoco.mj_kinematics(legs.model, data)
+    return round(float(np.mean([_length(robot, side, legs.model, data) for side in SIDES])), _RESOLUTION)
+
+
+def _length(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    ids = [model.joint(name).id for name in robot.legs[side].joints]
+    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
+    pitching = [i for i in ids if abs(float(data.xaxis[i] @ across)) > _PITCHES]
+    if len(pitching) < 2:
+        return float(np.linalg.norm(data.xanchor[ids[-1]] - data.xanchor[ids[0]]))
+    links = np.diff(data.xanchor[pitching], axis=0)
+    axes = data.xaxis[pitching[:-1]]
+    links -= (links * axes).sum(axis=1)[:, None] * axes
+    return float(np.linalg.norm(links, axis=1).sum())
