@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from gait.contact.ground_map import GroundView
 from gait.estimate.command_frame import CommandFrame
-from gait.feet.swing import SwingTrajectory, minimum_jerk
+from gait.feet.swing import SwingTrajectory
 from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
 from gait.feet.swing_flight import SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
 from plantar.arrays import read_only
+from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept

@@ -12,7 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["SwingTrajectory", "minimum_jerk"]
+from plantar.mechanics.easing import minimum_jerk
+
+__all__ = ["SwingTrajectory"]
 
 _APPROACH_SHARE = 0.44
 """Share of a swing, at its end, that a slow approach takes."""
@@ -31,21 +33,6 @@ _FIRST_SHARE = 0.14
 
 _SKEW = 0.8
 """Exponent below 1 that moves the horizontal motion of such a swing forward, so that it brakes gently."""
-
-
-def minimum_jerk(phase: float) -> tuple[float, float]:
-    """Minimum-jerk blend 10 s^3 - 15 s^4 + 6 s^5 and its rate at phase s, held at 0 and 1 outside.
-
-    Example:
-        >>> minimum_jerk(0.5)
-        (0.5, 1.875)
-    """
-    if phase <= 0.0:
-        return 0.0, 0.0
-    if phase >= 1.0:
-        return 1.0, 0.0
-    s2 = phase * phase
-    return s2 * phase * (10.0 + phase * (6.0 * phase - 15.0)), 30.0 * s2 * (1.0 - phase) ** 2
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, tables
 from sim.companion.experiment import Experiment, Verdict, World, failed
-from sim.companion.handling.actors import Fist, Push, Visit, Visitor, smooth_step
+from sim.companion.handling.actors import Fist, Push, Visit, Visitor, come_and_go
 from sim.companion.handling.force_record import ForceRecord
 from sim.companion.handling.hand_controller import HandControl, HandController
 from sim.companion.machine import Machine
@@ -213,7 +213,7 @@ class ForceTracking(Experiment):
         for window, sizes in ((s.circle, (s.circle_radius, s.circle_radius)), (s.swing, (0.0, s.swing_amplitude))):
             if window and window[0] <= time < window[1]:
                 phase = rate * (time - window[0])
-                share = smooth_step((time - window[0]) / 2.0) * smooth_step((window[1] - time) / 2.0)
+                share = come_and_go(time, window[0], window[1], 2.0)
                 target[:2] += share * np.array(sizes) * (math.cos(phase), math.sin(phase))
                 speed[:2] = share * rate * np.array(sizes) * (-math.sin(phase), math.cos(phase))
         self._hand.posture.target, self._hand.posture.target_velocity = target, speed
@@ -224,7 +224,7 @@ class ForceTracking(Experiment):
         if self.settings.turn:
             begin, end = self.settings.turn
             third = max((end - begin) / 3.0, 1e-9)
-            share = smooth_step((time - begin) / third) * smooth_step((end - time) / third)
+            share = come_and_go(time, begin, end, third)
             turn = self._sign * math.radians(self.settings.turn_angle) * share
         rotation = rotation_from_angles(self._yaw + turn, self._pitch)
         place = world.model.body("object").mocapid[0]

@@ -10,10 +10,11 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.mechanics.easing import minimum_jerk
 from sim.companion.experiment import World
 from sim.companion.skin_surface import OBSTACLE_GROUP
 
-__all__ = ["FIST", "PERSON", "Fist", "Push", "Visit", "Visitor", "smooth_step"]
+__all__ = ["FIST", "PERSON", "Fist", "Push", "Visit", "Visitor", "come_and_go"]
 
 FIST = 0.03
 """Radius in m of the hand that pushes."""
@@ -26,14 +27,23 @@ _YIELD = 4e-3  # m/(N s): how fast the pushing hand goes on where force is missi
 _RAMP = 0.4  # s in which a push comes and goes
 
 
-def smooth_step(share: float) -> float:
-    """From 0 to 1 without a jump of speed; held outside of 0 to 1.
+def come_and_go(time: float, start: float, end: float, ramp: float) -> float:
+    """A share that goes from 0 to 1 after a start, and is back at 0 at an end, along minimum-jerk blends.
+
+    Args:
+        time: Time in s.
+        start: When it begins to grow in s.
+        end: When it is back at 0 in s.
+        ramp: How long it takes to come, and to go, in s.
+
+    Returns:
+        The share, 0 to 1.
 
     Example:
-        >>> smooth_step(-1.0), round(smooth_step(0.5), 9), smooth_step(2.0)
-        (0.0, 0.5, 1.0)
+        >>> [come_and_go(t, 1.0, 5.0, 2.0) for t in (0.0, 2.0, 3.0, 4.0, 6.0)]
+        [0.0, 0.5, 1.0, 0.5, 0.0]
     """
-    return 0.5 - 0.5 * math.cos(math.pi * min(max(share, 0.0), 1.0))
+    return minimum_jerk((time - start) / ramp)[0] * minimum_jerk((end - time) / ramp)[0]
 
 
 @dataclass(frozen=True)
@@ -60,7 +70,7 @@ class Push:
 
     def wanted(self, time: float) -> float:
         """Force in N at a time in s."""
-        return self.force * smooth_step((time - self.start) / _RAMP) * smooth_step((self.end - time) / _RAMP)
+        return self.force * come_and_go(time, self.start, self.end, _RAMP)
 
 
 class Fist:
@@ -129,7 +139,7 @@ class Visit:
     def place(self, time: float) -> NDArray[np.float64]:
         """Where (2,) in m the person is at a time in s, in that frame."""
         way = float(np.linalg.norm(self.goal - self.far)) / self.speed
-        near = smooth_step((time - self.start) / way) * smooth_step((self.end - time) / way)
+        near = come_and_go(time, self.start, self.end, way)
         return self.far + near * (self.goal - self.far)
 
 

@@ -1,0 +1,20 @@
+"""How a share goes from 0 to 1 without a jump."""
+
+from __future__ import annotations
+
+__all__ = ["minimum_jerk"]
+
+
+def minimum_jerk(phase: float) -> tuple[float, float]:
+    """Minimum-jerk blend 10 s^3 - 15 s^4 + 6 s^5 and its rate at phase s, held at 0 and 1 outside.
+
+    Example:
+        >>> minimum_jerk(0.5)
+        (0.5, 1.875)
+    """
+    if phase <= 0.0:
+        return 0.0, 0.0
+    if phase >= 1.0:
+        return 1.0, 0.0
+    s2 = phase * phase
+    return s2 * phase * (10.0 + phase * (6.0 * phase - 15.0)), 30.0 * s2 * (1.0 - phase) ** 2
