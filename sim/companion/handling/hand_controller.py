@@ -27,6 +27,7 @@ from wholebody.tasks.task import Demand, Task
 
 __all__ = ["HandControl", "HandController"]
 
+_ARM = ("upper_arm", "forearm", "wrist1")  # links from the shoulder to the wrist
 _TOUCHED = 0.3  # N on the hand from which it is in contact
 _TAKEN_OVER = 0.3  # s in which the wanted force is taken over into the joints after touching
 
@@ -52,6 +53,9 @@ class HandControl(CompanionControl):
         hand_stiffness: Stiffness with which the hand keeps its place in contact, for a unit mass.
         guidance_mass: Lambda_3 of A 12.
         guidance_damping: D_3.
+        guidance_stiffness: Stiffness with which the hand keeps its place before contact while the arm feels nothing:
+            critical, D_3^2 / (4 Lambda_3); 0 lets it drift with what is misjudged of the arm's weight.
+        guidance_ends: Whether guidance ends where the arm becomes straight (ablation).
         arm_stiffness: K_c of A 18 of each joint of the arm.
         arm_damping: D_c of each joint of the arm.
         elbow_least: Bend of the elbow in degrees below which it resists: stretched, an arm cannot hold its hand still
@@ -82,6 +86,8 @@ class HandControl(CompanionControl):
     hand_stiffness: float = number(400.0, "1/s^2", 0, 1e5)
     guidance_mass: float = number(5.0, "kg", 0.01, 1e3)
     guidance_damping: float = number(60.0, "N s/m", 0, 1e5)
+    guidance_stiffness: float = number(180.0, "N/m", 0, 1e6)
+    guidance_ends: bool = switch(True)
     arm_stiffness: float = number(30.0, "N m/rad", 0, 1e5)
     arm_damping: float = number(15.0, "N m s/rad", 0, 1e5)
     elbow_least: float = number(40.0, "deg", 0, 180)
@@ -129,7 +135,8 @@ class HandController:
         )
         held = PoseGains(stiffness=s.hand_stiffness, damping=2.0 * float(np.sqrt(s.hand_stiffness)))
         self._place = CartesianPose("hand", middle, held, rows="position")
-        guidance = GuidanceGains(s.guidance_mass, s.guidance_damping)
+        guidance = GuidanceGains(s.guidance_mass, s.guidance_damping, stiffness=s.guidance_stiffness)
+        straight = _ARM if s.guidance_ends else None
         arm = len(machine.joints) - 3
         self.posture = Posture(
             machine.posture,
@@ -147,7 +154,7 @@ class HandController:
         self.phases = ContactPhases(
             [
                 *first,
-                [TactileGuidance(skin, self._arm, "hand", middle, guidance)],
+                [TactileGuidance(skin, self._arm, "hand", middle, guidance, straight)],
                 [BodyCompliance(self.posture, *away)],
             ],
             [*first, [self._place], [BodyCompliance(self.posture, DirectInteraction(skin, patches=self._arm), *away)]],
