@@ -29,6 +29,7 @@ __all__ = ["ForceTracking", "ForceTrackingSettings"]
 _AFTER = 1.0  # s after an interaction that still count as disturbed by it
 _SETTLING = 4.0  # s after the sigmoid, or after coming near, from which force or distance count
 _ARM = {"forearm": (0.045, (0.1, 0.3)), "upper_arm": (0.055, (0.15, 0.35))}  # radius and places along it in m
+_SHORTEST, _PAUSES = 1.2, (0.2, 0.6)  # s: the shortest touch, three ramps long, and between touches
 _EVERY = 5  # physics steps from one look at how things move to the next
 _HALF_THICK = 0.02  # m of the object
 
@@ -141,18 +142,20 @@ class ForceTracking(Experiment):
         self._places: dict[str, NDArray[np.float64]] = {}
 
     def _pushes(self) -> list[Push]:
-        """Touches of some 2 s in their windows, in pairs from opposite sides, so that the hand comes back."""
+        """Touches in pairs that undo each other: the same force, time and place, from opposite sides."""
         found: list[Push] = []
         for begin, end in self.settings.touch:
-            time, angle = begin, 0.0
-            while time + 1.5 <= end:
+            time = begin
+            while end - time >= 2.0 * _SHORTEST + _PAUSES[1]:
                 link = str(self.rng.choice(list(_ARM)))
                 radius, (low, high) = _ARM[link]
-                angle = angle + math.pi if len(found) % 2 else self.rng.uniform(0.0, 2.0 * math.pi)
-                length = min(self.rng.uniform(1.5, 2.5), end - time)
+                along, angle = self.rng.uniform(low, high), self.rng.uniform(0.0, 2.0 * math.pi)
                 force = self.rng.uniform(*(self.settings.touch_force or (5.0, 10.0)))
-                found.append(Push(time, time + length, link, self.rng.uniform(low, high), angle, radius, force))
-                time += length + self.rng.uniform(0.2, 0.6)
+                pause = self.rng.uniform(*_PAUSES)
+                length = min(self.rng.uniform(1.5, 2.5), (end - time - pause) / 2.0)
+                for side in (angle, angle + math.pi):
+                    found.append(Push(time, time + length, link, along, side, radius, force))
+                    time += length + pause
         return found
 
     def _visits(self) -> list[Visit]:
