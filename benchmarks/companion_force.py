@@ -50,6 +50,7 @@ CASES = (
     Case(1, "nothing fed forward", ("feed_forward=false",), 5),
     Case(1, "torques added, no priorities", ("priority=sum",), 5),
     Case(2, "no base avoidance", ("avoidance=false",), 5),
+    Case(2, "hand not held between touches", ("guidance_stiffness=0",), 5),
     Case(3, "wrist that does not comply", ("wrist=false",), 5),
     Case(3, "nothing fed forward", ("feed_forward=false",), 5),
     Case(3, "torques added, no priorities", ("priority=sum",), 5),
