@@ -81,8 +81,9 @@ class Robot:
         largest_crouch_partial: The same for a walk that stands on parts of its soles (`control.footholds`,
             `control.conform`), where a centre of pressure at the heel loads the knee more.
         trunk_lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
-        single_support: t_ss in s of a walk whose scene does not say.
-        double_support: t_ds in s of a walk whose scene does not say.
+        single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
+            the leg as for every robot (`sim.run.controller_settings`).
+        double_support: t_ds likewise.
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
         damping: Servo velocity gain of each leg joint in N m s/rad.
         balance: Balance law and its gains.

@@ -261,9 +261,13 @@ class _RobotFile(RobotTables):
             "largest_crouch": crouch,
             "largest_crouch_partial": self.number("largest_crouch_partial", "gait", 0.0, crouch, crouch),
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
-            "single_support": self.number("single_support", "gait", 0.2, 10.0, 0.9),
-            "double_support": self.number("double_support", "gait", 0.02, 10.0, 0.3),
+            "single_support": self._duration("single_support", 0.2),
+            "double_support": self._duration("double_support", 0.02),
         }
+
+    def _duration(self, name: str, least: float) -> float:
+        """A duration of the gait in s; 0 where the file leaves it to the length of the legs."""
+        return self.number(name, "gait", least, 10.0) if name in self.table("gait") else 0.0
 
     def _servo(self, biped: BipedParameters | None, joints: int) -> dict[str, Any]:
         """Gains of the servos and limits of the joints of one leg; without limits there are none."""

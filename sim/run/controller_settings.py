@@ -18,11 +18,12 @@ from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
-from plantar.errors import SceneError
+from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side
+from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
-from sim.run.scene import Scene
+from sim.run.scene import Scene, Walk
 
 __all__ = ["CONTROL_PERIOD", "controller_settings"]
 
@@ -33,18 +34,21 @@ _YAW_ON_UNKNOWN_GROUND = 0.1
 """Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
 little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 steps drifted 42 mm off to the side.)"""
 
+_SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
+"""Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+
 T = TypeVar("T", bound=Settings)
 
 
 def controller_settings(
-    scene: Scene, robot: Robot, mass: float, ankles: Mapping[Side, AnkleSensor]
+    scene: Scene, robot: Robot, body: BodyScale, ankles: Mapping[Side, AnkleSensor]
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
     Args:
-        scene: The scene.
+        scene: The scene, with its shares as those of the same body.
         robot: The robot.
-        mass: Its mass in kg.
+        body: How large it is: what is stated as a share of its body counts for this one.
         ankles: Force-torque sensor of each ankle, where it has them.
 
     Returns:
@@ -63,18 +67,12 @@ def controller_settings(
         table = {**given, **robot.controller.get(name, {}), **scene.controller.get(name, {})}
         return kind.from_table(table, f"[{name}]", SceneError)
 
-    return ControllerSettings(
+    found = ControllerSettings(
         com_height=robot.com_height - min(walk.crouch, crouch),
-        mass=mass,
+        mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=CONTROL_PERIOD,
-        timing=Timing(
-            walk.single_support or robot.single_support,
-            walk.double_support or robot.double_support,
-            walk.start,
-            walk.end,
-            walk.settle,
-        ),
+        timing=_timing(walk, robot, body),
         swing_height=walk.swing_height,
         landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
@@ -93,6 +91,21 @@ def controller_settings(
         zmp_source=control.zmp_source,
         ankles=ankles,
         footholds=control.footholds,
+    )
+    try:
+        return found.for_body(body)
+    except InputError as error:
+        raise SceneError(f"scene '{scene.name}' with robot '{robot.name}': {error}") from None
+
+
+def _timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
+    """Durations of the phases: the scene's, else the robot's, else the same number of beats for every robot."""
+    return Timing(
+        walk.single_support or robot.single_support or _SINGLE_SUPPORT * body.beat,
+        walk.double_support or robot.double_support or _DOUBLE_SUPPORT * body.beat,
+        walk.start,
+        walk.end,
+        walk.settle,
     )
 
 

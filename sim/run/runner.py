@@ -30,6 +30,7 @@ from sim.judging.velocity_truth import VelocityTruth
 from sim.judging.verdict import Ending, reasons
 from sim.judging.walk_goal import WalkGoal
 from sim.judging.zmp_comparison import ZmpComparison
+from sim.model.body import body_of
 from sim.model.world import PHYSICS_PERIOD, World, build_leg_model, build_world, check_stable
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
@@ -76,13 +77,14 @@ class Simulation:
     """
 
     def __init__(self, scene: Scene, seed: int = 0, layouts: Mapping[Side, SoleLayout] | None = None) -> None:
-        self.scene = scene
         self.seed = seed
         robot = load_robot(scene.robot)
         if layouts is not None:
             robot = replace(robot, layouts=dict(layouts))
         self.robot: Robot = robot
         self.legs = build_leg_model(robot)
+        self.body = body_of(robot, self.legs)
+        self.scene = scene = scene.for_body(self.body)
         walk = scene.walk
         self.velocities = walk.velocities(seed)
         self.feet, self.steps = straight_plan(
@@ -93,7 +95,7 @@ class Simulation:
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )
-        self.settings = controller_settings(scene, robot, self.legs.mass, ankle_sensors(self.legs.model, robot))
+        self.settings = controller_settings(scene, robot, self.body, ankle_sensors(self.legs.model, robot))
         start = Start(self.feet, self.steps, walk.begin, self._commands())
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))

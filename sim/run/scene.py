@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.errors import InputError, SceneError
 from plantar.files.input_file import is_file
 from plantar.files.structured_text import read_toml
+from plantar.settings.body_scale import BodyScale
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
@@ -223,6 +224,27 @@ class Scene:
     push: Push
     control: Control
     controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    def for_body(self, body: BodyScale) -> Scene:
+        """The scene for a robot: what it states as shares of a body is told for this one.
+
+        Args:
+            body: How large the robot is.
+
+        Returns:
+            The scene.
+
+        Raises:
+            SceneError: If a share comes to a number that is not allowed; the message names it.
+        """
+        sections: dict[str, Any] = {}
+        for name in SECTIONS:
+            try:
+                sections[name] = getattr(self, name).for_body(body)
+            except InputError as error:
+                words = str(error).removeprefix("setting ")
+                raise SceneError(f"scene '{self.name}': [{name}] {words}, with robot '{self.robot}'") from None
+        return replace(self, **sections)
 
 
 def builtin_scenes() -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from difflib import get_close_matches
 
 from gait.controller_tables import CONTROLLER_TABLES, controller_settings_described
 from plantar.errors import InputError
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.schema import Setting
 from sim.companion.experiment import experiment_names
 from sim.companion.scene import companion_tables
@@ -15,11 +16,12 @@ from sim.terrain import TERRAIN_KINDS
 __all__ = ["settings_listed"]
 
 
-def settings_listed(name: str | None = None) -> dict[str, Setting]:
+def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
     """The settings by their dotted names.
 
     Args:
         name: A table such as "estimator" or "terrain.beam", a setting's dotted name, or its last part; None lists all.
+        body: The body for which defaults that are shares of one are told in SI.
 
     Returns:
         What there is to say of each; those of a kind of terrain stand under "terrain.KIND.", which a scene writes as
@@ -30,15 +32,15 @@ def settings_listed(name: str | None = None) -> dict[str, Setting]:
 
     Example:
         >>> settings_listed("estimator.gravity")["estimator.gravity"][1:4]
-        ('0.2', '1/s', 'a number 0 to 50')
+        ('0.2002', '1/s', 'a number 0 to 50')
     """
     tables: dict[str, tuple[Setting, ...]] = {
-        section: kind.described() for section, kind in SECTIONS.items() if section != "terrain"
+        section: kind.described(body) for section, kind in SECTIONS.items() if section != "terrain"
     }
-    tables |= {f"terrain.{kind}": ground.described() for kind, ground in TERRAIN_KINDS.items()}
-    tables |= {table: controller_settings_described(table) for table in CONTROLLER_TABLES}
+    tables |= {f"terrain.{kind}": ground.described(body) for kind, ground in TERRAIN_KINDS.items()}
+    tables |= {table: controller_settings_described(table, body) for table in CONTROLLER_TABLES}
     for kind in experiment_names():
-        tables |= {f"{kind}.{table}": own.described() for table, own in companion_tables(kind).items()}
+        tables |= {f"{kind}.{table}": own.described(body) for table, own in companion_tables(kind).items()}
     every = {f"{table}.{told.name}": told for table, settings in tables.items() for told in settings}
     if name is None:
         return every

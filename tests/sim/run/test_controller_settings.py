@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 from gait.controller_tables import CONTROLLER_TABLES, controller_keys, controller_settings_described
+from gait.estimate.estimator import EstimatorGains
 from plantar.errors import RobotError, SceneError
+from plantar.settings.body_scale import REFERENCE_BODY
 from sim.robots.robot_file import load_robot
 from sim.run.controller_settings import controller_settings
 from sim.run.scene import load_scene, setting_name
@@ -37,15 +39,15 @@ def test_every_setting_is_reached_by_its_dotted_name(table: str) -> None:
                 if "whole" in told.allowed:
                     other = str(int(told.default) + 1)
             scene = load_scene("flat", [*ALL_ON, f"{table}.{told.name}={other}"], robot)
-            found = value_of(controller_settings(scene, load_robot(robot), 60.0, {}), table, told.name)
+            found = value_of(controller_settings(scene, load_robot(robot), REFERENCE_BODY, {}), table, told.name)
             assert str(found).lower() in (other, f"{other}.0") or float(str(found)) == float(other), told
 
 
 def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> None:
     robot = replace(load_robot("h1"), controller={"estimator": {"gravity": 0.3, "observer": 15.0}})
-    made = controller_settings(load_scene("flat", ["estimator.gravity=0.4"]), robot, 86.0, {})
-    assert (made.estimator.gravity, made.estimator.observer, made.estimator.tare) == (0.4, 15.0, 0.05)
-    assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, 86.0, {}).gains.dcm_gain == 2.0
+    made = controller_settings(load_scene("flat", ["estimator.gravity=0.4"]), robot, REFERENCE_BODY, {})
+    assert (made.estimator.gravity, made.estimator.observer, made.estimator.tare) == (0.4, 15.0, EstimatorGains().tare)
+    assert controller_settings(load_scene("flat", ["dcm_gain=2"]), robot, REFERENCE_BODY, {}).gains.dcm_gain == 2.0
 
 
 @pytest.mark.parametrize(
@@ -61,7 +63,7 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> Non
 )
 def test_a_wrong_setting_is_refused_with_what_is_right(settings: list[str], words: str) -> None:
     with pytest.raises(SceneError, match=words):
-        controller_settings(load_scene("flat", settings), load_robot("h1"), 86.0, {})
+        controller_settings(load_scene("flat", settings), load_robot("h1"), REFERENCE_BODY, {})
 
 
 def test_a_setting_that_a_scene_gives_elsewhere_is_pointed_to(tmp_path: Path) -> None:
