@@ -17,6 +17,7 @@ from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
 from plantar.errors import InputError, PlantarError
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.schema import Setting, Settings
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
@@ -75,11 +76,19 @@ def controller_keys(table: str) -> tuple[str, ...]:
     return tuple(name for name in names if f"{table}.{name}" not in _ELSEWHERE)
 
 
-def controller_settings_described(table: str) -> tuple[Setting, ...]:
-    """What there is to say of the settings of a table; of two classes that have one name, the first says it."""
+def controller_settings_described(table: str, body: BodyScale = REFERENCE_BODY) -> tuple[Setting, ...]:
+    """What there is to say of the settings of a table; of two classes that have one name, the first says it.
+
+    Args:
+        table: A name of `CONTROLLER_TABLES`.
+        body: The body for which defaults that are shares of one are told in SI.
+
+    Returns:
+        The settings in order.
+    """
     found: dict[str, Setting] = {}
     for kind in CONTROLLER_TABLES[table]:
-        for told in kind.described():
+        for told in kind.described(body):
             found.setdefault(told.name, told)
     return tuple(found[name] for name in controller_keys(table))
 

@@ -13,7 +13,7 @@ from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
 from plantar.geometry.polygon import closest_point
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
@@ -30,11 +30,11 @@ class BalanceGains(Settings):
         zmp_offset: Inner offset in m that the desired ZMP keeps from the support polygon's edge.
     """
 
-    dcm_gain: float = number(1.5, "1/s", 0, 50)
-    zmp_gain: float = number(0.5, "1/s", 0, 50)
-    com_gain: float = number(1.0, "1/s", 0, 50)
-    zmp_filter: float = number(0.02, "s", 0, 1)
-    zmp_offset: float = number(0.015, "m", 0, 0.1)
+    dcm_gain: float = share(0.371, "1/beat", 0, 50)
+    zmp_gain: float = share(0.124, "1/beat", 0, 50)
+    com_gain: float = share(0.247, "1/beat", 0, 50)
+    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_offset: float = share(0.065, "sole", 0, 0.1)
 
 
 class DcmBalance:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layouts.layout import Side
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, number, share
 from plantar.sides import SIDES
 
 __all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
@@ -33,13 +33,13 @@ class AdmittanceGains(Settings):
         largest_lift: Largest shift of a sole in m.
     """
 
-    foot_turn_gain: float = number(1e-3, "rad/s/N/m", 0, 1)
-    foot_lift_gain: float = number(2e-5, "m/s/N", 0, 0.1)
-    foot_return: float = number(1.0, "1/s", 0, 100)
-    foot_release: float = number(8.0, "1/s", 0, 200)
-    foot_filter: float = number(0.02, "s", 0, 1)
+    foot_turn_gain: float = share(0.0481, "rad/beat/weight/sole", 0, 1)
+    foot_lift_gain: float = share(0.00695, "leg/beat/weight", 0, 0.1)
+    foot_return: float = share(0.247, "1/beat", 0, 100)
+    foot_release: float = share(1.98, "1/beat", 0, 200)
+    foot_filter: float = share(0.0809, "beat", 0, 1)
     largest_turn: float = number(0.08, "rad", 0, 0.5)
-    largest_lift: float = number(0.02, "m", 0, 0.2)
+    largest_lift: float = share(1 / 30, "leg", 0, 0.2)
 
 
 @dataclass

@@ -27,7 +27,7 @@ from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_distribution import DistributionWeights, WrenchDistribution
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
-from plantar.settings.schema import Setting, Settings, number
+from plantar.settings.schema import Setting, Settings, number, share
 from plantar.settings.unknown_keys import refuse_unknown_keys
 
 __all__ = ["WrenchBalance", "WrenchBalanceGains"]
@@ -51,15 +51,15 @@ class WrenchBalanceGains(Settings):
         feet: Gains of the feet's admittance.
     """
 
-    dcm_gain: float = number(3.0, "1/s", 0, 50)
+    dcm_gain: float = share(0.742, "1/beat", 0, 50)
     dcm_integral: float = number(0.0, "1/s", 0, 50)
-    dcm_forgetting: float = number(0.1, "1/s", 0, 50)
-    largest_integral: float = number(0.03, "m", 0, 0.2)
+    dcm_forgetting: float = share(0.0247, "1/beat", 0, 50)
+    largest_integral: float = share(0.13, "sole", 0, 0.2)
     zmp_gain: float = number(0.0, "1/s", 0, 50)
-    com_gain: float = number(1.0, "1/s", 0, 50)
-    zmp_filter: float = number(0.02, "s", 0, 1)
-    zmp_offset: float = number(0.015, "m", 0, 0.1)
-    minimum_force: float = number(15.0, "N", 0, 10000)
+    com_gain: float = share(0.247, "1/beat", 0, 50)
+    zmp_filter: float = share(0.0809, "beat", 0, 1)
+    zmp_offset: float = share(0.065, "sole", 0, 0.1)
+    minimum_force: float = share(0.0178, "weight", 0, 10000)
     feet: AdmittanceGains = field(default_factory=AdmittanceGains)
 
     @classmethod

@@ -26,7 +26,7 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector
 from plantar.mechanics.zmp import zmp_of_feet
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, share
 from plantar.sides import SIDES
 
 __all__ = [
@@ -92,12 +92,12 @@ class EstimatorGains(Settings):
             taxels add up to. Feet weigh in with what they carry beyond it.
     """
 
-    gravity: float = number(0.2, "1/s", 0, 50)
-    averaging: float = number(0.5, "s", 0.01, 10)
-    yaw: float = number(2.0, "1/s", 0, 50)
-    observer: float = number(20.0, "rad/s", 0.1, 100)
-    tare: float = number(0.05, "s", 0.005, 10)
-    minimum_load: float = number(70.0, "N", 0, 10000)
+    gravity: float = share(0.0495, "1/beat", 0, 50)
+    averaging: float = share(2.02, "beat", 0.01, 10)
+    yaw: float = share(0.495, "1/beat", 0, 50)
+    observer: float = share(4.95, "rad/beat", 0.1, 100)
+    tare: float = share(0.202, "beat", 0.005, 10)
+    minimum_load: float = share(0.083, "weight", 0, 10000)
 
 
 @dataclass

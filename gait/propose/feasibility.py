@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.geometry.polygon import area
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sensing.proximity import cells_polygon
-from plantar.settings.schema import Settings, choice, number, whole
+from plantar.settings.schema import Settings, choice, number, share, whole
 
 __all__ = ["FeasibilityRules", "Foothold", "FootholdProbe", "room_ahead", "way_around"]
 
@@ -55,23 +55,23 @@ class FeasibilityRules(Settings):
 
     rule: str = choice("skin", "force_torque")
     area_ratio: float = number(0.8, "1", 0, 2)
-    ankle_moment: float = number(8.0, "N m", 0, 1000)
-    surprise: float = number(0.010, "m", 0.001, 0.1)
-    hold: float = number(0.7, "s", 0.01, 10)
-    probe_force: float = number(130.0, "N", 1, 10000)
-    probe_time: float = number(0.12, "s", 0.01, 5)
-    probe_limit: float = number(0.25, "s", 0.01, 5)
-    reserve: float = number(0.5, "s", 0, 5)
-    active_force: float = number(1.3, "N", 0, 10000)
-    near: float = number(0.003, "m", 0, 0.05)
-    clearance: float = number(0.025, "m", 0, 0.2)
-    swing_time: float = number(1.4, "s", 0.2, 10)
-    return_time: float = number(2.2, "s", 0.2, 10)
-    outward: float = number(0.20, "m", 0, 1)
-    inward: float = number(0.015, "m", 0, 1)
-    forward: float = number(0.08, "m", 0, 1)
+    ankle_moment: float = share(0.0411, "weight sole", 0, 1000)
+    surprise: float = share(1 / 60, "leg", 0.001, 0.1)
+    hold: float = share(2.83, "beat", 0.01, 10)
+    probe_force: float = share(0.154, "weight", 1, 10000)
+    probe_time: float = share(0.485, "beat", 0.01, 5)
+    probe_limit: float = share(1.01, "beat", 0.01, 5)
+    reserve: float = share(2.02, "beat", 0, 5)
+    active_force: float = share(0.00154, "weight", 0, 10000)
+    near: float = share(0.005, "leg", 0, 0.05)
+    clearance: float = share(1 / 24, "leg", 0, 0.2)
+    swing_time: float = share(5.66, "beat", 0.2, 10)
+    return_time: float = share(8.9, "beat", 0.2, 10)
+    outward: float = share(1 / 3, "leg", 0, 1)
+    inward: float = share(0.025, "leg", 0, 1)
+    forward: float = share(2 / 15, "leg", 0, 1)
     sideways_cost: float = number(2.0, "1", 0.01, 100)
-    backward: float = number(0.24, "m", 0, 1)
+    backward: float = share(0.4, "leg", 0, 1)
     attempts: int = whole(2, "attempts", 0, 100)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, share
 
 __all__ = ["FootholdRules"]
 
@@ -16,6 +16,6 @@ class FootholdRules(Settings):
         replan_pause: Time in s between two moves of the plan by one foothold.
     """
 
-    least_move: float = number(0.004, "m", 0, 0.1)
-    largest_shift: float = number(0.02, "m", 0, 0.2)
-    replan_pause: float = number(0.06, "s", 0, 5)
+    least_move: float = share(0.0173, "sole", 0, 0.1)
+    largest_shift: float = share(0.0867, "sole", 0, 0.2)
+    replan_pause: float = share(0.243, "beat", 0, 5)
