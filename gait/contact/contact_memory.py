@@ -28,18 +28,18 @@ class ContactMemory:
     Args:
         layout: The sole.
         least_force: Running mean in N from which a cell carries.
+        gap: Rise in m from which a cell has lifted off.
         least_share: Share of the foot's load from which it does.
         smoothing: Share of a new reading in the running mean.
-        gap: Rise in m from which a cell has lifted off.
     """
 
     def __init__(
         self,
         layout: SoleLayout,
-        least_force: float = 8.0,
+        least_force: float,
+        gap: float,
         least_share: float = 0.04,
         smoothing: float = 0.3,
-        gap: float = 0.002,
     ) -> None:
         self._places = layout.positions[:, :2]
         self._least_force = least_force

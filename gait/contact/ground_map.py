@@ -20,15 +20,16 @@ from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN
 from plantar.sensing.virtual_wrench import virtual_ground_reaction_wrench
-from plantar.settings.schema import Settings, choice, number, whole
+from plantar.settings.schema import Settings, choice, number, share, whole
 
 __all__ = ["GroundMap", "GroundMapSettings", "GroundView"]
 
 
-_LARGEST_BIAS_STEP = 0.0015  # m that one touch changes the bias by: more is ground that moved
+_LARGEST_BIAS_STEP = 0.0025  # leg that one touch changes the bias by: more is ground that moved
+_NEAR_TOUCH = 0.025  # leg that the ground may seem away at a touch for the bias to learn from it
 _EVEN = 0.9  # share of the taxels that see ground which lies on a plane where all of it is one
-_LIFTED_OFF = 0.005  # m that a sole has risen when it is compared with the distance it sees
-_LEAST_NOISE = 0.002  # m: standard deviation of a taxel's distance that is expected at least
+_LIFTED_OFF = 1 / 120  # leg that a sole has risen when it is compared with the distance it sees
+_LEAST_NOISE = 1 / 300  # leg: standard deviation of a taxel's distance that is expected at least
 _NOISE_SHARE = 0.02  # share of a reading in what is known of that
 _SIGMA_OF_MEDIAN = 1.4826  # of the median of the absolute values of normal noise
 _LEAST_BIAS = 0.75  # standard deviations of a taxel's distance that noise cannot make of that
@@ -52,12 +53,12 @@ class GroundMapSettings(Settings):
     """
 
     orientation: str = choice("plane", "moment")
-    sensing_range: float = number(0.05, "m", 0.005, 0.5)
+    sensing_range: float = share(1 / 12, "leg", 0.005, 0.5)
     largest_slope: float = number(0.25, "rad", 0, 0.7)
     follow_taxels: int = whole(10, "taxels", 3, 10000)
     readings: int = whole(60, "readings", 1, 10000)
     readings_moving: int = whole(5, "readings", 1, 10000)
-    still: float = number(0.0001, "m", 1e-06, 0.01)
+    still: float = share(1 / 6000, "leg", 1e-06, 0.01)
     jump: float = number(6.0, "1", 0.1, 100)
     jump_of_all: float = number(1.5, "1", 0.1, 100)
 
@@ -105,7 +106,8 @@ class GroundMap:
         self._plane = np.zeros(3)
         self._read = -math.inf
         self._most = float(settings.readings_moving)
-        self._noise = _LEAST_NOISE
+        self._leg = settings.body.leg
+        self._noise = _LEAST_NOISE * self._leg
         self._rising = False
         self._stood: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
         self._liftoff: float | None = None
@@ -169,8 +171,9 @@ class GroundMap:
     def touched(self) -> None:
         """The sole has met the ground: what the map still shows as distance is the sensors' bias."""
         view = self._view()
-        if view is not None and abs(view.distance) < 0.015:
-            self.bias += min(_LARGEST_BIAS_STEP, max(-_LARGEST_BIAS_STEP, 0.5 * view.distance))
+        if view is not None and abs(view.distance) < _NEAR_TOUCH * self._leg:
+            largest = _LARGEST_BIAS_STEP * self._leg
+            self.bias += min(largest, max(-largest, 0.5 * view.distance))
 
     def _height(self, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> float:
         return float(position[2] + rotation[2, :2].dot(self._centre[:2]))
@@ -180,7 +183,7 @@ class GroundMap:
         if self._liftoff is None:
             self._liftoff = height
         risen = height - self._liftoff
-        if risen < _LIFTED_OFF:
+        if risen < _LIFTED_OFF * self._leg:
             return view
         self._rising = False
         if view is None or not view.even or abs(view.middle - risen) < _LEAST_BIAS * self._noise:
@@ -223,7 +226,7 @@ class GroundMap:
             if abs(float(told.sum()) / len(told)) > s.jump_of_all * self._noise:
                 self._readings[:] = 0.0
             spread = _SIGMA_OF_MEDIAN * _median(np.abs(told))
-            self._noise = max(_LEAST_NOISE, self._noise + _NOISE_SHARE * (spread - self._noise))
+            self._noise = max(_LEAST_NOISE * self._leg, self._noise + _NOISE_SHARE * (spread - self._noise))
         self._readings[~known | (np.abs(news) > s.jump * self._noise)] = 0.0
         self._readings = np.minimum(self._readings + 1.0, self._most)
         self._distance = np.where(known, self._distance + news / self._readings, reading)

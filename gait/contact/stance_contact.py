@@ -18,7 +18,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
 from plantar.sensing.reading import Reading
-from plantar.settings.schema import Settings, number, switch, whole
+from plantar.settings.schema import Settings, number, share, switch, whole
 
 __all__ = ["ContactSettings", "StanceContact"]
 
@@ -52,29 +52,29 @@ class ContactSettings(Settings):
         watch: Time in s into the single support until which a contact polygon is refined.
     """
 
-    minimum_load: float = number(90.0, "N", 0, 10000)
+    minimum_load: float = share(0.107, "weight", 0, 10000)
     settle_readings: int = whole(3, "readings", 1, 1000)
-    taxel_noise: float = number(1.5, "N", 0, 1000)
+    taxel_noise: float = share(0.00178, "weight", 0, 1000)
     smoothing: float = number(0.3, "1", 0.001, 1)
     forgetting: float = number(0.92, "1", 0, 1)
-    least_expected: float = number(5.0, "N", 0, 10000)
+    least_expected: float = share(0.00593, "weight", 0, 10000)
     least_share: float = number(0.3, "1", 0, 1)
-    step_down: float = number(0.012, "m", 0.001, 0.1)
-    deep: float = number(0.05, "m", 0.002, 0.5)
+    step_down: float = share(0.02, "leg", 0.001, 0.1)
+    deep: float = share(1 / 12, "leg", 0.002, 0.5)
     sight: float = number(0.3, "1", 0.001, 1)
     least_seen: int = whole(4, "taxels", 1, 10000)
-    least_margin: float = number(0.03, "m", 0, 0.2)
+    least_margin: float = share(0.13, "sole", 0, 0.2)
     least_wrong: float = number(0.1, "1", 0, 1)
-    least_force: float = number(3.5, "N", 0, 10000)
+    least_force: float = share(0.00415, "weight", 0, 10000)
     model_error: float = number(0.1, "1", 0, 1)
     full_ratio: float = number(0.93, "1", 0.1, 1)
     subcell: bool = switch(True)
     fit_every: int = whole(8, "readings", 1, 1000)
-    standing_load: float = number(450.0, "N", 0, 100000)
+    standing_load: float = share(0.533, "weight", 0, 100000)
     foresee_readings: int = whole(6, "readings", 1, 1000)
-    foresee_reach: float = number(0.015, "m", 0, 0.2)
-    foresee_least: float = number(0.07, "s", 0, 1)
-    watch: float = number(0.15, "s", 0, 5)
+    foresee_reach: float = share(0.065, "sole", 0, 0.2)
+    foresee_least: float = share(0.283, "beat", 0, 1)
+    watch: float = share(0.607, "beat", 0, 5)
 
 
 class StanceContact:
@@ -169,7 +169,7 @@ class StanceContact:
             return
         # Relative to the nearest ground: the foot is on its way down.
         ground = float(np.sort(near)[: max(self.settings.least_seen, len(near) // 3)].mean())
-        depth = np.minimum(np.maximum(distance - ground, -0.05), self.settings.deep)
+        depth = np.minimum(np.maximum(distance - ground, -self.settings.deep), self.settings.deep)
         self._looks += 1
         # Where nothing was known the first sight counts whole.
         share = self.settings.sight if self._depth is not None else 1.0

@@ -13,8 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layouts.layout import Side
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 __all__ = ["SupportStrip"]
+
+_SPREAD, _AGREEMENT = 0.026, 0.173  # of a sole's length: 6 and 40 mm of one of 231 mm
 
 
 @dataclass
@@ -32,11 +35,25 @@ class SupportStrip:
 
     origin: NDArray[np.float64]
     along: NDArray[np.float64]
-    spread: float = 0.006
+    spread: float = _SPREAD * REFERENCE_BODY.sole
     slope: float = 0.1
-    agreement: float = 0.04
+    agreement: float = _AGREEMENT * REFERENCE_BODY.sole
     memory: int = 6
     _footholds: list[tuple[int, Side, float, float]] = field(default_factory=list)
+
+    @classmethod
+    def for_body(cls, body: BodyScale, origin: NDArray[np.float64], along: NDArray[np.float64]) -> SupportStrip:
+        """The strip of a robot's walk, with distances that are shares of its soles.
+
+        Args:
+            body: How large the robot is.
+            origin: A point (2,) of the walk's own line in m.
+            along: Its direction (2,), of length 1.
+
+        Returns:
+            The strip, of which nothing is known yet.
+        """
+        return cls(origin, along, spread=_SPREAD * body.sole, agreement=_AGREEMENT * body.sole)
 
     @property
     def across(self) -> NDArray[np.float64]:

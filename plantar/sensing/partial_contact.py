@@ -34,7 +34,7 @@ __all__ = ["GroundEdges", "PartialContact"]
 _MOST_EDGES = 4
 _NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
-_RANGE = 0.01  # m, prior spread of an edge about where the cells' corners put it
+_RANGE = 0.38  # of a cell's size, prior spread of an edge about where the cells' corners put it
 _TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
 _COS, _SIN = np.cos(_TURNS), np.sin(_TURNS)
 _TURN = math.radians(12.0)  # prior spread of its direction
@@ -289,8 +289,13 @@ class PartialContact:
         target = np.zeros(3 + 2 * m)
         hessian = jacobian.T @ jacobian
         gradient = jacobian.T @ (residual / noise)
+        spread = _RANGE * self._cell
         prior = np.concatenate(
-            [np.full(3, 1e-9 * np.trace(normal) / noise**2 + 1e-12), np.full(m, _RANGE**-2), np.full(m, _TURN**-2)]
+            [
+                np.full(3, 1e-9 * np.trace(normal) / noise**2 + 1e-12),
+                np.full(m, spread**-2),
+                np.full(m, _TURN**-2),
+            ]
         )
         # What the prior wants: distance at the pivot and direction of the start.
         turn = np.arctan2(

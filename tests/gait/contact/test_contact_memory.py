@@ -32,7 +32,7 @@ def stand(memory: ContactMemory, sole: SoleLayout, loads: tuple[float, ...], sta
 
 
 def test_a_bump_without_load_is_still_there(sole: SoleLayout) -> None:
-    memory = ContactMemory(sole)
+    memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
     before = memory.polygon
     assert area(before) == pytest.approx(0.0076, abs=0.002)
@@ -41,7 +41,7 @@ def test_a_bump_without_load_is_still_there(sole: SoleLayout) -> None:
 
 
 def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole: SoleLayout) -> None:
-    memory = ContactMemory(sole)
+    memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
     stand(memory, sole, (0.0, 0.0, 800.0), 0.1)
     assert len(memory.polygon) >= 3
@@ -51,7 +51,7 @@ def test_a_bump_that_the_sole_turned_away_from_is_forgotten(sole: SoleLayout) ->
 
 
 def test_what_lies_between_the_contacts_is_enclosed(sole: SoleLayout) -> None:
-    memory = ContactMemory(sole)
+    memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     assert not memory.encloses(np.zeros(2))
     stand(memory, sole, (250.0, 250.0, 250.0), 0.0)
     assert memory.encloses(np.array([0.01, 0.01]))
@@ -59,7 +59,7 @@ def test_what_lies_between_the_contacts_is_enclosed(sole: SoleLayout) -> None:
 
 
 def test_a_line_of_bumps_is_no_place_to_stand(sole: SoleLayout) -> None:
-    memory = ContactMemory(sole)
+    memory = ContactMemory(sole, least_force=8.0, gap=0.002)
     stand(memory, sole, (250.0, 250.0, 0.0), 0.0)
     assert not memory.encloses(np.array([0.0, 0.02]))
     memory.lift()
