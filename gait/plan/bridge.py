@@ -19,7 +19,6 @@ from plantar.mechanics.same_time import SAME_TIME
 __all__ = ["bridged"]
 
 _RAMP = 0.15  # of the bridge's time at both ends, in which the VRP moves to where it bridges and back
-_LEAST_BRIDGE = 0.05  # s: with less time left nothing is bridged
 
 Knots = tuple[list[float], list[NDArray[np.float64]]]
 
@@ -28,7 +27,7 @@ def bridged(
     plan: VrpPlan,
     knots: Knots,
     now: tuple[float, LipReference],
-    window: tuple[float, float],
+    window: tuple[float, float] | None,
     region: NDArray[np.float64],
     kept: tuple[int, NDArray[np.float64], float],
 ) -> tuple[VrpPlan, NDArray[np.float64]]:
@@ -38,7 +37,7 @@ def bridged(
         plan: The plan until now.
         knots: Times in s and VRPs (2,) in m of the stances that are built anew.
         now: The time in s, and the plan at it.
-        window: Beginning and end in s of the bridge; one of less than 0.05 s bridges nothing.
+        window: Beginning and end in s of the bridge; None bridges nothing.
         region: Convex polygon (k, 2) in the world in m in which the VRP may be in the bridge; empty does not limit it.
         kept: Index of the first knot of the old plan that is kept after the new ones, by how much (2,) in m such knots
             move, and by how much in s they come later.
@@ -62,14 +61,14 @@ def bridged(
 
 
 def _with_bridge(
-    knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float], end: NDArray[np.float64]
+    knots: Knots, now: tuple[float, NDArray[np.float64]], window: tuple[float, float] | None, end: NDArray[np.float64]
 ) -> tuple[list[float], list[NDArray[np.float64]], list[int]]:
     """Knots from now on with those of a bridge among them, and the indices of the two that may move."""
     times, points = list(knots[0]), list(knots[1])
     head_times, head = [now[0]], [now[1]]
     bridge: list[int] = []
-    length = window[1] - window[0]
-    if length >= _LEAST_BRIDGE:
+    if window is not None:
+        length = window[1] - window[0]
         before = [i for i, t in enumerate(times) if t <= window[0] + SAME_TIME]
         for i in before:
             if times[i] > now[0] + SAME_TIME:

@@ -29,11 +29,13 @@ from plantar.sides import Side, other_side
 
 __all__ = ["PlanView", "PlannedStep", "WalkPlan", "vrp_of_step"]
 
-_DELAY = 0.05  # s by which a double support that is too short grows at a time
-_MOST_DELAY = 0.3  # s in all
-_SHORT = 0.012  # m of the DCM that the feedback is left to deal with
-_STANCE_BRIDGE = 0.4  # s in which a change that comes in single support is bridged
-_FORESIGHT = 0.06  # s before touchdown from which a foothold that is seen coming is bridged on the stance foot
+_DELAY = 0.202  # beats by which a double support that is too short grows at a time
+_MOST_DELAY = 1.21  # beats in all
+_SHORT = 0.02  # leg of the DCM that the feedback is left to deal with
+_STANCE_BRIDGE = 1.62  # beats in which a change that comes in single support is bridged
+_FORESIGHT = 0.243  # beats before touchdown from which a foothold that is seen coming is bridged on the stance foot
+_LEAST_BRIDGE = 0.202  # beats: with less time left nothing is bridged
+_AT_REST = 4.04  # beats of standing before the first weight shift, and after the last, that the VRP rests in
 _REBUILT = 4  # stances that a replan builds anew; later ones keep what they have
 _REMEMBERED = 4  # steps behind the current one that a plan without an end keeps
 _RECORDED = 1000  # changes that the record keeps
@@ -134,6 +136,7 @@ class PlanView:
         """
         times: list[float] = []
         points: list[NDArray[np.float64]] = []
+        rest = _AT_REST * self.schedule.timing.body.beat
         for phase in self.schedule.phases[self.schedule.index(time) :]:
             if phase.kind == PhaseKind.SINGLE_SUPPORT:
                 if phase.step >= last:
@@ -143,7 +146,7 @@ class PlanView:
                 points += [vrp, vrp]
             elif phase.kind == PhaseKind.STANDING and math.isfinite(phase.start):
                 vrp = self.middle(phase.step)
-                times += [phase.start, min(phase.end, phase.start + 1.0)]
+                times += [phase.start, min(phase.end, phase.start + rest)]
                 points += [vrp, vrp]
         return times, points
 
@@ -171,6 +174,7 @@ class WalkPlan:
     ) -> None:
         self._vrp_in_sole = dict(vrp_in_sole)
         self._omega = omega
+        self._body = timing.body
         self._record: deque[AppliedChange] = deque(maxlen=_RECORDED)
         schedule = WalkSchedule.of([step.side for step in steps], timing, begin)
         standing = {s: vrp_of_step(feet[s], vrp_in_sole[s]) for s in feet}
@@ -182,7 +186,7 @@ class WalkPlan:
         times, points = self._view.knots(-math.inf, len(steps))
         if times and times[0] <= first:  # no step at all
             del times[0], points[0]
-        self._vrps = VrpPlan([first - 1.0, first, *times], [start, start, *points], omega)
+        self._vrps = VrpPlan([first - _AT_REST * timing.body.beat, first, *times], [start, start, *points], omega)
         self._asked = (-math.inf, self._vrps, self._vrps.at(-math.inf))
 
     @property
@@ -284,18 +288,18 @@ class WalkPlan:
     ) -> tuple[NDArray[np.float64], float]:
         """Solve the VRPs anew, bridged; the DCM (2,) in m that stays unbridged, and how much longer a double support
         becomes for it in s."""
-        step, phase = change.step, self.schedule.at(time)
+        step, phase, beat = change.step, self.schedule.at(time), self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
-            window = (time, min(phase.end, time + _STANCE_BRIDGE))
+            window = (time, min(phase.end, time + _STANCE_BRIDGE * beat))
             return self._solved(time, now, window, region, shift, late=change.longer or 0.0, anew=anew), 0.0
         takes_over = phase.step == step + 1 and phase.kind == PhaseKind.DOUBLE_SUPPORT
-        if phase.step == step and phase.kind == PhaseKind.SINGLE_SUPPORT and phase.end - time >= _FORESIGHT:
+        if phase.step == step and phase.kind == PhaseKind.SINGLE_SUPPORT and phase.end - time >= _FORESIGHT * beat:
             return self._solved(time, now, (time, phase.end), region, shift), 0.0
         if takes_over or phase.step == step:
             following = phase if takes_over else self.schedule.following(phase)
             return self._bridged_in_double_support(following, time, now, region, shift)
-        window = (time, min(phase.end, time + _STANCE_BRIDGE))
+        window = (time, min(phase.end, time + _STANCE_BRIDGE * beat))
         return self._solved(time, now, window, region, shift), 0.0
 
     def _bridged_in_double_support(
@@ -311,9 +315,9 @@ class WalkPlan:
         while True:
             self._vrps = old
             gap = self._solved(time, now, window, region, shift, delay)
-            if float(np.hypot(*gap)) <= _SHORT or delay > _MOST_DELAY:
+            if float(np.hypot(*gap)) <= _SHORT * self._body.leg or delay > _MOST_DELAY * self._body.beat:
                 break
-            delay += _DELAY
+            delay += _DELAY * self._body.beat
             window = (window[0], phase.end + delay)
         if delay > 0.0:
             self._view = replace(self._view, schedule=self.schedule.delayed(phase, delay))
@@ -339,7 +343,14 @@ class WalkPlan:
         if delay:
             times = [t + delay if t >= window[1] - delay - SAME_TIME else t for t in times]
         kept = len(self._vrps.times) - (0 if last == n else 2 * (n - last) + 2)
-        self._vrps, gap = bridged(self._vrps, (times, points), (time, now), window, region, (kept, shift, delay + late))
+        self._vrps, gap = bridged(
+            self._vrps,
+            (times, points),
+            (time, now),
+            window if window[1] - window[0] >= _LEAST_BRIDGE * self._body.beat else None,
+            region,
+            (kept, shift, delay + late),
+        )
         return gap
 
     def _forget(self, time: float) -> None:
