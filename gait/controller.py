@@ -37,7 +37,7 @@ from gait.estimate.skin_load import at_its_limit
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.ground_conformity import ConformityGains, GroundConformity
-from gait.feet.landing_compliance import LandingCompliance
+from gait.feet.landing_compliance import DampingGains, LandingCompliance
 from gait.feet.posture_compensation import PostureCompensation
 from gait.feet.swing_compliance import SwingCompliance
 from gait.plan.feet_view import FeetView
@@ -62,7 +62,7 @@ from plantar.mechanics.lip import divergent_component, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
-from plantar.settings.schema import Settings, choice, number, switch
+from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
 if TYPE_CHECKING:
@@ -70,9 +70,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "Start", "WalkingController"]
 
-_CONTACT_OFFSET = 0.01  # m that a foot's centre of pressure keeps from the edge of its contact (T 4.4.4)
+_CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
 _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
-_PROBING = 20.0  # N on a foot that probes the ground from which its centre of pressure turns it
+_PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
+_FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
+_NO_WAY = 1 / 12  # leg: a walk that is shorter has no direction of its own
 
 
 class ControllerSettings(Settings):
@@ -109,7 +111,7 @@ class ControllerSettings(Settings):
     mass: float
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
-    swing_height: float = number(0.05, "m", 0.0, 1.0)
+    swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)
@@ -118,8 +120,8 @@ class ControllerSettings(Settings):
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
-    lean_reach: float = number(0.053, "m", 0.0, 1.0)
-    alignment_time: float = number(0.3, "s", 0.01, 100.0)
+    lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
+    alignment_time: float = share(1.21, "beat", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
     contact: ContactSettings = field(default_factory=ContactSettings)
@@ -203,12 +205,14 @@ class WalkingController:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
         self.contacts = FootContacts(settings.contact, layouts)
-        self._damping = {side: LandingCompliance(period) for side in SIDES}
+        damping = DampingGains().for_body(settings.body)
+        self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
         self._frame = CommandFrame(feet["left"].position, period, settings.alignment_time)
         self._ticks = 0
         self._rotations_sole: Mapping[str, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in SIDES}
-        self._compensation = PostureCompensation(period, fade=0.7 * settings.timing.double_support)
-        self._ground = CoMHeight(float(np.mean([feet[s].z for s in SIDES])), period)
+        self._compensation = PostureCompensation.for_body(settings.body, period, 0.7 * settings.timing.double_support)
+        ground = float(np.mean([feet[s].z for s in SIDES]))
+        self._ground = CoMHeight(ground, period, _FOLLOWS_GROUND / settings.body.beat)
         self.guard, self.conformity = self._for_unknown_ground(middles)
         self._proposers = self._asked(start, middles)
 
@@ -230,11 +234,12 @@ class WalkingController:
 
     def _asked(self, start: Start, middles: Mapping[Side, NDArray[np.float64]]) -> Sequence[Proposer]:
         """Who may propose changes of the plan, in the order in which they are asked."""
+        body = self.settings.body
         begin = self.plan.at(start.time - 1.0).com
         way = self.plan.end - begin
         length = float(np.hypot(*way))
         forward = np.array([math.cos(start.feet["left"].yaw), math.sin(start.feet["left"].yaw)])
-        strip = SupportStrip(begin, way / length if length > 0.05 else forward)
+        strip = SupportStrip.for_body(body, begin, way / length if length > _NO_WAY * body.leg else forward)
         rules = self.settings.foothold
         on_ground: list[Proposer] = [
             SlopeInside(),
@@ -397,7 +402,7 @@ class WalkingController:
             coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
             damped = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
         if self.guard is not None and self.guard.probing and phase.swing is not None:
-            damped[phase.swing] = (sensed.soles[phase.swing], _PROBING)
+            damped[phase.swing] = (sensed.soles[phase.swing], _PROBING * self.settings.body.weight)
         for side, (sole, least) in damped.items():
             cop = sole.position_cop_in_sole
             if cop is not None and state.loads[side] > least:
@@ -527,7 +532,7 @@ class WalkingController:
         polygon = self.contacts.polygon(side)
         rectangle = self._rectangle_of.get(side)
         if rectangle is None or rectangle[0] is not polygon:
-            (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET).tolist()
+            (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET * self.settings.body.sole).tolist()
             rectangle = self._rectangle_of[side] = (polygon, Rectangle(x0, x1, y0, y1))
         position, yaw = self.motion.footholds[side]
         x, y, z = self._frame.offset.tolist()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, number, share
 
 __all__ = ["ComplianceGains", "TouchdownGains"]
 
@@ -28,20 +28,20 @@ class ComplianceGains(Settings):
         turn_rate: Largest rate of that in rad/s; close to the ground it is less (see `SwingCompliance.turn_rate`).
     """
 
-    damping: float = number(0.04, "s", 0.001, 1)
-    touch_speed: float = number(0.002, "m/s", 0.0001, 0.1)
-    margin: float = number(0.0002, "m", 0, 0.01)
-    top_speed: float = number(0.3, "m/s", 0.01, 2)
-    acceleration: float = number(4.0, "m/s^2", 0.1, 100)
-    clearance: float = number(0.012, "m", 0, 0.1)
+    damping: float = share(0.162, "beat", 0.001, 1)
+    touch_speed: float = share(0.000824, "leg/beat", 0.0001, 0.1)
+    margin: float = share(1 / 3000, "leg", 0, 0.01)
+    top_speed: float = share(0.124, "leg/beat", 0.01, 2)
+    acceleration: float = share(0.408, "leg/beat^2", 0.1, 100)
+    clearance: float = share(0.02, "leg", 0, 0.1)
     clearance_slope: float = number(0.2, "1", 0, 2)
-    correction: float = number(0.03, "s", 0.005, 1)
+    correction: float = share(0.121, "beat", 0.005, 1)
     steepness: float = number(3.0, "1", 1, 10)
-    crawl_time: float = number(0.3, "s", 0, 2)
-    reserve: float = number(0.08, "s", 0, 1)
+    crawl_time: float = share(1.21, "beat", 0, 2)
+    reserve: float = share(0.323, "beat", 0, 1)
     late_speed_ratio: float = number(2.5, "1", 1, 20)
-    turning: float = number(0.04, "s", 0.005, 1)
-    turn_rate: float = number(1.5, "rad/s", 0.01, 20)
+    turning: float = share(0.162, "beat", 0.005, 1)
+    turn_rate: float = share(0.371, "rad/beat", 0.01, 20)
 
 
 class TouchdownGains(Settings):
@@ -56,9 +56,9 @@ class TouchdownGains(Settings):
         settling: Time constant in s with which it learns how fast the body above it moves up or down.
     """
 
-    contact_force: float = number(18.0, "N", 0, 10000)
-    touch_force: float = number(20.0, "N", 0, 10000)
-    hold_force: float = number(30.0, "N", 0.1, 10000)
-    load_time: float = number(0.15, "s", 0.001, 5)
-    admittance: float = number(1e-4, "m/s/N", 0, 0.1)
-    settling: float = number(0.1, "s", 0.005, 10)
+    contact_force: float = share(0.0213, "weight", 0, 10000)
+    touch_force: float = share(0.0237, "weight", 0, 10000)
+    hold_force: float = share(0.0356, "weight", 0.1, 10000)
+    load_time: float = share(0.607, "beat", 0.001, 5)
+    admittance: float = share(0.0348, "leg/beat/weight", 0, 0.1)
+    settling: float = share(0.404, "beat", 0.005, 10)

@@ -13,7 +13,7 @@ from gait.contact.ground_map import GroundView
 from gait.estimate.command_frame import CommandFrame
 from gait.feet.swing import SwingTrajectory
 from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
-from gait.feet.swing_flight import SwingFlight
+from gait.feet.swing_flight import LEAST_TIME, SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
@@ -22,16 +22,17 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
-from plantar.settings.schema import Settings, number
+from plantar.settings.schema import Settings, number, share
 from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["FootMotion", "Landing", "SoleSense"]
 
-_RETAKE_HEIGHT = 0.04  # m above what the foot met that a step taken once more rises at most
-_CLOSE_BY = 0.06  # m before its place from which a swing turns its sole to the ground
-_NEARLY_THERE = 0.012  # m before its place from which a swing judges the ground that it will land on
-_TOUCHING = 0.01  # m from the ground that it sees within which less than a blind foot's load is taken for a touch
-_AT_THE_GROUND = 0.002  # m from it within which the least load is
+# Distances as shares of the leg:
+_RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more rises at most
+_CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
+_NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
+_TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
+_AT_THE_GROUND = 1 / 300  # from it within which the least load is
 _GROUND_SHARE = 0.3
 """Share of a new foothold's height in the height at which the next one is expected."""
 
@@ -60,14 +61,14 @@ class Landing(Settings):
         approach_speed: Speed of that in m/s.
     """
 
-    contact_force: float = number(70.0, "N", 0, 10000)
-    press_force: float = number(200.0, "N", 0.1, 100000)
-    depth: float = number(0.0004, "m", 0, 0.05)
-    speed: float = number(0.03, "m/s", 0.0001, 1)
-    acceleration: float = number(1.0, "m/s^2", 0.01, 100)
-    reach: float = number(0.03, "m", 0, 0.2)
+    contact_force: float = share(0.083, "weight", 0, 10000)
+    press_force: float = share(0.237, "weight", 0.1, 100000)
+    depth: float = share(1 / 1500, "leg", 0, 0.05)
+    speed: float = share(0.0124, "leg/beat", 0.0001, 1)
+    acceleration: float = share(0.102, "leg/beat^2", 0.01, 100)
+    reach: float = share(0.05, "leg", 0, 0.2)
     approach_height: float = number(0.0, "m", 0, 0.2)
-    approach_speed: float = number(0.06, "m/s", 0.001, 1)
+    approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
 
 
 class FootMotion:
@@ -103,6 +104,7 @@ class FootMotion:
         self._period = period
         self._height = swing_height
         self._landing = landing
+        self._leg = landing.body.leg
         self._compliance = compliance
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
@@ -257,7 +259,8 @@ class FootMotion:
         self._target = target
         place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
         yaw = target.yaw - frame.turn if moves else self._swing.yaw_end
-        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start)
+        least = LEAST_TIME * self._landing.body.beat
+        self._swing = self._swing.aimed(time - self._start, place, yaw, phase.touchdown - self._start, least)
 
     def _begin(self, index: int, times: tuple[float, float], target: Footstep, frame: CommandFrame) -> None:
         """Begin the swing of a step, from and until some times in s."""
@@ -295,7 +298,7 @@ class FootMotion:
         """Lift the foot that has landed again and take its step once more, to another place."""
         expected, height = self._expected, self._height
         # It has to clear only what it has just met, in what is left of the step.
-        self._height = min(height, _RETAKE_HEIGHT)
+        self._height = min(height, _RETAKE_HEIGHT * self._leg)
         self._begin(self._step, (time, touchdown), target, frame)
         self._expected, self._height = expected, height
         self._rises_first.add(self._side)  # what it has met stands beside it then
@@ -339,9 +342,9 @@ class FootMotion:
                 falling = self._landing.speed
             remaining = math.hypot(*(swing.end[:2] - planned[:2]).tolist())
             drop = compliance.descent(view, falling, remaining, time_left, period)
-            if view is not None and remaining < _NEARLY_THERE:
+            if view is not None and remaining < _NEARLY_THERE * self._leg:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
-            if view is not None and remaining < _CLOSE_BY:
+            if view is not None and remaining < _CLOSE_BY * self._leg:
                 self._turn(compliance, side, view)
             self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
             return
@@ -361,9 +364,10 @@ class FootMotion:
         blind = self._landing.contact_force
         if load > blind:
             return True
-        if view is None or view.distance >= _TOUCHING:
+        touching, there = _TOUCHING * self._leg, _AT_THE_GROUND * self._leg
+        if view is None or view.distance >= touching:
             return False
-        far = (view.distance - _AT_THE_GROUND) / (_TOUCHING - _AT_THE_GROUND)
+        far = (view.distance - there) / (touching - there)
         least = compliance.touchdown.contact_force
         return far <= 0.0 or compliance.force > least + far * (blind - least)
 

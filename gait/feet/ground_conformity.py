@@ -28,7 +28,7 @@ from gait.plan.phases import Phase
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
-from plantar.settings.schema import Settings, number, whole
+from plantar.settings.schema import Settings, number, share, whole
 from plantar.sides import SIDES, Side
 
 __all__ = ["ConformityGains", "FootTurn", "GroundConformity", "SoleTurn"]
@@ -49,17 +49,21 @@ class ConformityGains(Settings):
         follows: Distance in m that a centre of pressure goes at least for each rad of a turn on firm ground.
         watch: Number of control ticks over which that is judged.
         least_turn: Turn in rad from which it is.
+        carries: Running mean in N from which a cell touches the ground.
+        gap: Rise in m from which a cell that has touched has lifted off.
     """
 
-    firm: float = number(0.006, "rad/s/m/N", 0, 1)
-    rolling: float = number(5.0, "rad/s/m", 0, 100)
-    nearly: float = number(0.01, "m", 0, 0.1)
-    largest_rate: float = number(0.6, "rad/s", 0, 10)
-    least_load: float = number(15.0, "N", 0, 10000)
-    press: float = number(80.0, "N", 0, 10000)
-    follows: float = number(1.0, "m/rad", 0, 100)
+    firm: float = share(0.289, "rad/beat/sole/weight", 0, 1)
+    rolling: float = share(0.285, "rad/beat/sole", 0, 100)
+    nearly: float = share(0.0433, "sole", 0, 0.1)
+    largest_rate: float = share(0.148, "rad/beat", 0, 10)
+    least_load: float = share(0.0178, "weight", 0, 10000)
+    press: float = share(0.0948, "weight", 0, 10000)
+    follows: float = share(4.33, "sole/rad", 0, 100)
     watch: int = whole(10, "ticks", 1, 1000)
     least_turn: float = number(0.002, "rad", 0, 0.5)
+    carries: float = share(0.00948, "weight", 0, 1000)
+    gap: float = share(1 / 300, "leg", 0, 0.05)
 
 
 class SoleTurn(NamedTuple):
@@ -183,7 +187,9 @@ class GroundConformity:
         self.turns_stance = turns_stance
         self._middles = middles
         self._turns = {side: FootTurn(gains, period) for side in SIDES}
-        self._contacts = {side: ContactMemory(layouts[side]) for side in SIDES}
+        self._contacts = {
+            side: ContactMemory(layouts[side], least_force=gains.carries, gap=gains.gap) for side in SIDES
+        }
 
     def update(
         self,

@@ -19,7 +19,25 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LandingCompliance"]
+from plantar.settings.schema import Settings, number, share
+
+__all__ = ["DampingGains", "LandingCompliance"]
+
+
+class DampingGains(Settings):
+    """Gains of foot damping at touchdown.
+
+    Attributes:
+        admittance: A in rad/s for each N m.
+        largest_rate: Largest rate in rad/s.
+        largest_turn: Largest turn in rad: what a levelled sole may be off; more would lean the body.
+        largest_force: Vertical force in N from which the foot carries the body and no longer yields.
+    """
+
+    admittance: float = share(0.241, "rad/beat/weight/sole", 0, 10)
+    largest_rate: float = share(0.0247, "rad/beat", 0, 10)
+    largest_turn: float = number(0.004, "rad", 0, 0.5)
+    largest_force: float = share(0.415, "weight", 0, 100000)
 
 
 @dataclass
@@ -28,18 +46,12 @@ class LandingCompliance:
 
     Attributes:
         period: Control period in s.
-        admittance: A in rad/s per N m.
-        largest_rate: Largest rate in rad/s.
-        largest_turn: Largest turn in rad: what a levelled sole may be off; more would lean the body.
-        largest_force: Vertical force in N from which the foot carries the body and no longer yields.
+        gains: Gains.
         turn: Turn (2,) about the sole's x and y axes in rad.
     """
 
     period: float
-    admittance: float = 0.005
-    largest_rate: float = 0.1
-    largest_turn: float = 0.004
-    largest_force: float = 350.0
+    gains: DampingGains = field(default_factory=DampingGains)
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(2))
 
     def reset(self) -> None:
@@ -55,15 +67,16 @@ class LandingCompliance:
             target: Where it shall act (2,) in the sole frame in m.
         """
         # The foot carries the body now: turning it would push the body, and its edge no longer hides the ground.
-        if force > self.largest_force:
+        g = self.gains
+        if force > g.largest_force:
             return
         dx, dy = (center_of_pressure - target).tolist()
-        gain = self.admittance * force
+        gain = g.admittance * force
         # A moment about x lies along y: the turn is the lever rotated by a quarter.
         rate = np.array([gain * dy, -gain * dx])
         size = math.hypot(*rate.tolist())
-        if size > self.largest_rate:
-            rate *= self.largest_rate / size
+        if size > g.largest_rate:
+            rate *= g.largest_rate / size
         turn = self.turn + self.period * rate
         size = math.hypot(*turn.tolist())
-        self.turn = turn if size <= self.largest_turn else turn * (self.largest_turn / size)
+        self.turn = turn if size <= g.largest_turn else turn * (g.largest_turn / size)

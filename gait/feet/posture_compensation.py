@@ -19,8 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.rotation import sine_vector
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 __all__ = ["PostureCompensation"]
+
+_TIME_CONSTANT = 0.121  # beat: 0.03 s on a leg of 0.6 m
+_LARGEST_SHIFT = 0.1  # leg
 
 
 @dataclass
@@ -36,13 +40,27 @@ class PostureCompensation:
     """
 
     period: float
-    time_constant: float = 0.03
+    time_constant: float = _TIME_CONSTANT * REFERENCE_BODY.beat
     fade: float = 0.2
-    largest_shift: float = 0.06
+    largest_shift: float = _LARGEST_SHIFT * REFERENCE_BODY.leg
     largest_turn: float = 0.12
     shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     _weight: float = 0.0
+
+    @classmethod
+    def for_body(cls, body: BodyScale, period: float, fade: float) -> PostureCompensation:
+        """The correction for a robot, limited to a share of its leg.
+
+        Args:
+            body: How large the robot is.
+            period: Control period in s.
+            fade: Time in s in which the correction comes in and goes out.
+
+        Returns:
+            The correction, which is none yet.
+        """
+        return cls(period, _TIME_CONSTANT * body.beat, fade, _LARGEST_SHIFT * body.leg)
 
     def start(self) -> None:
         """Begin with no correction: the foot lifts off."""

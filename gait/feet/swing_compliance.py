@@ -23,8 +23,12 @@ from plantar.sensing.virtual_wrench import SoleWrenchSwitch
 __all__ = ["SwingCompliance", "turned_to_ground"]
 
 
-_DOUBT = 0.001  # m past the ground that it sees at which a sole that has not touched goes down twice as fast
-_LARGEST_DRIFT = 0.005  # m/s that a body moves up or down above a foot that has touched
+_DOUBT = 1 / 600  # leg past the ground that it sees at which a sole that has not touched goes down twice as fast
+_THERE = 1 / 300  # leg before its place from which a sole is above it
+_KEPT = 1 / 150  # leg from the ground that a sole keeps until then, and more the further it has to go
+_LARGEST_RISE = 0.0412  # leg/beat at which a sole goes up that is too near to the ground
+_LARGEST_DRIFT = 0.00206  # leg/beat that a body moves up or down above a foot that has touched
+_LARGEST_YIELD = 0.00824  # leg/beat at which a foot that has touched gives way
 _SLOPE_OF_NOISE = 0.015  # tangent of the slope that level ground may seem to have
 
 
@@ -51,6 +55,7 @@ class SwingCompliance:
         self.ground = GroundMap(layout, ground)
         self.switch = SoleWrenchSwitch(touchdown.contact_force)
         self.force = 0.0
+        self._leg, self._speed_unit = gains.body.in_si("leg"), gains.body.in_si("leg/beat")
         self._arm = 0.5 * float(np.linalg.norm(np.ptp(layout.outline, axis=0)))  # m from the middle to an edge
         self._speed = self._drift = 0.0
         self._aim: float | None = None
@@ -96,19 +101,20 @@ class SwingCompliance:
             return self._speed * period
         if self._aim is None:
             self._aim = view.distance
-        above = remaining < 0.002
-        left = self._aim - (g.margin if above else min(g.clearance, 0.004 + g.clearance_slope * remaining))
+        above = remaining < _THERE * self._leg
+        left = self._aim - (g.margin if above else min(g.clearance, _KEPT * self._leg + g.clearance_slope * remaining))
         hurry = min(1.0, max(0.0, 2.0 - time_left / g.reserve))
-        doubt = max(0.0, -view.distance) / _DOUBT  # it should have touched already
+        doubt = max(0.0, -view.distance) / (_DOUBT * self._leg)  # it should have touched already
         crawl = g.touch_speed * (1.0 + (g.late_speed_ratio - 1.0) * hurry + doubt)
         damping = max(g.damping, (time_left - g.crawl_time) / g.steepness)
-        wanted = left / damping + crawl if left > 0.0 else max(-0.1, left / g.damping)
+        rise = -_LARGEST_RISE * self._speed_unit
+        wanted = left / damping + crawl if left > 0.0 else max(rise, left / g.damping)
         if above:
             wanted = max(wanted, crawl)
         self._speed = min(wanted, g.top_speed, self._speed + g.acceleration * period)
         behind = view.distance - self._aim
         self._aim -= self._speed * period
-        return period * min(g.top_speed, max(-0.1, self._speed + behind / g.correction))
+        return period * min(g.top_speed, max(rise, self._speed + behind / g.correction))
 
     def turn_rate(self, distance: float, slope: tuple[float, float]) -> float:
         """Largest rate in rad/s at which the sole turns: its edge goes down no faster than the whole of it does, but
@@ -148,11 +154,13 @@ class SwingCompliance:
         """
         g, t = self.gains, self.touchdown
         missing = t.admittance * (target - load)
-        self._drift = min(_LARGEST_DRIFT, max(-_LARGEST_DRIFT, self._drift + missing * period / t.settling))
+        drift = _LARGEST_DRIFT * self._speed_unit
+        self._drift = min(drift, max(-drift, self._drift + missing * period / t.settling))
         wanted = missing + self._drift
         if load < 0.3 * t.hold_force:
             wanted = max(wanted, g.touch_speed + above / g.damping)
-        self._speed = min(0.02, max(-0.02, wanted))
+        fastest = _LARGEST_YIELD * self._speed_unit
+        self._speed = min(fastest, max(-fastest, wanted))
         return self._speed * period
 
 

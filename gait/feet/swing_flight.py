@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from gait.feet.swing import SwingTrajectory
 from plantar.mechanics.same_time import SAME_TIME
+from plantar.settings.body_scale import REFERENCE_BODY
 
 __all__ = ["LEAST_TIME", "SwingFlight"]
 
-LEAST_TIME = 0.1
-"""Time in s before touchdown from which a flight is not aimed anew: the foot would have to be thrown."""
+LEAST_TIME = 0.404
+"""Beats before touchdown from which a flight is not aimed anew: the foot would have to be thrown."""
 
 _RAMP = 0.2  # share of the time left in which the clock comes to its new rate
 _STEP = 1e-4  # s of the differences that velocity and acceleration are taken from
@@ -134,20 +135,28 @@ class SwingFlight:
             position[:2] = x, y
         return position, yaw
 
-    def aimed(self, time: float, place: NDArray[np.float64], yaw: float, duration: float) -> SwingFlight:
-        """The flight with another end, from a moment on; the same where less than `LEAST_TIME` is left.
+    def aimed(
+        self,
+        time: float,
+        place: NDArray[np.float64],
+        yaw: float,
+        duration: float,
+        least_time: float = LEAST_TIME * REFERENCE_BODY.beat,
+    ) -> SwingFlight:
+        """The flight with another end, from a moment on; the same where too little time is left.
 
         Args:
             time: That moment in s since lift-off.
             place: Sole position (2,) at touchdown in m.
             yaw: Heading at touchdown in rad.
             duration: Time in s from lift-off to touchdown.
+            least_time: Time in s to touchdown below which the flight is left alone (`LEAST_TIME` of the robot's beats).
 
         Returns:
             The flight.
         """
         old, new = self.duration - time, duration - time
-        if min(old, new) < LEAST_TIME:
+        if min(old, new) < least_time:
             return self
         shown = self.progress(time)
         rate = (self.progress(time + _STEP) - shown) / _STEP

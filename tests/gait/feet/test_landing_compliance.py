@@ -26,10 +26,10 @@ def test_it_settles_on_an_elastic_ground_where_the_load_acts_in_the_middle() -> 
 def test_turn_and_rate_are_limited_and_a_foot_that_carries_the_body_does_not_yield() -> None:
     foot = LandingCompliance(0.005)
     foot.update(300.0, np.array([0.3, 0.0]), np.zeros(2))
-    assert abs(foot.turn[1]) <= foot.largest_rate * foot.period + 1e-12
+    assert abs(foot.turn[1]) <= foot.gains.largest_rate * foot.period + 1e-12
     for _ in range(500):
         foot.update(300.0, np.array([0.3, 0.1]), np.zeros(2))
-    assert np.hypot(*foot.turn) == pytest.approx(foot.largest_turn)
+    assert np.hypot(*foot.turn) == pytest.approx(foot.gains.largest_turn)
     held = foot.turn.copy()
     foot.update(800.0, np.array([-0.1, 0.0]), np.zeros(2))
     assert (foot.turn == held).all()
