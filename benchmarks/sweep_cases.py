@@ -1,0 +1,106 @@
+"""Counts of scenes over fresh seeds: a case is a sweep in a folder, and what came of all of them is a table.
+
+A sweep that was stopped goes on where it was; one that was not finished counts with the runs that it has.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from statistics import median
+from typing import NamedTuple
+
+from sim.sweep import Sweep, run_sweep
+
+__all__ = ["FIRST", "Row", "SweepCase", "completed", "median_and_range", "rows_of_cases", "run_cases", "write_rows"]
+
+FIRST = 1000
+"""First of the seeds, which nothing was tuned on."""
+
+Row = dict[str, str]
+"""A run, as the sweep's table has it."""
+
+
+class SweepCase(NamedTuple):
+    """A sweep.
+
+    Attributes:
+        scene: The scene.
+        what: What is different; empty for the scene itself.
+        settings: Its settings.
+        seeds: How many seeds.
+    """
+
+    scene: str
+    what: str = ""
+    settings: tuple[str, ...] = ()
+    seeds: int = 20
+
+    @property
+    def folder(self) -> str:
+        """Name of its folder."""
+        return self.scene + "".join(f"-{s.replace('=', '-')}" for s in self.settings)
+
+
+def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
+    """Run what is missing.
+
+    Args:
+        cases: The cases.
+        folder: Folder of their sweeps.
+    """
+    for case in cases:
+        sweep = Sweep(case.scene, seeds=case.seeds, settings=case.settings, first_seed=FIRST)
+        result = run_sweep(sweep, folder / case.folder)
+        print(case.folder, result["points"][0]["completed"], "of", case.seeds, flush=True)
+
+
+def rows_of_cases(cases: Iterable[SweepCase], folder: Path) -> Iterator[tuple[SweepCase, list[Row]]]:
+    """Each case that was run, with its runs.
+
+    Args:
+        cases: The cases.
+        folder: Folder of their sweeps.
+
+    Yields:
+        The case and its rows.
+    """
+    for case in cases:
+        path = folder / case.folder / "results.csv"
+        if path.exists():
+            with path.open(newline="", encoding="utf-8") as file:
+                yield case, list(csv.DictReader(file))
+
+
+def completed(rows: Sequence[Row]) -> str:
+    """How many of the runs were completed, as 18/20."""
+    return f"{sum(r['completed'] == 'True' for r in rows)}/{len(rows)}"
+
+
+def median_and_range(rows: Iterable[Row], column: str) -> str:
+    """Median and range of a figure over the runs.
+
+    Args:
+        rows: The runs.
+        column: Name of the figure.
+
+    Returns:
+        A text with three digits; "-" where no run has the figure.
+    """
+    values = [float(r[column]) for r in rows if r[column] not in ("", "None")]
+    return f"{median(values):.3g} ({min(values):.3g} to {max(values):.3g})" if values else "-"
+
+
+def write_rows(path: Path, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Write a CSV file.
+
+    Args:
+        path: The file.
+        columns: Names of its columns.
+        rows: Values of each row in that order.
+    """
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(rows)
