@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, tables, text
@@ -19,6 +20,7 @@ from sim.companion.reaching.reach_controller import ReachControl, ReachControlle
 from sim.companion.reaching.reach_record import ReachRecord
 from sim.companion.skin_sensing import SkinSensor
 from sim.figures.render import View
+from sim.model.contact_truth import feet_contacts
 
 __all__ = ["IntentionalContactExperiment", "ReachSettings"]
 
@@ -91,7 +93,8 @@ class IntentionalContactExperiment(Experiment):
         self._since = self._reached = math.inf
         self._error = math.inf
         self._due = 0.0
-        self._pressed: dict[str, np.ndarray[Any, np.dtype[np.float64]]] = {}
+        self._pressed: dict[str, NDArray[np.float64]] = {}
+        self._posts: dict[str, int] = {}
         self._hand: ReachController
 
     def add_to(self, spec: Any) -> None:
@@ -100,6 +103,9 @@ class IntentionalContactExperiment(Experiment):
             post.add_to(spec, self._height, self.settings.half_height)
         mark = spec.worldbody.add_site(name="goal", pos=self._goal, size=[0.02, 0.02, 0.02])
         mark.rgba = [0.2, 0.7, 0.3, 1.0]
+
+    def start(self, world: World) -> None:
+        self._posts = {post.name: world.model.geom(post.name).id for post in self.layout.posts}
 
     def controller(self, machine: Machine, skin: BodySkin) -> ReachController:
         self._hand = ReachController(machine, skin, self.control, self._tip, self.settings.force_limit)
@@ -113,16 +119,10 @@ class IntentionalContactExperiment(Experiment):
             world: The world.
             time: Time in s.
         """
-        wrench = np.zeros(6)
-        self._pressed = {post.name: np.zeros(3) for post in self.layout.posts}
-        for i in range(world.data.ncon):
-            contact = world.data.contact[i]
-            names = [world.model.geom(geom).name for geom in (contact.geom1, contact.geom2)]
-            touched = [name for name in names if name in self._pressed]
-            if len(touched) == 1:  # two posts that lean on each other are not the arm's
-                mujoco.mj_contactForce(world.model, world.data, i, wrench)
-                sign = 1.0 if names[1] == touched[0] else -1.0
-                self._pressed[touched[0]] += sign * (contact.frame.reshape(3, 3).T @ wrench[:3])
+        found = feet_contacts(world.model, world.data, [{geom} for geom in self._posts.values()])
+        for name, contacts in zip(self._posts, found, strict=True):
+            others = ~np.isin(contacts.other_geoms, list(self._posts.values()))  # posts lean on each other too
+            self._pressed[name] = contacts.forces[others].sum(axis=0)
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
         origin, rotation = world.pose(self._tip[0])
