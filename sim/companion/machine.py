@@ -147,6 +147,20 @@ class Machine:
             motor.ctrlrange = [-joint.effort, joint.effort]
         return spec
 
+    def ranges(self, model: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Where the joints have their stops.
+
+        Args:
+            model: An MjModel that the machine is in.
+
+        Returns:
+            Lowest and highest position (k,) of each joint in rad or m; infinite where it has no stop.
+        """
+        joints = [model.joint(name) for name in self.joints]
+        held = np.array([bool(joint.limited[0]) for joint in joints])
+        low, high = np.array([joint.range for joint in joints]).T
+        return np.where(held, low, -np.inf), np.where(held, high, np.inf)
+
 
 def builtin_machines() -> tuple[str, ...]:
     """Names of the built-in machines."""

@@ -29,6 +29,7 @@ __all__ = ["ReachControl", "ReachController"]
 _SMOOTHED = 0.5  # s: time constant of what is smoothed
 _SEEN = 0.01  # N of virtual force from which something is near
 _ARRIVED = 0.01  # m from the goal
+_OFF_STOPS = 0.02  # share of a joint's range that it keeps off each of its stops
 _DEEPEST = 1e-3  # m of sensing range that is left where the policy wants none
 
 
@@ -118,7 +119,9 @@ class ReachController:
         self._velocity, self._seen, self._time = np.zeros(3), 0.0, np.inf
         self._blend = PriorityTransition(TransitionSettings(duration=s.transition))
         speeds = np.minimum(machine.velocities, s.joint_speed)
-        limits_of_joints = 0.98 * machine.efforts, speeds, *_ranges(machine)
+        low, high = machine.ranges(machine.spec().compile())
+        inside = np.where(np.isfinite(high - low), _OFF_STOPS * (high - low), 0.0)
+        limits_of_joints = 0.98 * machine.efforts, speeds, low + inside, high - inside
         within = HierarchicalQP(JointLimits(*limits_of_joints, acceleration=s.acceleration))
         self._stack = TaskStack([], fusion=weighted_sum if s.policy == "fields" else within)
 
@@ -158,13 +161,3 @@ class ReachController:
         arrived = float(np.linalg.norm(self.goal.position_error(robot))) < _ARRIVED
         seen = self._seen if self._seen > _SEEN else 0.0
         return ContactSigns(float(np.linalg.norm(self._velocity)), seen, felt, arrived)
-
-
-def _ranges(machine: Machine) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest position (k,) of each joint, a little inside of its stops; infinite without stops."""
-    model = machine.spec().compile()
-    joints = [model.joint(name) for name in machine.joints]
-    held = np.array([bool(j.limited[0]) for j in joints])
-    low, high = np.array([j.range for j in joints]).T
-    inside = 0.02 * (high - low)
-    return np.where(held, low + inside, -np.inf), np.where(held, high - inside, np.inf)

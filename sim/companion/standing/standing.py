@@ -143,9 +143,7 @@ class StandingExperiment(Experiment):
 
     def joint_range_task(self) -> JointRange:
         """Keeps joints 5 degrees off the ends of their range; half of a joint's effort holds it at the end."""
-        model = self.robot.model
-        moved = [model.joint(name).id for name in self.machine.joints]
-        low, high = model.jnt_range[moved].T
+        low, high = self.machine.ranges(self.robot.model)
         stiff = 0.5 * self.machine.efforts / _MARGIN
         return JointRange(low, high, _MARGIN, stiff, 0.1 * stiff)
 

@@ -106,6 +106,14 @@ def test_unknown_machine_is_told_with_those_that_there_are():
         load_machine("mobile-amr")
 
 
+def test_ranges_are_infinite_where_a_joint_has_no_stop(tmp_path):
+    stopped = ARM.replace('type="slide"', 'type="slide" range="-0.1 0.3"')
+    found = machine(tmp_path, model=stopped)
+    low, high = found.ranges(found.spec().compile())
+    np.testing.assert_allclose(low, [-np.inf, -0.1])
+    np.testing.assert_allclose(high, [np.inf, 0.3])
+
+
 def test_motors_are_limited_as_the_joints_are():
     model = load_machine("mobile-arm").spec().compile()
     data = mujoco.MjData(model)
