@@ -1,7 +1,7 @@
-"""Torques of tasks, each projected into the null space of those above it (T 3.3-3.4, 3.7-3.13).
+"""Torques of tasks as T prints them: added (T 3.6), or each in the null space of those above it (T 3.3-3.4, 3.7-3.13).
 
-As T prints them, for comparison and for tasks that are forces: without the correction by the accelerations that higher
-tasks cause (A 21), and each projector a matrix of its own. `fusion.hierarchy` is what to use.
+For comparison and for tasks that are forces: without the correction by the accelerations that higher tasks cause
+(A 21), and each projector a matrix of its own. `fusion.hierarchy` is what to use.
 """
 
 from __future__ import annotations
@@ -18,7 +18,14 @@ from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchy import RANK, Fused, joint_torques
 from wholebody.tasks.task import Demand
 
-__all__ = ["Projection", "as_fused", "mass_factor", "null_space_projector", "null_space_torques", "task_torque"]
+__all__ = [
+    "Projection",
+    "mass_factor",
+    "null_space_projector",
+    "null_space_torques",
+    "task_torque",
+    "weighted_sum",
+]
 
 Projection = Literal["recursive", "augmented", "successive"]
 """How higher tasks count: projected one after another, all rows at once (T 3.9-3.10), or only the last (T 3.7)."""
@@ -120,23 +127,49 @@ def null_space_torques(
             through = null_space_projector(above, weighting)
         else:
             through = through @ null_space_projector(rows, weighting)
-    return as_fused(robot, force, support, external)
+    return _fused(robot, force, support, external)
 
 
-def as_fused(
-    robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
+def weighted_sum(
+    robot: RobotDynamics,
+    levels: Sequence[Sequence[Demand | None]],
+    support: Demand | None = None,
+    external: NDArray[np.float64] | None = None,
+    weights: Sequence[float | NDArray[np.float64]] | None = None,
 ) -> Fused:
-    """What a generalized force comes to.
+    """tau = sum W_i tau_i (T 3.6): every task disturbs every other, only a support stays above (T 3.13).
 
     Args:
-        robot: The robot.
-        force: Generalized force (n,) without the robot's bias.
-        support: Rows on which it stands.
+        robot: Kinematics and dynamics of this instant.
+        levels: What the tasks ask for; None stands for a task that is silent.
+        support: Rows on which the robot stands.
         external: Generalized force (n,) that is known to act.
+        weights: Weight of each level: a number, or one (n,) for each coordinate; 1 for all where None.
 
     Returns:
         Torques, acceleration and support force.
+
+    Raises:
+        InputError: If there are not as many weights as levels, or nothing supports a base that is not driven.
     """
+    weights = [1.0] * len(levels) if weights is None else weights
+    if len(weights) != len(levels):
+        raise InputError(f"there are {len(weights)} weights for {len(levels)} levels; expected one for each")
+    total = np.zeros_like(robot.bias)
+    for weight, level in zip(weights, levels, strict=True):
+        for demand in level:
+            if demand is not None:
+                total += weight * task_torque(robot, demand)
+    if support is not None:
+        factor = mass_factor(robot.mass_matrix)
+        total = task_torque(robot, support) + null_space_projector(support.jacobian, factor) @ total
+    return _fused(robot, total, support, external)
+
+
+def _fused(
+    robot: RobotDynamics, force: NDArray[np.float64], support: Demand | None, external: NDArray[np.float64] | None
+) -> Fused:
+    """What a generalized force (n,) without the robot's bias comes to."""
     acceleration = np.asarray(np.linalg.solve(robot.mass_matrix, force))
     total = force + robot.bias if external is None else force + robot.bias - external
     torque, support_force = joint_torques(robot, total, support)

@@ -12,8 +12,8 @@ from sim.companion.machine import Machine
 from wholebody.behaviours.contact_phases import ContactPhases, PhaseSettings
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchy import fuse
+from wholebody.fusion.null_space import weighted_sum
 from wholebody.fusion.priority_transition import PriorityTransition
-from wholebody.fusion.weighted_sum import weighted_sum
 from wholebody.stack import TaskStack
 from wholebody.tasks.base_avoidance import AvoidanceField, BaseAvoidance
 from wholebody.tasks.body_compliance import BodyCompliance

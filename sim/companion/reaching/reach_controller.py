@@ -14,8 +14,8 @@ from sim.companion.machine import Machine
 from wholebody.behaviours.intentional_contact import ContactSettings, ContactSigns, IntentionalContact
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.hierarchical_qp import HierarchicalQP, JointLimits
+from wholebody.fusion.null_space import weighted_sum
 from wholebody.fusion.priority_transition import PriorityTransition, TransitionSettings
-from wholebody.fusion.weighted_sum import weighted_sum
 from wholebody.stack import TaskStack
 from wholebody.tasks.along_force import AlongForce
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains

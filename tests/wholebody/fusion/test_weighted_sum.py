@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError
-from wholebody.fusion.weighted_sum import weighted_sum
+from wholebody.fusion.null_space import weighted_sum
 from wholebody.tasks.task import Demand
 
 
