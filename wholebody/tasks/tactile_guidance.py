@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from plantar.errors import InputError
 from plantar.mechanics.easing import minimum_jerk
-from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, number
 from wholebody.dynamics import RobotDynamics
+from wholebody.tasks.interaction import DirectInteraction
 from wholebody.tasks.task import Demand, Task
 
 __all__ = ["GuidanceGains", "TactileGuidance"]
@@ -72,9 +73,8 @@ class TactileGuidance(Task):
         if arm is not None and len(arm) < 3:
             raise InputError(f"an arm of the links {', '.join(arm)} cannot bend; allowed: three or more")
         self.gains = gains or GuidanceGains()
-        self._skin, self._link, self._point = skin, link, np.asarray(point, dtype=float)
-        self._thresholds = np.where(skin.taxels_of(patches), skin.thresholds, np.inf)
-        self._arm = arm
+        self._touches = DirectInteraction(skin, self.gains.gain, patches)
+        self._link, self._point, self._arm = link, np.asarray(point, dtype=float), arm
         self._stretch = np.zeros(3)
         self._last: NDArray[np.float64] | None = None
 
@@ -82,12 +82,10 @@ class TactileGuidance(Task):
         if skin is None:
             return None
         gains = self.gains
-        force, touched = np.zeros(3), False
-        for link, wrench, _ in link_wrenches(self._skin, skin.force, skin.force >= self._thresholds):
-            force += robot.pose(link)[1] @ wrench[:3]
-            touched = True
+        touches = self._touches.wrenches(skin)
+        force = sum((robot.pose(link)[1] @ wrench[:3] for link, wrench, _ in touches), np.zeros(3))
         jacobian = robot.jacobian(self._link, self._point)[:3]
-        pull = gains.gain * self._within_reach(robot, force) + gains.stiffness * self._kept(robot, touched)
+        pull = self._within_reach(robot, force) + gains.stiffness * self._kept(robot, bool(touches))
         wanted = (pull - gains.damping * (jacobian @ robot.velocity)) / gains.inertia
         return Demand(jacobian, acceleration=wanted, drift=robot.drift(self._link, self._point)[:3])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import choice, number, switch
 from sim.companion.experiment import CompanionControl
 from sim.companion.machine import Machine
@@ -122,10 +122,11 @@ class HandController:
     """
 
     def __init__(self, machine: Machine, skin: BodySkin, settings: HandControl) -> None:
-        s, self.settings, self._skin = settings, settings, skin
+        s = self.settings = settings
         taxels = next(p for p in skin.patches if p.name == "hand").positions
         middle, normal = taxels.mean(axis=0), np.array([0.0, 0.0, 1.0])  # level with a surface all feel it alike
-        self._arm = [p.name for p in skin.patches if p.name != "hand"]
+        arm_skin = [p.name for p in skin.patches if p.name != "hand"]
+        self._touch = DirectInteraction(skin, patches=arm_skin)
         gains = ContactGains(
             1.0, s.force_damping, s.force_gain, s.force_integral, self._distance_stiffness(), s.free_damping
         )
@@ -154,16 +155,15 @@ class HandController:
         self.phases = ContactPhases(
             [
                 *first,
-                [TactileGuidance(skin, self._arm, "hand", middle, guidance, straight)],
+                [TactileGuidance(skin, arm_skin, "hand", middle, guidance, straight)],
                 [BodyCompliance(self.posture, *away)],
             ],
-            [*first, [self._place], [BodyCompliance(self.posture, DirectInteraction(skin, patches=self._arm), *away)]],
+            [*first, [self._place], [BodyCompliance(self.posture, self._touch, *away)]],
             PhaseSettings(s.sigmoid),
         )
         self._stack = TaskStack(self.phases.levels, fusion=weighted_sum if s.priority == "sum" else fuse)
         self._change = PriorityTransition()
         self._taken = 0.0
-        self._arm_thresholds = np.where(skin.taxels_of(self._arm), skin.thresholds, np.inf)
         self.wanted_force = 0.0
 
     def _distance_stiffness(self) -> float:
@@ -209,9 +209,9 @@ class HandController:
         outward = robot.pose("hand")[1][:, 2]
         pressed = self._taken * self.force.weight * self.wanted_force
         known = -pressed * outward @ robot.jacobian("hand")[:3]
-        for link, wrench, _ in link_wrenches(self._skin, reading.force, reading.force >= self._arm_thresholds):
-            rotation, rows = robot.pose(link)[1], robot.jacobian(link)
-            known += rows[:3].T @ (rotation @ wrench[:3]) + rows[3:].T @ (rotation @ wrench[3:])
+        touch = self._touch.demand(robot, reading)
+        if touch is not None and touch.force is not None:
+            known += touch.force @ touch.jacobian
         return np.asarray(known)
 
 
