@@ -47,7 +47,7 @@ class Pusher:
         self.shoves: tuple[Shove, ...] = ()
         self._next = 0
         self._height = push.height
-        if push.impulse <= 0.0:
+        if push.strength <= 0.0:
             return
         rng = np.random.default_rng([seed, 0xB0])
         if push.count:
@@ -59,7 +59,7 @@ class Pusher:
         self.step = int(rng.integers(len(swings))) if push.step < 0 else push.step
         phase = swings[self.step]
         start = phase.start + push.phase * (phase.end - phase.start)
-        impulse = push.impulse * np.array(_DIRECTIONS[self.direction])
+        impulse = push.strength * np.array(_DIRECTIONS[self.direction])
         self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
 
     def apply(self, world: World) -> None:
@@ -92,5 +92,5 @@ def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator
         if push.direction != "seeded":
             along, strength = np.array(_DIRECTIONS[push.direction]), 1.0
         start = _FIRST + i * push.interval
-        shoves.append(Shove(start, start + push.duration, strength * push.impulse * along, smooth=True))
+        shoves.append(Shove(start, start + push.duration, strength * push.strength * along, smooth=True))
     return tuple(shoves)

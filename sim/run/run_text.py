@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from typing import Any
 
 __all__ = ["run_text"]
 
 Summary = Mapping[str, Any]
+
+_TOLD = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
+"""Settings whose numbers people want to know of a run; the JSON tells all of them."""
 
 
 def run_text(summary: Summary) -> str:
@@ -25,7 +29,9 @@ def run_text(summary: Summary) -> str:
         f"{tick['p99']:.0f} us (99 %)"
     )
     files = [f"  {name}" for name in summary.get("figures", [])]
-    return "\n".join([*_outcome(summary), *_body(summary), *_joints(summary), *_balance(summary), speed, *files])
+    return "\n".join(
+        [*_outcome(summary), *_shares(summary), *_body(summary), *_joints(summary), *_balance(summary), speed, *files]
+    )
 
 
 def _outcome(summary: Summary) -> list[str]:
@@ -39,6 +45,15 @@ def _outcome(summary: Summary) -> list[str]:
             for reason in summary["reasons"]
         ),
     ]
+
+
+def _shares(summary: Summary) -> list[str]:
+    """What the scene's shares of a body come to on this robot."""
+    shares = {name: share for name, share in summary["shares"].items() if name.startswith(_TOLD)}
+    told = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
+    body = summary["body"]
+    size = f"{body['mass_kg']:.3g} kg, legs of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
+    return textwrap.wrap(f"on {size}: {', '.join(told)}", 118, initial_indent="  ", subsequent_indent="    ")
 
 
 def _body(summary: Summary) -> list[str]:

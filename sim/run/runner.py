@@ -39,6 +39,7 @@ from sim.run.log import RunLog
 from sim.run.pushing import Pusher
 from sim.run.scene import Scene
 from sim.run.servos import LegServos
+from sim.run.shares import body_told, shares_told
 from sim.run.standing import stand
 from sim.sensing.sensors import SensorSuite, ankle_sensors
 from sim.terrain import Footprint, PlannedFeet
@@ -318,6 +319,8 @@ class Simulation:
                 "p99": round(float(np.percentile(ticks, 99)), 1),
             },
             "skipped": result.skipped,
+            "body": body_told(self.body),
+            "shares": shares_told(self.scene),
             "final": {
                 "position_error_m": round(position, 4),
                 "heading_error_deg": round(yaw, 3),
@@ -356,7 +359,8 @@ class Simulation:
             found |= self.controller.guard.summary()
         if self.pusher.step is not None:
             found["push"] = {
-                "impulse_Ns": self.scene.push.impulse,
+                "impulse_Ns": round(self.scene.push.strength, 4),
+                "dv_m_s": round(self.scene.push.strength / self.body.mass, 4),
                 "direction": self.pusher.direction,
                 "step": self.pusher.step,
                 "time_s": round(self.pusher.shoves[0].start, 3),

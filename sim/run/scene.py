@@ -9,6 +9,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +20,9 @@ from gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.errors import InputError, SceneError
 from plantar.files.input_file import is_file
 from plantar.files.structured_text import read_toml
-from plantar.settings.body_scale import BodyScale
+from plantar.settings.body_scale import BodyScale, Quantity
 from plantar.settings.overrides import owner_of, split_setting, value_of
-from plantar.settings.schema import Settings, choice, number, switch, tables, whole
+from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from sim.sensing.settings import Sensing
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
@@ -41,6 +42,10 @@ __all__ = [
 ]
 
 _FOLDER = Path(__file__).parent.parent / "scenes"
+
+
+_VELOCITY_UNITS = ("s", "m/s", "m/s", "rad/s")
+"""Units of a row of a velocity command."""
 
 
 class Walk(Settings):
@@ -66,8 +71,8 @@ class Walk(Settings):
         end: Duration of the last weight shift.
         settle: Standing time that is simulated after the walk.
         begin: Standing time before the walk; the CoM leads the first weight shift by about 1 s.
-        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s instead of a number of steps; zeros
-            take steps in place.
+        velocity: Walk at this velocity [forward, left, turn] in m/s, m/s and rad/s, or in texts with units, instead of
+            a number of steps; zeros take steps in place.
         commands: Such velocities over time: each [time, forward, left, turn], or [time, "stop"], in s after `begin`.
         wander: Largest velocity [forward, left, turn], either way, of those that the seed draws, a new one each
             `change_every`.
@@ -76,24 +81,24 @@ class Walk(Settings):
     """
 
     steps: int = whole(20, "steps", 0, 100000)
-    length: float = number(0.2, "m", -0.5, 0.5)
+    length: float = share(1 / 3, "leg", -0.5, 0.5)
     sideways: float = number(0.0, "m", -0.3, 0.3)
     stance_width: float = number(0.0, "m", 0, 0.6)
     first: str = choice("left", "right")
     single_support: float = number(0.0, "s", 0, 10)
     double_support: float = number(0.0, "s", 0, 10)
-    swing_height: float = number(0.05, "m", 0.005, 0.25)
+    swing_height: float = share(1 / 12, "leg", 0.005, 0.25)
     lean: bool = switch(False)
     crouch: float = number(0.0, "m", 0, 0.15)
     approach_height: float = number(0.0, "m", 0, 0.1)
-    approach_speed: float = number(0.06, "m/s", 0.005, 0.5)
-    start: float = number(1.2, "s", 0.2, 60)
-    end: float = number(1.0, "s", 0.2, 60)
+    approach_speed: float = share(0.0247, "leg/beat", 0.005, 0.5)
+    start: float = share(4.85, "beat", 0.2, 60)
+    end: float = share(4.04, "beat", 0.2, 60)
     settle: float = number(2.0, "s", 0, 600)
     begin: float = number(1.0, "s", 1, 60)
-    velocity: tuple[float, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    velocity: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
     commands: tuple[Sequence[float | str], ...] = tables('a list of [time, forward, left, turn] or [time, "stop"]')
-    wander: tuple[float, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
+    wander: tuple[float | str, ...] = tables("[forward, left, turn] in m/s, m/s, rad/s")
     change_every: float = number(6.0, "s", 0.5, 600)
     until: float = number(10.0, "s", 0, 36000)
 
@@ -110,14 +115,15 @@ class Walk(Settings):
         Args:
             seed: Draws those of a walk that wanders.
         """
-        rows: list[Sequence[float | str]] = list(self.commands)
+        rows: list[Sequence[float | str]] = [self._in_si(row) for row in self.commands]
         if self.velocity:
-            rows = [[0.0, *self.velocity]]
+            rows = [self._in_si([0.0, *self.velocity])]
         if self.wander:
-            table_of([[0.0, *self.wander]], 0.0)  # checks it
+            wander = self._in_si([0.0, *self.wander])
+            table_of([wander], 0.0)  # checks it
             rng = np.random.default_rng([seed, 0xC0])
             count = max(1, math.ceil(self.until / self.change_every - 1e-9))
-            drawn = rng.uniform(-1.0, 1.0, (count, 3)) * self.wander
+            drawn = rng.uniform(-1.0, 1.0, (count, 3)) * np.array(wander[1:], dtype=float)
             rows = [[k * self.change_every, *velocity] for k, velocity in enumerate(drawn.tolist())]
         if not rows:
             return None
@@ -126,12 +132,31 @@ class Walk(Settings):
             table = table_of([*rows, [self.until, "stop"]], self.begin)
         return table
 
+    def _in_si(self, row: Any) -> Any:
+        """A row of [time, forward, left, turn] whose texts with units are numbers in s, m/s and rad/s; what is none of
+        those stays, for who reads the row to refuse."""
+        if not isinstance(row, Sequence) or isinstance(row, str):
+            return row
+        return [
+            self._number(value, unit) for value, unit in zip(row, chain(_VELOCITY_UNITS, repeat("1")), strict=False)
+        ]
+
+    def _number(self, value: Any, unit: str) -> Any:
+        found = Quantity.parsed(value) if isinstance(value, str) else None
+        if found is None:
+            return value
+        if not found.is_a(unit):
+            raise InputError(f"a velocity command holds {value!r}; allowed: a number in {unit}")
+        return found.si(self.body)
+
 
 class Push(Settings):
     """Pushes on the base: one in a step, or several while the robot stands.
 
     Attributes:
-        impulse: Impulse in N s; 0 pushes nobody.
+        dv: Velocity in m/s that the push gives to a body that nothing holds: its impulse is that times the robot's
+            mass; 0 pushes nobody.
+        impulse: Impulse in N s, for every robot the same, instead of `dv`; 0 goes by `dv`.
         duration: Duration in s.
         direction: Direction in the robot's frame, or "seeded": the seed chooses.
         step: Step in whose single support it comes; -1 lets the seed choose.
@@ -142,6 +167,7 @@ class Push(Settings):
         height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
     """
 
+    dv: float = number(0.0, "m/s", 0, 10)
     impulse: float = number(0.0, "N s", 0, 1000)
     duration: float = number(0.1, "s", 0.001, 10)
     direction: str = choice("seeded", "forward", "backward", "left", "right")
@@ -151,6 +177,11 @@ class Push(Settings):
     interval: float = number(4.0, "s", 0.1, 60)
     sideways: float = number(1.0, "1", 0, 1)
     height: float = number(0.0, "m", -1, 1)
+
+    @property
+    def strength(self) -> float:
+        """Impulse in N s of the push, for the body that the settings count for."""
+        return self.impulse or self.dv * self.body.mass
 
 
 class Control(Settings):

@@ -4,6 +4,7 @@ import pytest
 from gait.plan.footsteps import straight_plan
 from gait.plan.phases import Timing, WalkSchedule
 from plantar.errors import SceneError
+from plantar.settings.body_scale import BodyScale
 from sim.model.world import World
 from sim.run.pushing import Pusher
 from sim.run.scene import Push
@@ -30,6 +31,13 @@ def test_seeds_choose_all_directions_and_repeat() -> None:
     assert len({p.step for p in chosen}) >= 4
     again = [Pusher(push, SCHEDULE, seed) for seed in range(20)]
     assert [(p.direction, p.step) for p in chosen] == [(p.direction, p.step) for p in again]
+
+
+def test_a_push_by_a_velocity_goes_with_the_mass(world: World) -> None:
+    body = BodyScale(mass=30.0, leg=0.4, sole=0.2, sole_width=0.1)
+    for push, impulse in ((Push(dv=0.2), 6.0), (Push(dv=0.2, impulse=20.0), 20.0)):
+        (shove,) = Pusher(push.for_body(body), SCHEDULE, 0).shoves
+        assert float(np.linalg.norm(shove.impulse)) == pytest.approx(impulse)
 
 
 def test_no_impulse_pushes_nobody(world: World) -> None:

@@ -2,9 +2,13 @@ from pathlib import Path
 
 import pytest
 
+from gait.propose.velocity_command import Velocity
 from plantar.errors import SceneError
+from plantar.settings.body_scale import BodyScale
 from sim.run.scene import builtin_scenes, load_scene, setting_name
 from sim.run.scene_kind import open_scene
+from sim.run.shares import shares_told
+from sim.terrain import Beam
 
 
 @pytest.mark.parametrize("name", builtin_scenes())
@@ -93,3 +97,37 @@ def test_a_file_that_names_neither_ground_nor_gait_is_no_scene(tmp_path: Path, t
         load_scene(path, ["steps=2"])
     path.write_text(text.split("[push]")[0] + "[walk]\nsteps = 3\n")
     assert load_scene(path).walk.steps == 3
+
+
+def test_a_scene_grows_with_the_robot() -> None:
+    body = BodyScale(mass=11.0, leg=0.3, sole=0.12, sole_width=0.08)
+    beam = load_scene("beam", ["terrain.start=0.2", "walk.start=2 beat"]).for_body(body)
+    assert isinstance(beam.terrain, Beam)
+    assert (beam.terrain.width, beam.terrain.start) == (pytest.approx(0.52 * 0.12), 0.2)
+    assert (beam.walk.sideways, beam.walk.start) == pytest.approx((0.04, 2.0 * body.beat))
+    turn = load_scene("turn").for_body(body).walk.velocities(0)
+    assert turn is not None
+    assert turn.commands[0] == Velocity(turn=0.0495 * (1.0 / body.beat))
+    told = shares_told(beam)
+    assert told["terrain.width"] == {"share": "0.52 sole", "value": 0.0624, "unit": "m"}
+    assert "terrain.start" not in told
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("walk.length=1 legs", "no unit 'legs'"),
+        ("walk.length=1 weight", "weight is no unit of it"),
+        ("push.dv=0.1 leg", "leg is no unit of it"),
+        ('velocity=["1 leg", 0, 0]', "'1 leg'; allowed: a number in m/s"),
+    ],
+)
+def test_a_share_of_something_else_is_refused(setting: str, words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        load_scene("flat", [setting])
+
+
+def test_a_share_that_a_robot_makes_too_large_is_refused() -> None:
+    scene = load_scene("flat", ["walk.length=0.8 leg"])
+    with pytest.raises(SceneError, match=r"\[walk\] 'length' is '0.8 leg' = 0.72 m; allowed: .*with robot 'h1'"):
+        scene.for_body(BodyScale(mass=95.0, leg=0.9, sole=0.3, sole_width=0.2))
