@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number, switch, whole
+from plantar.settings.schema import Settings, number, share, switch, whole
 
 __all__ = ["Sensing"]
 
@@ -10,9 +10,12 @@ __all__ = ["Sensing"]
 class Sensing(Settings):
     """What the sensors do to the truth. Standard deviations (1 sigma) of white noise; SI.
 
+    Skin and ankle sensors are made for the robot that wears them: their noise and range go with its weight and leg. An
+    IMU and an encoder are what can be bought, for every robot.
+
     Attributes:
         skin_rate: Sampling rate of the soles in Hz.
-        force_noise: Of each taxel in N (0.15 kg).
+        force_noise: Of each taxel in N: 0.15 kg on a robot of 86 kg.
         delay_periods: Whole skin periods between sampling and delivery.
         proximity_range: Range of the taxels' proximity sensors in m.
         proximity_noise: Of each proximity reading in m.
@@ -27,15 +30,15 @@ class Sensing(Settings):
     """
 
     skin_rate: float = number(250.0, "Hz", 10, 1000)
-    force_noise: float = number(1.4715, "N", 0, 1000)
+    force_noise: float = share(0.00174, "weight", 0, 1000)
     delay_periods: int = whole(0, "periods", 0, 250)
-    proximity_range: float = number(0.05, "m", 0.005, 0.5)
-    proximity_noise: float = number(0.002, "m", 0, 0.1)
+    proximity_range: float = share(1 / 12, "leg", 0.005, 0.5)
+    proximity_noise: float = share(1 / 300, "leg", 0, 0.1)
     proximity_bias: float = number(0.0, "m", -0.05, 0.05)
     dead_taxels: float = number(0.0, "1", 0, 0.9)
     encoder_noise: float = number(5e-5, "rad", 0, 0.1)
     gyro_noise: float = number(2e-3, "rad/s", 0, 1)
     accelerometer_noise: float = number(0.05, "m/s^2", 0, 10)
     force_torque: bool = switch(False)
-    ankle_force_noise: float = number(1.0, "N", 0, 1000)
-    ankle_torque_noise: float = number(0.05, "N m", 0, 100)
+    ankle_force_noise: float = share(0.00119, "weight", 0, 1000)
+    ankle_torque_noise: float = share(0.000257, "weight sole", 0, 100)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from plantar.mechanics.rotation import level_rotation
-from plantar.settings.schema import number
+from plantar.settings.schema import number, share
 from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 
 __all__ = ["Beam"]
@@ -29,13 +29,13 @@ class Beam(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    width: float = number(0.12, "m", 0.005, 2)
-    length: float = number(1.3, "m", 0.1, 100)
-    start: float = number(0.32, "m", 0, 10)
+    width: float = share(0.52, "sole", 0.005, 2)
+    length: float = share(13 / 6, "leg", 0.1, 100)
+    start: float = share(8 / 15, "leg", 0, 10)
     offset: float = number(0.0, "m", -1, 1)
     offset_range: float = number(0.0, "m", 0, 1)
     yaw: float = number(0.0, "deg", -45, 45)
-    depth: float = number(0.3, "m", 0.02, 10)
+    depth: float = share(0.5, "leg", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         begin, end = feet.middle(), feet.middle(last=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
-from plantar.settings.schema import choice, number, whole
+from plantar.settings.schema import choice, number, share, whole
 from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 __all__ = ["Block"]
@@ -33,9 +33,9 @@ class Block(Terrain):
     """
 
     step: int = whole(2, "step", 0, 100000)
-    top: float = number(0.03, "m", 0.001, 0.3)
-    length: float = number(0.35, "m", 0.005, 5)
-    width: float = number(0.16, "m", 0.005, 5)
+    top: float = share(0.05, "leg", 0.001, 0.3)
+    length: float = share(1.52, "sole", 0.005, 5)
+    width: float = share(1, "sole_width", 0.005, 5)
     along: float = number(0.0, "m", -1, 1)
     across: float = number(0.0, "m", -1, 1)
     pitch: float = number(0.0, "deg", -30, 30)

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from plantar.errors import SceneError
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.schema import choice, number, whole
+from plantar.settings.schema import share as share_of_body
 from plantar.sides import SIDES
 from sim.terrain.ground import Footprint, Ground, Motion, PlannedFeet, Solid, Terrain
 
 __all__ = ["Partial", "Pebbles", "Stones", "Uneven"]
 
-_MARGIN = 0.05  # m that a whole stone is larger than the sole, on each end
+_MARGIN = 0.433  # of the half length of the sole that a whole stone is larger than it, on each end: 50 mm of 231
 _GAP = 0.002  # m between the stones of two lanes
 _PARTS = ("rear", "front", "inner", "outer")
 
@@ -37,7 +38,7 @@ class Partial(Terrain):
     share: float = number(0.5, "1", 0.02, 1)
     part: str = choice(*_PARTS)
     rise: float = number(0.0, "m", -0.1, 0.1)
-    depth: float = number(0.15, "m", 0.01, 10)
+    depth: float = share_of_body(0.25, "leg", 0.01, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.step >= len(feet.steps):
@@ -60,7 +61,7 @@ class Stones(Terrain):
 
     share_min: float = number(0.3, "1", 0.02, 1)
     share_max: float = number(1.0, "1", 0.02, 1)
-    depth: float = number(0.15, "m", 0.01, 10)
+    depth: float = share_of_body(0.25, "leg", 0.01, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.share_min > self.share_max:
@@ -90,10 +91,10 @@ class Uneven(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    height_range: float = number(0.015, "m", 0, 0.1)
+    height_range: float = share_of_body(0.025, "leg", 0, 0.1)
     slope_range: float = number(0.0, "deg", 0, 20)
-    gap: float = number(0.05, "m", 0, 0.2)
-    depth: float = number(0.15, "m", 0.02, 10)
+    gap: float = share_of_body(1 / 12, "leg", 0, 0.2)
+    depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         solids = {side: [_stone(feet.standing[side], feet, self.height, self.depth, gap=self.gap)] for side in SIDES}
@@ -132,12 +133,12 @@ class Pebbles(Terrain):
         depth: How deep in m the floor lies below.
     """
 
-    bump_min: float = number(0.005, "m", 0, 0.05)
-    bump_max: float = number(0.015, "m", 0, 0.05)
-    bump_radius: float = number(0.03, "m", 0.005, 0.2)
+    bump_min: float = share_of_body(1 / 120, "leg", 0, 0.05)
+    bump_max: float = share_of_body(0.025, "leg", 0, 0.05)
+    bump_radius: float = share_of_body(0.05, "leg", 0.005, 0.2)
     bumps: int = whole(8, "bumps", 0, 200)
     slope_range: float = number(8.0, "deg", 0, 20)
-    depth: float = number(0.15, "m", 0.02, 10)
+    depth: float = share_of_body(0.25, "leg", 0.02, 10)
 
     def _laid_out(self, feet: PlannedFeet, rng: np.random.Generator) -> Ground:
         if self.bump_min > self.bump_max:
@@ -186,7 +187,7 @@ def _overlap(foot: Footprint, other: Footprint) -> bool:
     """Whether the stones of two footprints of the same foot overlap, along the feet."""
     dx, dy = (other.center - foot.center).tolist()
     along = math.cos(foot.yaw) * dx + math.sin(foot.yaw) * dy
-    return bool(abs(along) < foot.half[0] + other.half[0] + 2.0 * _MARGIN)
+    return bool(abs(along) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]))
 
 
 def _distinct(feet: PlannedFeet) -> list[Footprint]:
@@ -207,9 +208,9 @@ def _lane(foot: Footprint, feet: PlannedFeet, gap: float) -> float:
     for other in others:
         if other.side != foot.side:
             dx, dy = (other.center - foot.center).tolist()
-            if abs(c * dx + s * dy) < foot.half[0] + other.half[0] + 2.0 * _MARGIN:
+            if abs(c * dx + s * dy) < (1.0 + _MARGIN) * (foot.half[0] + other.half[0]):
                 gaps.append(inward * (-s * dx + c * dy))
-    return 0.5 * min(gaps) - 0.5 * gap if gaps else foot.half[1] + _MARGIN
+    return 0.5 * min(gaps) - 0.5 * gap if gaps else foot.half[1] + _MARGIN * foot.half[0]
 
 
 def _stone(
@@ -227,8 +228,9 @@ def _stone(
     """A box whose upper face carries a share of the footprint: all of it with a margin around, or a part."""
     outward = 1.0 if foot.side == "left" else -1.0
     half_length, half_width = foot.half
-    rear, front = -half_length - _MARGIN, half_length + _MARGIN
-    inner, outer = -min(_lane(foot, feet, gap), half_width + _MARGIN), half_width + _MARGIN
+    margin = _MARGIN * half_length
+    rear, front = -half_length - margin, half_length + margin
+    inner, outer = -min(_lane(foot, feet, gap), half_width + margin), half_width + margin
     if share < 1.0:
         if part == "rear":
             front = -half_length + 2.0 * half_length * share
