@@ -316,11 +316,15 @@ def list_(
     name: Annotated[
         str | None, Argument(help="settings: a table or a setting, such as estimator or balance.dcm_gain.")
     ] = None,
+    robot: Annotated[
+        str | None, Option(help="settings: the robot whose numbers are told where a default is a share of its body.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """List what there is: robots to walk, scenes to run, recording formats to analyse, settings to change.
 
-    Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name.
+    Each setting is shown with its default, unit and range; `--set` and `--grid` take its dotted name. A default that
+    grows with the robot is shown with its share: "70.02 N = 0.083 weight" for H1, or for `--robot`.
 
     Example: plantar list formats
 
@@ -328,14 +332,15 @@ def list_(
     """
     from plantar.files.structured_text import described_files, packaged_files
 
-    if name is not None and what != "settings":
-        raise InputError(f"'list {what}' takes no name, got '{name}'; allowed: plantar list settings NAME")
+    for given, words in ((name, "name"), (robot, "robot")):
+        if given is not None and what != "settings":
+            raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
     if what == "settings":
         need_libraries("sim", "mujoco")
         from plantar.settings.setting_text import setting_rows, setting_text
-        from sim.run.setting_list import settings_listed
+        from sim.run.setting_list import settings_of_robot
 
-        told = settings_listed(name)
+        told = settings_of_robot(name, robot)
         end_command({what: setting_rows(told)}, as_json, setting_text(told))
         return
     if what == "formats":

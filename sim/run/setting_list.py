@@ -13,7 +13,7 @@ from sim.companion.scene import companion_tables
 from sim.run.scene import SECTIONS
 from sim.terrain import TERRAIN_KINDS
 
-__all__ = ["settings_listed"]
+__all__ = ["settings_listed", "settings_of_robot"]
 
 
 def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -> dict[str, Setting]:
@@ -55,3 +55,27 @@ def settings_listed(name: str | None = None, body: BodyScale = REFERENCE_BODY) -
         hint = f"nearest: {', '.join(near)}; " if near else ""
         raise InputError(f"no setting or table '{name}'; {hint}tables: {', '.join(tables)}")
     return found
+
+
+def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]:
+    """The settings by their dotted names, with the numbers of a robot.
+
+    Args:
+        name: A table, a setting's dotted name, or its last part; None lists all.
+        robot: Name or file of the robot; None takes the reference body, which is H1's.
+
+    Returns:
+        What there is to say of each.
+
+    Raises:
+        InputError: If there is no such table or setting.
+        RobotError: If the robot is unknown or its model cannot be read.
+    """
+    if robot is None:
+        return settings_listed(name)
+    from sim.model.body import body_of
+    from sim.model.world import build_leg_model
+    from sim.robots import load_robot
+
+    found = load_robot(robot)
+    return settings_listed(name, body_of(found, build_leg_model(found)))

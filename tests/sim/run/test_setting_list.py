@@ -9,7 +9,7 @@ from sim.companion.experiment import experiment_names
 from sim.companion.scene import companion_tables
 from sim.run.scene import load_scene
 from sim.run.scene_kind import open_scene
-from sim.run.setting_list import settings_listed
+from sim.run.setting_list import settings_listed, settings_of_robot
 
 
 def test_every_setting_has_a_default_an_allowed_range_and_a_meaning() -> None:
@@ -41,3 +41,9 @@ def test_a_table_a_setting_or_its_last_part_is_found() -> None:
     assert list(settings_listed("dcm_gain")) == ["balance.dcm_gain"]
     with pytest.raises(InputError, match="nearest: dcm_gain"):
         settings_listed("dcm_gian")
+
+
+def test_a_robot_has_its_own_numbers() -> None:
+    own, h1 = (settings_of_robot("landing.press_force", robot)["landing.press_force"] for robot in ("hrp2kai", None))
+    assert own.share == h1.share == "0.237 weight"
+    assert float(own.default) == pytest.approx(float(h1.default) * 65.0 / 86.0, rel=1e-3)
