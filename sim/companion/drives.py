@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -34,6 +35,21 @@ class Drives:
         self._torque = np.zeros(len(limits))
         self._bias = np.zeros(len(limits))
         self._goal: SetPoint | None = None
+        if self._resolver is not None:
+            self._hold_speeds_implicitly()
+
+    def _hold_speeds_implicitly(self) -> None:
+        """Let MuJoCo take the speed's part of the servos' torques at the end of each step.
+
+        Taken at its beginning it shakes a light wrist: gain times step has to stay below twice a joint's inertia.
+        """
+        model, motors = self._world.model, self._world.motors
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+        model.actuator_biastype[motors] = mujoco.mjtBias.mjBIAS_AFFINE
+        model.actuator_biasprm[motors, 2] = -self._gain
+        model.actuator_ctrllimited[motors] = False
+        model.actuator_forcelimited[motors] = True
+        model.actuator_forcerange[motors] = np.column_stack([-self._efforts, self._efforts])
 
     def command(self, robot: MujocoDynamics, torque: NDArray[np.float64]) -> None:
         """Take a torque (k,) of each joint in N m or N, bias included, for the next control period.
@@ -50,11 +66,12 @@ class Drives:
 
     def drive(self) -> None:
         """Set the motors' torques for a physics step; servos know their own joint's motion as it is."""
-        world, torque = self._world, self._torque
+        world = self._world
         if self._goal is not None:
             wanted = self._goal.velocity
             if self._servo.kind == "position":
                 measured = world.data.qpos[world.positions[-len(wanted) :]]
                 wanted = wanted + self._servo.position_gain * (self._goal.position - measured)
-            torque = self._bias + self._gain * (wanted - world.data.qvel[world.joints])
-        world.data.ctrl[world.motors] = np.clip(torque, -self._efforts, self._efforts)
+            world.data.ctrl[world.motors] = self._bias + self._gain * wanted
+        else:
+            world.data.ctrl[world.motors] = np.clip(self._torque, -self._efforts, self._efforts)

@@ -69,7 +69,8 @@ class HandControl(CompanionControl):
         sigmoid: Time in which w of A 6 goes from distance to force.
         wrist: Whether the wrist complies (ablation).
         avoidance: Whether the base avoids obstacles (ablation).
-        feed_forward: Whether the wanted force and what the arm's skin feels are taken over into the joints (ablation).
+        feed_forward: Whether the wanted force and what the arm's skin feels are taken over into the joints (ablation);
+            never where drives take no torques.
         priority: "strict", or "sum": torques of all tasks added (ablation).
     """
 
@@ -163,6 +164,8 @@ class HandController:
         )
         self._stack = TaskStack(self.phases.levels, fusion=weighted_sum if s.priority == "sum" else fuse)
         self._change = PriorityTransition()
+        servo = machine.servo.kind if s.servo == "machine" else s.servo
+        self._feeds_forward = s.feed_forward and servo == "torque"  # a resolver's virtual robot is pushed by nothing
         self._taken = 0.0
         self.wanted_force = 0.0
 
@@ -201,7 +204,7 @@ class HandController:
 
     def _known(self, robot: RobotDynamics, reading: SkinReading) -> NDArray[np.float64] | None:
         """Generalized force (n,) that is known to act: the wanted one on the hand, and what the arm's skin feels."""
-        if not self.settings.feed_forward:
+        if not self._feeds_forward:
             return None
         step = self.settings.period / _TAKEN_OVER
         touching = self.phases.in_contact and self.force.force > _TOUCHED

@@ -58,6 +58,17 @@ def test_hand_keeps_its_distance_and_then_its_force():
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("servo", ["velocity", "position"])
+def test_force_follows_with_servos_too(servo):
+    """With such drives A reached an RMS error of 0.16 N (Table 3), twice the scene's limit."""
+    settings = ["duration=14", "contact=3", "circle=[]", "swing=[]", f"servo={servo}"]
+    summary = Companion(open_scene(SCENES[0], [*settings, "touch=[[10.0, 13.0]]"]), 0).run()
+    assert summary["contact_lost_s"] == 0.0
+    assert summary["force_rms_free_N"] < 0.2
+    assert summary["force_rms_disturbed_N"] < 0.4
+
+
+@pytest.mark.long
 def test_force_is_lost_to_touches_where_nothing_has_priority():
     settings = ["duration=14", "contact=4", "circle=[]", "swing=[]", "touch=[[10.0, 13.0]]"]
     strict, added = (
