@@ -7,7 +7,6 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +20,7 @@ from sim.companion.standing.controller import StandingControl
 from sim.companion.standing.joint_range import JointRange
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.stance import Stance, add_floor
+from sim.model.contact_truth import foot_contacts
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.center_of_mass import CenterOfMass
 from wholebody.tasks.posture import Posture
@@ -204,14 +204,9 @@ class StandingExperiment(Experiment):
         """
         model, data = world.model, world.data
         floor = model.geom("floor").id
-        wrench, total, moment = np.zeros(6), 0.0, np.zeros(2)
-        for i in range(data.ncon):
-            contact = data.contact[i]
-            if floor in (contact.geom1, contact.geom2):
-                mujoco.mj_contactForce(model, data, i, wrench)
-                total += wrench[0]
-                moment += wrench[0] * contact.pos[:2]
-        self._borne.append((total, *moment.tolist()))
+        pressed = foot_contacts(model, data, {floor})
+        loads = -pressed.forces[:, 2]
+        self._borne.append((float(loads.sum()), *(loads @ pressed.positions[:, :2]).tolist()))
         total, *moment = np.sum(self._borne, axis=0)
         if total < 0.2 * GRAVITY:
             return -1.0
