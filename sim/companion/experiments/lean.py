@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.geometry.polygon import convex_hull, signed_margin
+from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
@@ -27,6 +28,7 @@ from sim.companion.skin_sensing import SkinSensor
 from sim.companion.skin_surface import OBSTACLE_GROUP
 from sim.companion.standing.controller import StandingControl
 from sim.companion.standing.standing import StandingExperiment
+from sim.model.contact_truth import feet_contacts
 from wholebody.dynamics import RobotDynamics
 from wholebody.fusion.contact_forces import ContactForces
 from wholebody.fusion.hierarchy import fuse
@@ -264,8 +266,7 @@ def _foremost(polygon: NDArray[np.float64], y: float) -> float:
 
 def _along(start: NDArray[np.float64], end: NDArray[np.float64], share: float) -> NDArray[np.float64]:
     """A place on the way from one to another, at rest at both ends."""
-    s = min(1.0, max(0.0, share))
-    return np.asarray(start + (end - start) * (s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)))
+    return start + minimum_jerk(share)[0] * (end - start)
 
 
 class Lean(StandingExperiment):
@@ -359,15 +360,9 @@ class Lean(StandingExperiment):
 
     def _loads(self, world: World) -> tuple[float, float]:
         """True vertical force in N on the ground under the left and the right sole."""
-        loads, wrench = {"left_ground": 0.0, "right_ground": 0.0}, np.zeros(6)
-        ids = {world.model.geom(name).id: name for name in loads}
-        for i in range(world.data.ncon):
-            contact = world.data.contact[i]
-            name = ids.get(contact.geom1) or ids.get(contact.geom2)
-            if name is not None:
-                mujoco.mj_contactForce(world.model, world.data, i, wrench)
-                loads[name] += float(wrench[0])
-        return loads["left_ground"], loads["right_ground"]
+        grounds = [{world.model.geom(name).id} for name in ("left_ground", "right_ground")]
+        left, right = (-float(found.forces[:, 2].sum()) for found in feet_contacts(world.model, world.data, grounds))
+        return left, right
 
     def verdict(self) -> Verdict:
         trace = np.array(self._trace)
