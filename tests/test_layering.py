@@ -35,7 +35,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
         *("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "companion", "run"),
-        "sweep",
+        *("survey", "sweep"),
     ),
     "shoes": (
         *(
@@ -51,7 +51,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "solid",
             "build",
         ),
-        *("checks", "papers"),
+        *("checks", "papers", "found_foot"),
     ),
 }
 """The rooms of a package (folders, and files beside them) in their order: a room imports only those before it."""

@@ -19,7 +19,7 @@ from plantar.sides import SIDES
 from sim.robots.leg_shapes import add_leg_shapes
 from sim.robots.robot import LegNames, Robot
 
-__all__ = ["spec_from_file"]
+__all__ = ["forget_own_simulation", "spec_from_file"]
 
 _SHOE_HEIGHT = 0.02  # m: where the shoe's mass is taken to be above the contact face, at most
 
@@ -39,7 +39,7 @@ def spec_from_file(robot: Robot) -> Any:
         RobotError: If the file cannot be read, or lacks a joint or body that the robot's TOML names.
     """
     spec = _parsed(robot)
-    _forget_own_simulation(spec)
+    forget_own_simulation(spec)
     _free_base(spec, robot)
     _weld_upper_body(spec, robot)
     colliding = _without_collisions(spec)
@@ -67,7 +67,7 @@ def _parsed(robot: Robot) -> Any:
     return spec
 
 
-def _forget_own_simulation(spec: Any) -> None:
+def forget_own_simulation(spec: Any) -> None:
     """Take out what the file's author simulated with: without gravity or contacts nothing would walk."""
     for part in ("keys", "equalities", "tendons", "pairs", "excludes", "sensors", "actuators", "lights"):
         for element in list(getattr(spec, part)):
