@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
@@ -18,10 +19,27 @@ from plantar.optional_library import optional_library
 if TYPE_CHECKING:
     from sim.model.world import World
 
-__all__ = ["FRAME_RATE", "Camera", "Film", "VideoWriter", "View", "save_picture"]
+__all__ = ["FRAME_RATE", "Camera", "Film", "Line", "VideoWriter", "View", "save_picture"]
 
 FRAME_RATE = 25.0
 """Frames a second of a video; a whole number of physics steps apart."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line in a picture, as thick as a rod.
+
+    Attributes:
+        start: Where it begins (3,) in m.
+        end: Where it ends (3,) in m.
+        radius: Its radius in m.
+        colour: Red, green, blue and opacity, 0..1.
+    """
+
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    radius: float
+    colour: tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -32,11 +50,13 @@ class View:
         distance: Distance of the eye in m.
         azimuth: Viewing direction about z in degrees.
         elevation: Viewing direction against the horizon in degrees.
+        below: How far below the origin of the body the middle of the picture is in m.
     """
 
     distance: float = 2.6
     azimuth: float = 145.0
     elevation: float = -12.0
+    below: float = 0.25
 
 
 class Camera:
@@ -67,6 +87,7 @@ class Camera:
         self._body = body
         self._camera = mujoco.MjvCamera()
         self._camera.distance = view.distance
+        self._below = view.below
         self._camera.azimuth, self._camera.elevation = view.azimuth, view.elevation
         model.vis.global_.offwidth = max(model.vis.global_.offwidth, width)
         model.vis.global_.offheight = max(model.vis.global_.offheight, height)
@@ -78,10 +99,27 @@ class Camera:
                 "the OpenGL library where it is missing: apt-get install libegl1 libgl1-mesa-dri"
             ) from None
 
-    def picture(self, data: Any) -> NDArray[np.uint8]:
-        """The scene now, RGB (height, width, 3)."""
-        self._camera.lookat[:] = data.xpos[self._body] - np.array([0.0, 0.0, 0.25])
+    def picture(self, data: Any, lines: Sequence[Line] = ()) -> NDArray[np.uint8]:
+        """The scene now.
+
+        Args:
+            data: The simulation's state.
+            lines: Lines to draw into it.
+
+        Returns:
+            RGB picture (height, width, 3).
+        """
+        import mujoco
+
+        self._camera.lookat[:] = data.xpos[self._body] - np.array([0.0, 0.0, self._below])
         self._renderer.update_scene(data, self._camera)
+        scene, kind = self._renderer.scene, mujoco.mjtGeom.mjGEOM_CAPSULE
+        for line in lines:
+            geom = scene.geoms[scene.ngeom]
+            rgba = np.array(line.colour, dtype=np.float32)
+            mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.zeros(9), rgba)
+            mujoco.mjv_connector(geom, kind, line.radius, line.start, line.end)
+            scene.ngeom += 1
         return np.asarray(self._renderer.render())
 
     def close(self) -> None:
