@@ -1,0 +1,258 @@
+"""Numbers of a walk that fit a robot: posture, height of the CoM, stance, pace and gains, none of them guessed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from itertools import product
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.plan.footsteps import straight_plan
+from gait.plan.phases import Timing
+from plantar.errors import RobotError
+from plantar.gravity import GRAVITY
+from plantar.settings.body_scale import BodyScale
+from plantar.sides import SIDES, Side
+from sim.model.body import body_of
+from sim.model.leg_model import LegModel
+from sim.model.world import build_leg_model
+from sim.robots.robot import Robot
+from sim.run.controller_settings import CONTROL_PERIOD
+from sim.survey.joint_inertia import JointInertia, joint_inertia
+from sim.survey.plan_reach import PITCHES, PlanReach, Walked, plan_reach, settled, standing_feet
+from sim.survey.servo_gains import servo_gains
+
+__all__ = ["HELD", "KNEE_LEAST", "MISSED", "STEP_SHARE", "FittedGait", "fit_gait", "stance_width", "straight_walk"]
+
+KNEE_LEAST = math.radians(20.0)
+"""Bend of the straightest knee over a walk of level steps: h1 walks with 14, hrp2kai with 24 degrees."""
+
+STEP_SHARE = 1.0 / 3.0
+"""Length of a step over that of a leg: 0.20 m for the robot h1."""
+
+SWING_SHARE = 1.0 / 12.0
+"""Clearance of a swing foot over the length of a leg: 0.05 m for h1."""
+
+MISSED = 2e-3
+"""How far in m or rad a solution for the legs may miss: half of what a control period moves."""
+
+HELD = 0.75
+"""Share of the torque limits that a planned walk may take; the rest is to balance with."""
+
+_SEED_BEND = math.radians(40.0)
+_SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
+_LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
+_MOST_CROUCH = 0.25
+_CROUCH_STEPS = 5
+_SLOWER = (1.0, 1.15, 1.3)
+_BENDS = tuple(math.radians(a) for a in (20.0, 30.0, 40.0, 50.0))
+_GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
+_SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
+_LEAN = 0.48  # rad of trunk lean per leg length of lateral motion, as h1
+
+Array = NDArray[np.float64]
+
+
+class FittedGait:
+    """A robot with numbers that fit, and what they rest on.
+
+    Attributes:
+        robot: The robot.
+        body: How large it is.
+        inertia: Inertia about the joints of a leg.
+        reach: What level steps of a third of a leg ask of it.
+        straight_height: Height in m of the CoM at which the legs are straight side by side.
+        notes: What could not be met.
+    """
+
+    def __init__(self, robot: Robot, body: BodyScale, inertia: JointInertia, reach: PlanReach, notes: list[str]):
+        self.robot, self.body, self.inertia, self.reach = robot, body, inertia, reach
+        self.notes = tuple(notes)
+
+
+def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
+    """Some level steps of a third of a leg at the robot's own pace."""
+    feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
+    timing = Timing(single_support=robot.single_support, double_support=robot.double_support)
+    return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height)
+
+
+def fit_gait(draft: Robot) -> FittedGait:
+    """Fit a walk's numbers to a robot whose names, soles and limits are known.
+
+    Args:
+        draft: The robot; its posture, gait and gains are replaced.
+
+    Returns:
+        The robot with them.
+
+    Raises:
+        RobotError: If the legs cannot stand on both soles.
+    """
+    legs = build_leg_model(draft)
+    robot = replace(draft, posture=_bent(draft, legs))
+    body = body_of(robot, legs)
+    notes: list[str] = []
+    robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
+    seed = _seed_height(robot, legs)
+    robot, reach = _fitted(robot, legs, body, seed, notes)
+    height = robot.com_height
+    settled(robot, legs, standing_feet(robot.stance_width), height)
+    configuration = legs.configuration
+    robot = replace(robot, posture=_angles(robot, legs, configuration))
+    inertia = joint_inertia(robot, legs.model, configuration)
+    stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
+    crouch = _crouch(robot, legs, body)
+    robot = replace(
+        robot,
+        stiffness=tuple(stiffness.tolist()),
+        damping=tuple(damping.tolist()),
+        largest_crouch=crouch,
+        largest_crouch_partial=crouch,
+        balance=_balance(body),
+    )
+    return FittedGait(robot, body, inertia, reach, notes)
+
+
+def _balance(body: BodyScale) -> dict[str, Any]:
+    """Gains of h1's balance law, in the beat of the robot's legs."""
+    beats = {"dcm_gain": 0.742, "zmp_gain": 0.124, "com_gain": 0.247}
+    return {"law": "com_admittance", **{k: float(f"{v / body.beat:.3g}") for k, v in beats.items()}}
+
+
+def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
+    """Legs with their knees bent forward, from the model's own posture."""
+    model = legs.model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
+    posture: dict[Side, tuple[float, ...]] = {}
+    for side in SIDES:
+        ids = [model.joint(n).id for n in robot.legs[side].joints]
+        angles = model.qpos0[model.jnt_qposadr[ids]].copy()
+        pitch = [k for k, i in enumerate(ids) if abs(float(data.xaxis[i] @ across)) > PITCHES]
+        if len(pitch) < 3:
+            raise RobotError(
+                f"robot '{robot.name}': the {side} leg has {len(pitch)} joints that pitch; allowed: hip, knee and ankle"
+            )
+        for k, part in ((pitch[0], -0.5), (pitch[-2], 1.0), (pitch[-1], -0.5)):
+            angles[k] += part * _SEED_BEND * math.copysign(1.0, float(data.xaxis[ids[k]] @ across))
+        for k, i in enumerate(ids):
+            if model.jnt_limited[i]:
+                angles[k] = np.clip(angles[k], *model.jnt_range[i])
+        posture[side] = tuple(angles.tolist())
+    return posture
+
+
+def stance_width(robot: Robot, legs: LegModel) -> float:
+    """Distance in m of the feet side by side: as the model has them, or so far that the soles keep a gap.
+
+    Args:
+        robot: The robot.
+        legs: Its kinematics.
+
+    Returns:
+        The distance of the sole frames' origins.
+    """
+    angles = np.array([*robot.posture["left"], *robot.posture["right"]])
+    feet = legs.posture(angles).positions
+    own = float(feet["left"][1] - feet["right"][1])
+    outline = robot.layouts["left"].outline
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    inner = -float(low[1])
+    least = 2.0 * inner + _GAP * float(high[1] - low[1])
+    return round(max(own, least), 3)
+
+
+def _seed_height(robot: Robot, legs: LegModel) -> float:
+    """Height in m of the CoM above the soles in the robot's posture."""
+    posture = legs.posture(np.array([*robot.posture["left"], *robot.posture["right"]]))
+    return float(posture.com[2] - np.mean([posture.positions[s][2] for s in SIDES]))
+
+
+def _paced(robot: Robot, height: float, slower: float) -> Robot:
+    """The robot with the pace of a pendulum of its height in m: h1's, in the time sqrt(h / g), or slower."""
+    unit = slower * math.sqrt(height / GRAVITY)
+    return replace(
+        robot, single_support=max(0.2, round(_SINGLE * unit, 2)), double_support=max(0.05, round(_DOUBLE * unit, 2))
+    )
+
+
+def _fitted(robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]) -> tuple[Robot, PlanReach]:
+    """The robot at the greatest height and the quickest pace at which its knees stay bent and its motors hold.
+
+    A knee that is almost straight has to move fast, and a quick swing takes torque to move itself: where motors do not
+    hold, more bend and a slower pace are tried, the least of both first.
+    """
+    limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
+    found: list[tuple[float, Robot, PlanReach]] = []
+    for slower, bend in product(_SLOWER, _BENDS):
+        paced = _paced(robot, seed, slower)
+        height, reach = _height(paced, legs, body, seed, bend)
+        if reach is None:
+            continue
+        asked = float((reach.torque / limits).max())
+        found.append((asked, replace(paced, com_height=height), reach))
+        if asked <= HELD:
+            break
+    if not found:
+        raise RobotError(
+            f"robot '{robot.name}': no height of its CoM lets it take steps of {STEP_SHARE * body.leg:.3f} m, a third "
+            "of its legs, with bent knees and within its joints' limits; are these the legs, and their limits right?"
+        )
+    asked, best, reach = min(found, key=lambda f: (max(f[0], HELD), found.index(f)))
+    if asked > HELD:
+        j = int((reach.torque / limits).argmax())
+        notes.append(
+            f"{robot.legs['left'].joints[j]} needs {reach.torque[j]:.3g} N m for level steps at their best height and "
+            f"pace; its limit is {robot.effort_limits[j]:.3g} N m: more than {100.0 * HELD:.0f} % of it leaves little "
+            "to balance with"
+        )
+    return best, reach
+
+
+def _height(robot: Robot, legs: LegModel, body: BodyScale, seed: float, bend: float) -> tuple[float, PlanReach | None]:
+    """The greatest height in m of the CoM at which the knees stay bent by `bend` rad; None where there is none."""
+
+    def reach(height: float) -> PlanReach:
+        return plan_reach(robot, legs, straight_walk(robot, body, height))
+
+    def holds(found: PlanReach) -> bool:
+        return found.missed <= MISSED and found.knee >= bend and float(found.spare.min()) >= _SPARE
+
+    low = high = seed + 0.15 * body.leg
+    found = None
+    while found is None and low > seed - 0.4 * body.leg:
+        high, low = low, low - 0.06 * body.leg
+        now = reach(low)
+        found = now if holds(now) else None
+    if found is None:
+        return low, None
+    while high - low > 2e-3 * body.leg:
+        middle = 0.5 * (low + high)
+        now = reach(middle)
+        low, high, found = (middle, high, now) if holds(now) else (low, middle, found)
+    return math.floor(1e4 * low) / 1e4, found
+
+
+def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tuple[float, ...]]:
+    """Joint angles of each leg in rad in a configuration."""
+    places = {s: [legs.model.joint(n).qposadr[0] for n in robot.legs[s].joints] for s in SIDES}
+    return {s: tuple(float(configuration[i]) for i in places[s]) for s in SIDES}
+
+
+def _crouch(robot: Robot, legs: LegModel, body: BodyScale) -> float:
+    """How much lower in m the robot can walk: its joints stay in range and below three quarters of their torque."""
+    limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
+    fits = 0.0
+    for lower in np.linspace(_LEAST_CROUCH, _MOST_CROUCH, _CROUCH_STEPS).tolist():
+        found = plan_reach(robot, legs, straight_walk(robot, body, robot.com_height - lower * body.leg))
+        enough = found.missed <= MISSED and float(found.spare.min()) >= _SPARE
+        if not enough or bool((found.torque > HELD * limits).any()):
+            break
+        fits = lower
+    return math.floor(1e3 * max(fits, _LEAST_CROUCH) * body.leg) / 1e3

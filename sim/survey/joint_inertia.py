@@ -1,0 +1,75 @@
+"""What a leg's servos move: inertia about each joint while its foot swings, and while its foot carries the robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sides import SIDES
+from sim.robots.robot import Robot
+
+__all__ = ["JointInertia", "joint_inertia"]
+
+
+@dataclass(frozen=True)
+class JointInertia:
+    """Inertia about each joint of a leg in kg m^2, the lesser one of both legs, with the rotor's.
+
+    Attributes:
+        swing: Of what a joint turns where the robot floats freely: 1 / (M^-1)_jj.
+        stance: Of all that stands on a joint whose foot stands still.
+        armature: The rotor's share.
+        damping: The joint's own damping in N m s/rad.
+    """
+
+    swing: NDArray[np.float64]
+    stance: NDArray[np.float64]
+    armature: NDArray[np.float64]
+    damping: NDArray[np.float64]
+
+
+def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) -> JointInertia:
+    """Measure the inertia about the joints of the legs.
+
+    Args:
+        robot: The robot.
+        model: The robot alone as it is simulated, with its shoes.
+        configuration: Configuration (nq,) in which it stands.
+
+    Returns:
+        The inertia about each joint.
+    """
+    data = mujoco.MjData(model)
+    data.qpos[:] = configuration
+    mujoco.mj_forward(model, data)
+    whole = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, whole)
+    free = 1.0 / np.diag(np.linalg.inv(whole))
+    found = []
+    for side in SIDES:
+        joints = [model.joint(name).id for name in robot.legs[side].joints]
+        dofs = model.jnt_dofadr[joints]
+        standing = np.array([_above(model, data, joint) for joint in joints]) + model.dof_armature[dofs]
+        found.append((free[dofs], standing, model.dof_armature[dofs], model.dof_damping[dofs]))
+    swing, stance, armature, damping = (np.minimum(a, b) for a, b in zip(*found, strict=True))
+    return JointInertia(swing, stance, armature, damping)
+
+
+def _above(model: Any, data: Any, joint: int) -> float:
+    """Inertia in kg m^2 about a joint's axis of all bodies that do not hang on it."""
+    axis, anchor = data.xaxis[joint], data.xanchor[joint]
+    hanging = {int(model.jnt_bodyid[joint])}
+    total = 0.0
+    for body in range(1, model.nbody):
+        if body in hanging or int(model.body_parentid[body]) in hanging:
+            hanging.add(body)
+            continue
+        rotation = data.ximat[body].reshape(3, 3)
+        along = rotation.T @ axis
+        arm = np.cross(axis, data.xipos[body] - anchor)
+        total += float(model.body_inertia[body] @ along**2) + float(model.body_mass[body]) * float(arm @ arm)
+    return total
