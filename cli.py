@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, cast
 
@@ -171,6 +172,50 @@ def analyze(
 
 
 @app.command()
+def robot(
+    model: Annotated[
+        Path, Argument(metavar="MODEL", help="Robot's model (.xml .mjcf .urdf), or the word check.", show_default=False)
+    ],
+    robot_file: Annotated[
+        Path | None, Argument(metavar="[ROBOT.toml]", help="After check: the robot file.", show_default=False)
+    ] = None,
+    scene: Annotated[str | None, Option(help="check: the scene whose plan is looked at. Default: flat.")] = None,
+    solid: Annotated[bool, Option("--solid", help="Build the printable shoes, too; takes half a minute.")] = False,
+    output: Output = Path("out/robot"),
+    as_json: Json = False,
+) -> None:
+    """Make a robot that walks of its model: robot.toml, a copy of the model, layouts of its shoes and a picture.
+
+    Finds legs (two chains of five hinges or more), soles and how they lie in their bodies, IMU and torque limits, and
+    fits height, stance, pace and servo gains to them. Each value in robot.toml says how it was found.
+
+    With check, measures what would go wrong in a scene, and says which value works; exit code 1 if something would.
+
+    Example: plantar robot my_robot.urdf -o out/mine && plantar sim flat --robot out/mine/robot.toml
+
+    Example: plantar robot check out/mine/robot.toml --scene beam
+    """
+    need_libraries("sim", *_SIM)
+    if str(model) == "check":
+        from sim.survey.check import check_robot
+
+        checked = check_robot(robot_file, scene or "flat")
+        end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
+        return
+    if robot_file is not None or scene is not None:
+        raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
+    os.environ.setdefault("MUJOCO_GL", "egl")
+    from plantar.atomic import output_folder
+    from shoes.found_foot import shoe_for_surface
+    from sim.survey.introduce import introduce
+
+    with output_folder(output) as folder, progress_bar() as tell:
+        shoes = partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5))
+        made = introduce(model, folder, shoes, tell)
+    end_command(made.as_dict(output), as_json, made.text(output))
+
+
+@app.command()
 def sim(
     scene: Annotated[str, Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],
     robot: Annotated[
@@ -272,6 +317,7 @@ def demo(
     from shoes import build_shoe, export_shoe
     from shoes.foot.source import foot_of_robot
     from sim.figures.run_figure import plot_run
+    from sim.run.run_text import demo_text
     from sim.run.runner import run_scene
     from sim.run.scene import load_scene
 
@@ -292,22 +338,7 @@ def demo(
         files = sorted(str(output / p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     done = bool(walk["completed"]) and bool(report["holds"])
     made = {"completed": done, "shoe": report, "walk": walk, "analysis": analysis, "files": files}
-    end_command(made, as_json, _demo_text(made, output), failed=not done)
-
-
-def _demo_text(made: dict[str, Any], output: Path) -> str:
-    """The three parts of the demonstration for people."""
-    from sim.run.run_text import run_text
-
-    shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
-    return (
-        f"shoe: {shoe['taxels']} taxels, {shoe['mass_g']:.0f} g, "
-        f"{'all checks hold' if shoe['holds'] else 'A CHECK DOES NOT HOLD'}\n"
-        f"{run_text(made['walk'])}\n"
-        f"analysis: {steps.get('left', 0)} left and {steps.get('right', 0)} right complete steps\n"
-        f"made:{file_lines(made['files'])}\n"
-        f"open {output / 'analysis' / 'report.html'} in a browser"
-    )
+    end_command(made, as_json, demo_text(made, output), failed=not done)
 
 
 @app.command(name="list")
@@ -330,8 +361,6 @@ def list_(
 
     Example: plantar list settings estimator
     """
-    from plantar.files.structured_text import described_files, packaged_files
-
     for given, words in ((name, "name"), (robot, "robot")):
         if given is not None and what != "settings":
             raise InputError(f"'list {what}' takes no {words}, got '{given}'; allowed: plantar list settings NAME")
@@ -343,20 +372,9 @@ def list_(
         told = settings_of_robot(name, robot)
         end_command({what: setting_rows(told)}, as_json, setting_text(told))
         return
-    if what == "formats":
-        from plantar.formats import formats
+    from sim.run.listing import listed
 
-        found = {f.name: f"{f.title} ({', '.join(f.suffixes)})" for f in formats().values()}
-    elif what == "robots":
-        kinds = ("robots/*/robot.toml", "companion/machines/*/machine.toml")
-        files = [file for kind in kinds for file in packaged_files("sim", kind)]
-        robots = described_files(files)
-        found = {path.parent.name: text for path, text in robots.items()}
-    elif what == "scenes":
-        scenes = described_files(packaged_files("sim", "scenes/*.toml"))
-        found = {path.stem: text for path, text in scenes.items()}
-    else:
-        raise InputError(f"cannot list '{what}'; allowed: robots, scenes, formats, settings")
+    found = listed(what)
     width = max((len(name) for name in found), default=0)
     text = "\n".join(f"{name:{width}}  {text}".rstrip() for name, text in found.items())
     end_command({what: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
@@ -394,7 +412,9 @@ def bench(
     if stress:
         if what != "kernels":
             raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
-        _bench_stress(readings, seed, as_json)
+        from plantar.bench.stress.stress_command import stress_command
+
+        stress_command(readings, seed, as_json)
         return
     from plantar.atomic import output_folder, write_text
 
@@ -422,17 +442,6 @@ def bench(
     failed = "contact" in result and not result["contact"]["holds"]
     failures = ["the chosen contact model is not as right as it must be"] if failed else []
     end_command(result, as_json, "\n".join(texts) + file_lines(result["files"]), failures, failed)
-
-
-def _bench_stress(readings: int, seed: int, as_json: bool) -> None:
-    """Throw odd readings at the perception; exit code 1 if something failed."""
-    from plantar.bench.stress.stress_run import stress
-    from plantar.bench.stress.stress_text import stress_text
-
-    with progress_bar() as tell:
-        result = stress(readings, seed, progress=tell)
-    failures = [f"{result.failures} failures in {result.readings} readings"] if result.failures else []
-    end_command(result.as_dict(), as_json, stress_text(result), failures, bool(result.failures))
 
 
 def main() -> None:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
-__all__ = ["run_text"]
+from plantar.console.command import file_lines
+
+__all__ = ["demo_text", "run_text"]
 
 Summary = Mapping[str, Any]
 
@@ -31,6 +34,27 @@ def run_text(summary: Summary) -> str:
     files = [f"  {name}" for name in summary.get("figures", [])]
     return "\n".join(
         [*_outcome(summary), *_shares(summary), *_body(summary), *_joints(summary), *_balance(summary), speed, *files]
+    )
+
+
+def demo_text(made: Mapping[str, Any], output: Path) -> str:
+    """The three parts of the demonstration for people.
+
+    Args:
+        made: The results of "shoe", "walk" and "analysis", and the "files".
+        output: The folder that they are in.
+
+    Returns:
+        Lines.
+    """
+    shoe, steps = made["shoe"], {side: foot["steps"] for side, foot in made["analysis"]["feet"].items()}
+    return (
+        f"shoe: {shoe['taxels']} taxels, {shoe['mass_g']:.0f} g, "
+        f"{'all checks hold' if shoe['holds'] else 'A CHECK DOES NOT HOLD'}\n"
+        f"{run_text(made['walk'])}\n"
+        f"analysis: {steps.get('left', 0)} left and {steps.get('right', 0)} right complete steps\n"
+        f"made:{file_lines(made['files'])}\n"
+        f"open {output / 'analysis' / 'report.html'} in a browser"
     )
 
 
