@@ -75,7 +75,17 @@ class FittedGait:
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
-    """Some level steps of a third of a leg at the robot's own pace."""
+    """Level steps of a third of a leg at the robot's own pace.
+
+    Args:
+        robot: The robot.
+        body: How large it is.
+        com_height: Height of its CoM in m.
+        steps: Number of steps.
+
+    Returns:
+        The walk.
+    """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
     timing = Timing(single_support=robot.single_support, double_support=robot.double_support)
     return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height)

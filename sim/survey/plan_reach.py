@@ -21,7 +21,7 @@ from plantar.sides import SIDES, Side
 from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
 
-__all__ = ["PITCHES", "PlanReach", "Walked", "knee_bend", "plan_reach", "settled", "standing_feet"]
+__all__ = ["PITCHES", "PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
 
 PITCHES = 0.7
 """Cosine with the torso's y axis from which on a joint is one that pitches."""
@@ -192,11 +192,6 @@ def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Ar
     along = left - right
     part = float(np.clip((vrp - right) @ along / max(float(along @ along), 1e-12), 0.0, 1.0))
     return {"left": part, "right": 1.0 - part}
-
-
-def knee_bend(robot: Robot, legs: LegModel) -> float:
-    """Least bend of a knee in rad in the posture that the legs hold."""
-    return _Probe(robot, legs).knees(legs)
 
 
 def _swinging(model: mujoco.MjModel, configuration: Array) -> Array:
