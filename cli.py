@@ -176,9 +176,7 @@ def robot(
     model: Annotated[
         Path, Argument(metavar="MODEL", help="Robot's model (.xml .mjcf .urdf), or the word check.", show_default=False)
     ],
-    robot_file: Annotated[
-        Path | None, Argument(metavar="[ROBOT.toml]", help="After check: the robot file.", show_default=False)
-    ] = None,
+    robot_file: Annotated[Path | None, Argument(metavar="[ROBOT.toml]", help="After check: the robot file.")] = None,
     scene: Annotated[str | None, Option(help="check: the scene whose plan is looked at. Default: flat.")] = None,
     solid: Annotated[bool, Option("--solid", help="Build the printable shoes, too; takes half a minute.")] = False,
     output: Output = Path("out/robot"),
@@ -186,8 +184,8 @@ def robot(
 ) -> None:
     """Make a robot that walks of its model: robot.toml, a copy of the model, layouts of its shoes and a picture.
 
-    Finds legs (two chains of five hinges or more), soles and how they lie in their bodies, IMU and torque limits, and
-    fits height, stance, pace and servo gains to them. Each value in robot.toml says how it was found.
+    Finds legs (two chains of five hinges or more), soles, IMU and limits, and fits height, stance, pace and servo gains
+    to them. Each value in robot.toml says how it was found.
 
     With check, measures what would go wrong in a scene, and says which value works; exit code 1 if something would.
 
@@ -196,14 +194,14 @@ def robot(
     Example: plantar robot check out/mine/robot.toml --scene beam
     """
     need_libraries("sim", *_SIM)
-    if str(model) == "check":
+    if (str(model) == "check") != (robot_file is not None) or (robot_file is None and scene is not None):
+        raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
+    if robot_file is not None:
         from sim.survey.check import check_robot
 
         checked = check_robot(robot_file, scene or "flat")
         end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
         return
-    if robot_file is not None or scene is not None:
-        raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
     os.environ.setdefault("MUJOCO_GL", "egl")
     from plantar.atomic import output_folder
     from shoes.found_foot import shoe_for_surface
@@ -305,8 +303,7 @@ def demo(
 ) -> None:
     """The main job in one go: build the H1's tactile shoes, walk a 12 cm beam on what they feel, analyse the walk.
 
-    The simulator wears the layouts that the shoe builder has just written, and the analysis reads the recording that
-    the simulator has just made.
+    The simulator wears the layouts just written, and the analysis reads the recording just made.
 
     Example: plantar demo -o out
     """
