@@ -23,7 +23,7 @@ from sim.companion.lidar import Lidar
 from sim.companion.machine import Machine, ServoTable, load_machine
 from sim.companion.scene import CompanionScene
 from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import skin_from_tables
+from sim.companion.skin_surface import OBSTACLE_GROUP, skin_from_tables
 from sim.figures.render import FRAME_RATE, Camera, VideoWriter
 
 __all__ = ["Companion", "run_companion", "run_companion_to_files"]
@@ -242,7 +242,9 @@ def run_companion_to_files(
         if video is not None:
             world = companion.world
             body, view = companion.experiment.view
-            camera = Camera(world.model, world.model.body(body or world.machine.base.link).id, view=view)
+            camera = Camera(
+                world.model, world.model.body(body or world.machine.base.link).id, view=view, groups=[OBSTACLE_GROUP]
+            )
             stack.callback(camera.close)
             writer = stack.enter_context(VideoWriter(video))
 

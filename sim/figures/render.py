@@ -68,6 +68,7 @@ class Camera:
         width: Picture width in pixels.
         height: Picture height in pixels.
         view: From where it is shown.
+        groups: Groups of geoms to show beside 0, 1 and 2, which are MuJoCo's own choice.
 
     Raises:
         InputError: If no renderer can be made; the message names the cause.
@@ -80,12 +81,15 @@ class Camera:
         width: int = 960,
         height: int = 540,
         view: View | None = None,
+        groups: Sequence[int] = (),
     ) -> None:
         import mujoco
 
         view = view or View()
         self._body = body
         self._camera = mujoco.MjvCamera()
+        self._shown = mujoco.MjvOption()
+        self._shown.geomgroup[list(groups)] = True
         self._camera.distance = view.distance
         self._below = view.below
         self._camera.azimuth, self._camera.elevation = view.azimuth, view.elevation
@@ -112,7 +116,7 @@ class Camera:
         import mujoco
 
         self._camera.lookat[:] = data.xpos[self._body] - np.array([0.0, 0.0, self._below])
-        self._renderer.update_scene(data, self._camera)
+        self._renderer.update_scene(data, self._camera, self._shown)
         scene, kind = self._renderer.scene, mujoco.mjtGeom.mjGEOM_CAPSULE
         for line in lines:
             geom = scene.geoms[scene.ngeom]

@@ -24,6 +24,13 @@ save_picture(picture, sys.argv[1] + "/picture.png")
 with Film(sys.argv[1] + "/film.mp4", world) as film:
     for _ in range(3):
         film.add()
+model = mujoco.MjModel.from_xml_string(
+    "<mujoco><worldbody><light pos='0 0 3'/><geom type='box' size='1 1 1' group='3'/></worldbody></mujoco>"
+)
+data = mujoco.MjData(model)
+mujoco.mj_forward(model, data)
+seen, unseen = (Camera(model, 0, 320, 180, groups=g).picture(data).max() for g in ((3,), ()))
+assert seen > unseen == 0, "geoms of another group are shown where that is asked for"
 import cv2
 assert cv2.VideoCapture(sys.argv[1] + "/film.mp4").get(cv2.CAP_PROP_FRAME_COUNT) == 3
 """
