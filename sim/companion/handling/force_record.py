@@ -65,6 +65,7 @@ class ForceRecord:
             for name, spans in windows.items():
                 for i, (begin, end) in enumerate(spans):
                     ax.axvspan(begin, end, color=_SHADES[name], alpha=0.35, label=name if i == 0 else None, linewidth=0)
+        axis[4].set_xlim(t[0], t[-1])
         axes[0].set_title(title)
         handles, labels = axis[0].get_legend_handles_labels()
         if handles:
