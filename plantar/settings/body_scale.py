@@ -34,6 +34,7 @@ _SYMBOLS: dict[str, _Symbol] = {
     "m": _Symbol((0, 1, 0)),
     "s": _Symbol((0, 0, 1)),
     "N": _Symbol((1, 1, -2)),
+    "Hz": _Symbol((0, 0, -1)),
     "mass": _Symbol((1, 0, 0), "kg"),
     "weight": _Symbol((1, 1, -2), "N"),
     "leg": _Symbol((0, 1, 0), "m"),

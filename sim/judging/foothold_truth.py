@@ -16,7 +16,7 @@ from sim.terrain import Ground
 
 __all__ = ["FootholdTruth"]
 
-_LEVEL = 0.006  # m: faces within this of the sole are under it
+_LEVEL = 0.01  # leg: faces within this of the sole are under it
 
 
 class FootholdTruth:
@@ -83,9 +83,10 @@ class FootholdTruth:
         place, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
         ring = self._world.robot.layouts[side].outline @ rotation[:2, :2].T + place[:2]
         sole = shapely.Polygon(ring)
-        if abs(float(place[2]) - self._floor) < _LEVEL:
+        level = _LEVEL * self._world.body.leg
+        if abs(float(place[2]) - self._floor) < level:
             return np.asarray(ring)
-        near = [face for height, face in self._faces if abs(float(place[2]) - height) < _LEVEL]
+        near = [face for height, face in self._faces if abs(float(place[2]) - height) < level]
         part = sole.intersection(shapely.unary_union(near)).convex_hull if near else shapely.Polygon()
         if part.geom_type != "Polygon" or part.is_empty:
             return np.empty((0, 2))

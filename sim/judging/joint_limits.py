@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.model.world import PHYSICS_PERIOD, World
+from sim.model.world import World
 
 __all__ = ["JointLimits"]
 
@@ -31,6 +31,7 @@ class JointLimits:
         self.limited = bool(robot.velocity_limits)
         k = len(self.names)
         self.longest = np.zeros(k)
+        self._period = world.period
         self._over, self._high, self._low = np.zeros(k), np.zeros(k), np.zeros(k)
         limits = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
         self._per_speed = 1.0 / limits
@@ -64,7 +65,7 @@ class JointLimits:
             return
         velocity = self._velocity()
         shares = np.abs(velocity) * self._per_speed
-        self._over = np.where(shares > 1.0, self._over + PHYSICS_PERIOD, 0.0)
+        self._over = np.where(shares > 1.0, self._over + self._period, 0.0)
         self._fast = bool(self._over.any())
         if self._fast:
             np.maximum(self.longest, self._over, out=self.longest)

@@ -14,7 +14,6 @@ from gait.plan.plan_change import MovedStep
 from plantar.geometry.polygon import area
 from plantar.kernels.few_points import small_hull
 from plantar.layouts.layout import Side
-from plantar.mechanics.lip import GRAVITY
 from plantar.sides import SIDES
 from sim.judging.joint_limits import JointLimits
 from sim.judging.leg_contact import LegContact
@@ -27,15 +26,14 @@ from sim.model.contact_truth import (
     foot_contacts,
     ground_truth,
 )
-from sim.model.world import PHYSICS_PERIOD, World
+from sim.model.world import World
 
 __all__ = ["Judge", "Landing"]
 
-_TOUCH = 20.0  # N: less than this is no contact, the usual level of force plates in gait analysis
-_AIRBORNE = 0.15  # s without contact before a touch counts as a landing
-_AIRBORNE_STEPS = round(_AIRBORNE / PHYSICS_PERIOD)
-_IMPACT_WINDOW = 0.05  # s after touchdown in which the impact is looked for
-_SETTLED = 0.6  # s after touchdown in which the contact area is looked for
+_TOUCH = 0.0237  # weight: less than this is no contact; 20 N for H1, the usual level of force plates in gait analysis
+_AIRBORNE = 0.607  # beats without contact before a touch counts as a landing: 0.15 s for H1
+_IMPACT_WINDOW = 0.202  # beats after touchdown in which the impact is looked for: 50 ms
+_SETTLED = 2.43  # beats after touchdown in which the contact area is looked for: 0.6 s
 _FALLEN_TILT = 40.0  # degrees
 _FALLEN_HEIGHT = 0.6  # of the standing CoM height
 _FLAT_FACES = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_BOX))
@@ -47,9 +45,9 @@ class Landing:
 
     Attributes:
         side: Which foot.
-        time: Touchdown in s: the first physics step with ground force after at least 0.15 s in the air.
-        impact: Largest vertical ground force in N within 50 ms.
-        area: Largest contact area in m^2 (hull of the contact points) in the 0.6 s after touchdown.
+        time: Touchdown in s: the first physics step with ground force after 0.6 beats or more in the air.
+        impact: Largest vertical ground force in N within 0.2 beats.
+        area: Largest contact area in m^2 (hull of the contact points) in the 2.4 beats after touchdown.
         angle: Angle in degrees between the sole and the face that it touched first, at touchdown; None on round ground.
         margin: Smallest true ZMP margin in m from this landing to the next one.
     """
@@ -92,8 +90,10 @@ class Judge:
         self._last_touch = [0, 0]  # physics step, of each foot
         self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
-        mass = float(self.world.model.body_subtreemass[self.world.model.body_rootid[self.world.torso]])
-        self.steps = StepCount(self.goal, mass * GRAVITY)
+        body = self.world.body
+        self._touch = _TOUCH * body.weight
+        self._airborne_steps = round(_AIRBORNE * body.beat / self.world.period)
+        self.steps = StepCount(self.goal, body.weight)
         self.legs = LegContact(self.world)
         self.joints = JointLimits(self.world)
 
@@ -109,12 +109,12 @@ class Judge:
         left, right = self._touched.tolist()
         now = self._physics_steps = self._physics_steps + 1
         last = self._last_touch
-        if left >= _TOUCH:
-            if now - last[0] > _AIRBORNE_STEPS:
+        if left >= self._touch:
+            if now - last[0] > self._airborne_steps:
                 self._land("left")
             last[0] = now
-        if right >= _TOUCH:
-            if now - last[1] > _AIRBORNE_STEPS:
+        if right >= self._touch:
+            if now - last[1] > self._airborne_steps:
                 self._land("right")
             last[1] = now
         if self._fresh:
@@ -130,10 +130,10 @@ class Judge:
 
     def _follow_impacts(self, forces: Mapping[Side, float]) -> None:
         """Look for the impact of landings that are not long ago."""
-        time = float(self.world.data.time)
-        self._fresh = [landing for landing in self._fresh if time - landing.time <= _IMPACT_WINDOW]
+        begin = float(self.world.data.time) - _IMPACT_WINDOW * self.world.body.beat
+        self._fresh = [landing for landing in self._fresh if landing.time >= begin]
         for landing in self._fresh:
-            if forces[landing.side] >= _TOUCH:
+            if forces[landing.side] >= self._touch:
                 landing.impact = max(landing.impact, forces[landing.side])
 
     def _angle(self, side: Side) -> float | None:
@@ -182,7 +182,7 @@ class Judge:
             self.zmp_error.append(math.dist(zmp, truth.zmp))
         for side, points in zip(SIDES, truth.points, strict=True):
             last = self._landing[side]
-            if last is not None and data.time - last.time <= _SETTLED and len(points) > 2:
+            if last is not None and data.time - last.time <= _SETTLED * self.world.body.beat and len(points) > 2:
                 last.area = max(last.area, area(np.array(small_hull(points))))
         if moved:
             self.goal.hear(float(data.time), moved)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plantar.sides import SIDES
-from sim.model.world import PHYSICS_PERIOD, World
+from sim.model.world import World
 from sim.robots.leg_shapes import COLLIDES
 
 __all__ = ["LegContact", "legs_that_touch"]
@@ -46,7 +46,7 @@ class LegContact:
         """After each physics step."""
         if not self._sensed.item(self._address) > 0.0:
             return
-        self.duration += PHYSICS_PERIOD
+        self.duration += self._world.period
         if self.first is None:
             links = legs_that_touch(self._world)
             if links is not None:

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from sim.model.shove import Shove
 
 __all__ = ["Recovery"]
 
-_ZMP_BACK = 0.015  # m from the reference: nearer counts as back
-_COM_BACK = 0.010
-_CALM = 0.5  # s for which it has to stay
+_ZMP_BACK = 0.025  # leg from the reference: nearer counts as back; 15 mm for H1
+_COM_BACK = 1 / 60  # leg
+_CALM = 2.02  # beats for which it has to stay: half a second
 
 
 class Recovery:
@@ -24,9 +25,11 @@ class Recovery:
     Args:
         shoves: The pushes in order.
         end: Time in s at which the run ends.
+        body: How large the robot is.
     """
 
-    def __init__(self, shoves: Sequence[Shove], end: float) -> None:
+    def __init__(self, shoves: Sequence[Shove], end: float, body: BodyScale = REFERENCE_BODY) -> None:
+        self._body = body
         self.shoves = tuple(shoves)
         self._until = [s.start for s in self.shoves[1:]] + [end]
         self._now = -1
@@ -60,7 +63,8 @@ class Recovery:
         off = math.inf if zmp is None else math.dist(zmp, reference_zmp)
         if zmp is not None:
             self._off[i] = max(self._off[i], off)
-        if off > _ZMP_BACK or math.dist(com, reference_com) > _COM_BACK:
+        leg = self._body.leg
+        if off > _ZMP_BACK * leg or math.dist(com, reference_com) > _COM_BACK * leg:
             self._last_off[i] = time
 
     def summary(self) -> dict[str, Any]:
@@ -71,7 +75,7 @@ class Recovery:
         """
         pushes: list[dict[str, Any]] = []
         for i, shove in enumerate(self.shoves):
-            back = self._seen[i] - self._last_off[i] >= _CALM
+            back = self._seen[i] - self._last_off[i] >= _CALM * self._body.beat
             x, y, _ = shove.impulse.tolist()
             pushes.append(
                 {

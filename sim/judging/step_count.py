@@ -12,7 +12,7 @@ import numpy as np
 from gait.plan.footsteps import Footstep
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
-from sim.judging.walk_goal import NEAR, NEAR_YAW, WalkGoal
+from sim.judging.walk_goal import NEAR_YAW, WalkGoal
 
 __all__ = ["Stand", "StepCount"]
 
@@ -136,16 +136,16 @@ class StepCount:
         if stand.side != step.side:
             return f"the {stand.side} foot landed in its stead"
         assert stand.place is not None
-        return _far_from(self.goal.places(k, stand.touchdown), stand.place, step.side)
+        return _far_from(self.goal.places(k, stand.touchdown), stand.place, step.side, self.goal.near)
 
 
-def _far_from(places: Sequence[Footstep], place: tuple[float, float, float], side: Side) -> str | None:
+def _far_from(places: Sequence[Footstep], place: tuple[float, float, float], side: Side, near: float) -> str | None:
     x, y, yaw = place
     offs = []
     for wanted in places:
         off = math.hypot(x - wanted.x, y - wanted.y)
         turn = abs(math.remainder(yaw - wanted.yaw, 2.0 * math.pi))
-        if off <= NEAR and turn <= NEAR_YAW:
+        if off <= near and turn <= NEAR_YAW:
             return None
         offs.append((off, turn))
     off, turn = min(offs)

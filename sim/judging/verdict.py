@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from plantar.mechanics.same_time import SAME_TIME
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from sim.judging.joint_limits import JointLimits
 from sim.judging.leg_contact import LegContact
 
 __all__ = ["FASTER_FOR", "HEADING", "POSITION", "UPRIGHT", "Ending", "reasons"]
 
-POSITION = 0.10
-"""Distance in m of the CoM from the walk's end that counts as there."""
+POSITION = 1 / 6
+"""Distance in leg lengths of the CoM from the walk's end that counts as there: 0.1 m for H1."""
 
 HEADING = 5.0
 """Angle in degrees from the walk's last heading that counts as straight."""
@@ -20,8 +21,8 @@ HEADING = 5.0
 UPRIGHT = 5.0
 """Tilt of the torso in degrees that counts as upright."""
 
-FASTER_FOR = 0.02
-"""Time in s for which a joint may be faster than its limit."""
+FASTER_FOR = 0.0809
+"""Beats of the leg for which a joint may be faster than its limit: 20 ms for H1."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Ending:
         position: Distance in m of the CoM from the walk's end; None for a walk that has no place to end at.
         heading: Heading error in degrees; None likewise.
         tilt: Tilt of the torso in degrees.
+        body: How large the robot is.
         pushes: Pushes that the robot recovered from, and all of them.
         overrun: Time in s at which the run was cut off, since the controller still was not at its end, and the end in s
             as it was planned at first; None otherwise.
@@ -48,6 +50,7 @@ class Ending:
     position: float | None
     heading: float | None
     tilt: float
+    body: BodyScale = REFERENCE_BODY
     pushes: tuple[int, int] = (0, 0)
     overrun: tuple[float, float] | None = None
 
@@ -82,11 +85,12 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"
         add("collision", round(legs.duration, 4), 0.0, text)
     longest = float(joints.longest.max())
-    if longest > FASTER_FOR + SAME_TIME:
+    faster_for = FASTER_FOR * ending.body.beat
+    if longest > faster_for + SAME_TIME:
         k = int(joints.longest.argmax())
         share = float(joints.fastest[k])
         text = f"{joints.names[k]} was faster than its limit for {longest:.3f} s, by {share:.2f} times at most"
-        add("joint_speed", round(longest, 4), FASTER_FOR, text)
+        add("joint_speed", round(longest, 4), round(faster_for, 4), text)
     taken, planned = ending.steps
     if taken < planned:
         add("steps", taken, planned, f"{taken} of {planned} steps; step {taken} (from 0): {ending.missed}")
@@ -94,7 +98,13 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
     if recovered < pushes:
         add("pushes", recovered, pushes, f"recovered from {recovered} of {pushes} pushes")
     ends: tuple[tuple[str, float | None, float, str, str], ...] = (
-        ("position", ending.position, POSITION, "m", "the CoM ended {} from the walk's end"),
+        (
+            "position",
+            ending.position,
+            round(POSITION * ending.body.leg, 4),
+            "m",
+            "the CoM ended {} from the walk's end",
+        ),
         ("heading", ending.heading, HEADING, "deg", "the torso ended turned by {}"),
         ("tilt", ending.tilt, UPRIGHT, "deg", "the torso ended tilted by {}"),
     )

@@ -17,24 +17,27 @@ from gait.plan.footsteps import Footstep
 from gait.plan.plan_change import MovedStep
 from gait.plan.walk_plan import vrp_of_step
 from plantar.layouts.layout import Side
+from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
 
-__all__ = ["NEAR", "NEAR_YAW", "WalkGoal"]
+__all__ = ["NEAR_YAW", "WalkGoal"]
 
 
-NEAR = 0.05
-"""Distance in m within which a foot has reached a place."""
+_NEAR = 1 / 12
+"""Distance in leg lengths within which a foot has reached a place: 50 mm for H1."""
 
 NEAR_YAW = math.radians(5.0)
 """Angle in rad within which it has the place's heading."""
 
-_DETOUR = 0.5
-"""Distance in m by which a footstep may be moved against the one before it: twice around an obstacle (0.24 m each)."""
+_DETOUR = 5 / 6
+"""Distance in leg lengths by which a footstep may be moved against the one before it: twice around an obstacle (0.4
+each)."""
 
 _DETOUR_YAW = math.radians(30.0)
-_AWAY, _DRIFT = 0.3, 0.25
-"""Distance in m by which it may be moved in all, and share of the way walked so far by which further: a detour of
-0.24 m early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it began."""
+_AWAY, _DRIFT = 0.5, 0.25
+"""Distance in leg lengths by which it may be moved in all, and share of the way walked so far by which further: a
+detour of 0.4 legs early in a walk, two of them later, a strip that turns away by 10 degrees; no walk that ends where it
+began."""
 
 
 @dataclass(frozen=True)
@@ -50,14 +53,20 @@ class WalkGoal:
     Args:
         feet: Where the feet stand at the start.
         steps: The footsteps as planned at the start.
+        leg: Length of the robot's legs in m, which distances are judged by.
 
     Attributes:
         steps: The footsteps as planned at the start.
+        near: Distance in m within which a foot has reached a place.
         refused: How many moves were not taken over: without a reason, not finite, or further than a detour explains.
     """
 
-    def __init__(self, feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> None:
+    def __init__(
+        self, feet: Mapping[Side, Footstep], steps: Sequence[Footstep], leg: float = REFERENCE_BODY.leg
+    ) -> None:
         self.steps = tuple(steps)
+        self.near = _NEAR * leg
+        self._leg = leg
         self.refused = 0
         self._feet = dict(feet)
         self._moves: dict[int, list[_Move]] = {}
@@ -107,7 +116,8 @@ class WalkGoal:
         step, original = places[k], self.steps[k]
         away = math.hypot(step.x - original.x, step.y - original.y)
         turned = abs(math.remainder(step.yaw - original.yaw, 2.0 * math.pi))
-        return math.dist(there, planned) <= _DETOUR and away <= _AWAY + _DRIFT * self._way[k] and turned <= _DETOUR_YAW
+        detour, most = _DETOUR * self._leg, _AWAY * self._leg + _DRIFT * self._way[k]
+        return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def places(self, step: int, time: float) -> tuple[Footstep, ...]:
         """Where a step may be put down: as planned at the start, or as planned anew last.

@@ -7,7 +7,6 @@ import numpy as np
 
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
 
 __all__ = ["body_of", "leg_length"]
@@ -16,12 +15,12 @@ _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ 
 _PITCHES = 0.7  # cosine with the torso's y axis from which a joint pitches: nearer to it than to x and z
 
 
-def body_of(robot: Robot, legs: LegModel) -> BodyScale:
+def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
     """The body that a robot's settings are shares of.
 
     Args:
         robot: The robot.
-        legs: Its kinematics.
+        model: A model with the robot in it.
 
     Returns:
         Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, and the left
@@ -29,14 +28,14 @@ def body_of(robot: Robot, legs: LegModel) -> BodyScale:
     """
     _, (half_length, half_width) = robot.sole_rectangle("left")
     return BodyScale(
-        mass=legs.mass,
-        leg=robot.leg_length or leg_length(robot, legs),
+        mass=float(model.body_subtreemass[model.body_rootid[model.body(robot.torso_body).id]]),
+        leg=robot.leg_length or leg_length(robot, model),
         sole=2.0 * half_length,
         sole_width=2.0 * half_width,
     )
 
 
-def leg_length(robot: Robot, legs: LegModel) -> float:
+def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
     """Length of a straight leg from hip to ankle, as the mean of both.
 
     It is summed over the joints that pitch, which are hip, knee and ankle of a leg, in the plane in which they bend it;
@@ -45,17 +44,17 @@ def leg_length(robot: Robot, legs: LegModel) -> float:
 
     Args:
         robot: The robot, which says which joints the legs have, and how it stands.
-        legs: Its kinematics.
+        model: A model with the robot in it.
 
     Returns:
         The length in m.
     """
-    data = mujoco.MjData(legs.model)
+    data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
-            data.qpos[legs.model.joint(name).qposadr[0]] = angle
-    mujoco.mj_kinematics(legs.model, data)
-    return round(float(np.mean([_length(robot, side, legs.model, data) for side in SIDES])), _RESOLUTION)
+            data.qpos[model.joint(name).qposadr[0]] = angle
+    mujoco.mj_kinematics(model, data)
+    return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)
 
 
 def _length(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> float:

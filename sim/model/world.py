@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError, SceneError
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES, Side
+from sim.model.body import body_of
 from sim.model.leg_model import LegModel
 from sim.robots.biped import biped_mjcf
 from sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
@@ -23,7 +25,10 @@ from sim.terrain import GROUND_GROUP, Ground, Solid
 __all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "check_stable", "robot_spec"]
 
 PHYSICS_PERIOD = 0.001
-"""Time step of the physics in s."""
+"""Time step of the physics in s, where a scene does not say."""
+
+_CONTACT_STEPS = 5  # physics steps that a contact takes to bring penetration to rest: solref of `sim.contact_models`
+_SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it gets, and gap up to which it is listed
 
 _LEG_CONTACT = "truth_leg_contact"
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
@@ -83,8 +88,8 @@ def check_stable(data: Any) -> None:
     counts = data.warning.number.tolist()
     if any(counts[kind] for kind in _DIVERGED):
         raise SceneError(
-            "the simulated physics became unstable: forces too large for steps of 1 ms; lower the robot's [servo] "
-            "stiffness and damping, or what pushes it"
+            "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
+            "lower that, the robot's [servo] stiffness and damping, or what pushes it"
         )
 
 
@@ -104,7 +109,9 @@ def build_leg_model(robot: Robot) -> LegModel:
     """
     model = _compiled(robot_spec(robot), robot)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
-    return LegModel(model, joints, {s: robot.legs[s].sole_site for s in SIDES}, robot.torso_body)
+    soles = {s: robot.legs[s].sole_site for s in SIDES}
+    unit = body_of(robot, model).leg / REFERENCE_BODY.leg
+    return LegModel(model, joints, soles, robot.torso_body, unit)
 
 
 def _add_looks(spec: Any, torso: str) -> None:
@@ -197,6 +204,8 @@ class World:
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
         leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
+        body: How large the robot is.
+        period: Time step of the physics in s.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
     """
@@ -217,6 +226,8 @@ class World:
     ankle_wrench: dict[Side, tuple[int, int]]
     touch: dict[Side, int]
     leg_contact: int
+    body: BodyScale
+    period: float = PHYSICS_PERIOD
     moving_ground: tuple[tuple[int, Solid], ...] = ()
     ground_top: float = math.inf
 
@@ -226,12 +237,13 @@ class World:
             self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
 
-def build_world(robot: Robot, ground: Ground) -> World:
+def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD) -> World:
     """Build and compile the world.
 
     Args:
         robot: The robot.
         ground: The ground.
+        period: Time step of the physics in s.
 
     Returns:
         The world in its reference configuration; the runner puts the robot on its feet.
@@ -240,7 +252,7 @@ def build_world(robot: Robot, ground: Ground) -> World:
         RobotError: If the model cannot be read or simulated.
     """
     spec = robot_spec(robot)
-    _set_solver(spec)
+    _set_solver(spec, period)
     _add_looks(spec, robot.torso_body)
     for geom in spec.geoms:
         if geom.group == GROUND_GROUP:
@@ -249,29 +261,37 @@ def build_world(robot: Robot, ground: Ground) -> World:
     for side in SIDES:
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     _add_leg_contact(spec, robot)
-    _set_contacts(spec, ground.friction)
+    soles = _set_contacts(spec, ground.friction)
     model = _compiled(spec, robot)
+    body = body_of(robot, model)
+    _soften(model, soles, body, period)
     keep_apart(model, robot)
-    return _world_of(model, robot, ground)
+    return _world_of(model, robot, ground, body)
 
 
-def _set_solver(spec: Any) -> None:
-    spec.option.timestep = PHYSICS_PERIOD
+def _set_solver(spec: Any, period: float) -> None:
+    spec.option.timestep = period
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = 10.0
     spec.option.iterations = 20
 
 
-def _set_contacts(spec: Any, friction: float) -> None:
-    """Contact parameters of soles and ground, as `sim.contact_models` recommends them."""
-    for geom in spec.geoms:
-        if geom.contype and geom.contype not in _LEGS:
-            geom.condim = 3
-            geom.friction[0] = friction
-            geom.solref = [0.005, 1.0]
-            geom.solimp = [0.95, 0.99, 0.001, 0.5, 2]
-            geom.gap = 0.001  # corners that hover by micrometres stay in the contact list
+def _set_contacts(spec: Any, friction: float) -> list[str]:
+    """Friction of soles and ground; the names of their geoms."""
+    touching = [geom for geom in spec.geoms if geom.contype and geom.contype not in _LEGS]
+    for geom in touching:
+        geom.condim = 3
+        geom.friction[0] = friction
+    return [geom.name for geom in touching]
+
+
+def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float) -> None:
+    """Contact parameters of soles and ground, as `sim.contact_models` recommends them: 5 ms and 1 mm for H1."""
+    ids = [model.geom(name).id for name in names]
+    model.geom_solref[ids] = [_CONTACT_STEPS * period, 1.0]
+    model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
+    model.geom_gap[ids] = _SOFT * body.leg  # corners that hover by micrometres stay in the contact list
 
 
 def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int]) -> NDArray[np.int64]:
@@ -283,7 +303,7 @@ def _servos_of(model: Any, robot: Robot, names: Sequence[str], ids: Sequence[int
     return np.array([servo_of[i] for i in ids])
 
 
-def _world_of(model: Any, robot: Robot, ground: Ground) -> World:
+def _world_of(model: Any, robot: Robot, ground: Ground, body: BodyScale) -> World:
     """The compiled model with the places of all that is read from it and written to it."""
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     ids = [model.joint(name).id for name in joints]
@@ -308,6 +328,8 @@ def _world_of(model: Any, robot: Robot, ground: Ground) -> World:
         },
         touch={s: int(model.sensor(f"{s}_truth_touch").adr[0]) for s in SIDES},
         leg_contact=int(model.sensor(_LEG_CONTACT).adr[0]),
+        body=body,
+        period=float(model.opt.timestep),
         moving_ground=tuple((int(model.body(f"ground_{i}").mocapid[0]), solid) for i, solid in ground.moving),
         ground_top=ground.top,
     )

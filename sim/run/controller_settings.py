@@ -23,12 +23,9 @@ from plantar.layouts.layout import Side
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
-from sim.run.scene import Scene, Walk
+from sim.run.scene import Control, Scene, Walk
 
-__all__ = ["CONTROL_PERIOD", "controller_settings"]
-
-CONTROL_PERIOD = 0.005
-"""Control period of both robots in s."""
+__all__ = ["controller_settings"]
 
 _YAW_ON_UNKNOWN_GROUND = 0.1
 """Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a
@@ -71,7 +68,7 @@ def controller_settings(
         com_height=robot.com_height - min(walk.crouch, crouch),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
-        period=CONTROL_PERIOD,
+        period=_period(control),
         timing=_timing(walk, robot, body),
         swing_height=walk.swing_height,
         landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
@@ -96,6 +93,17 @@ def controller_settings(
         return found.for_body(body)
     except InputError as error:
         raise SceneError(f"scene '{scene.name}' with robot '{robot.name}': {error}") from None
+
+
+def _period(control: Control) -> float:
+    """Control period in s: a whole number of physics steps."""
+    steps = control.period / control.physics_period
+    if round(steps) < 1 or abs(steps - round(steps)) > 1e-6:
+        raise SceneError(
+            f"control.period is {control.period:g} s; allowed: a whole number of physics steps of "
+            f"{control.physics_period:g} s (control.physics_period)"
+        )
+    return control.period
 
 
 def _timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:

@@ -31,10 +31,10 @@ from sim.judging.verdict import Ending, reasons
 from sim.judging.walk_goal import WalkGoal
 from sim.judging.zmp_comparison import ZmpComparison
 from sim.model.body import body_of
-from sim.model.world import PHYSICS_PERIOD, World, build_leg_model, build_world, check_stable
+from sim.model.world import World, build_leg_model, build_world, check_stable
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
-from sim.run.controller_settings import CONTROL_PERIOD, controller_settings
+from sim.run.controller_settings import controller_settings
 from sim.run.log import RunLog
 from sim.run.pushing import Pusher
 from sim.run.scene import Scene
@@ -50,8 +50,6 @@ Progress = Callable[[float, str], None]
 
 _MEMBERS = frozenset(Percept.members())
 _LONGEST = 5  # times its first duration, after which a run whose end is put off again and again is cut off
-_EVERY = round(CONTROL_PERIOD / PHYSICS_PERIOD)
-_FRAME_EVERY = round(1.0 / (FRAME_RATE * PHYSICS_PERIOD))
 
 
 @dataclass(frozen=True)
@@ -84,7 +82,7 @@ class Simulation:
             robot = replace(robot, layouts=dict(layouts))
         self.robot: Robot = robot
         self.legs = build_leg_model(robot)
-        self.body = body_of(robot, self.legs)
+        self.body = body_of(robot, self.legs.model)
         self.scene = scene = scene.for_body(self.body)
         walk = scene.walk
         self.velocities = walk.velocities(seed)
@@ -101,7 +99,7 @@ class Simulation:
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.ground = ground
-        self.world: World = build_world(robot, ground)
+        self.world: World = build_world(robot, ground, scene.control.physics_period)
         self.sensors = SensorSuite(
             self.world,
             scene.sensing,
@@ -110,12 +108,12 @@ class Simulation:
             force_torque=scene.sensing.force_torque
             or "force_torque" in (scene.control.zmp_source, scene.control.feasibility),
         )
-        self.servos = LegServos(self.world, self.legs, CONTROL_PERIOD)
+        self.servos = LegServos(self.world, self.legs, self.settings.period)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
-        self.recovery = Recovery(self.pusher.shoves, self.controller.end) if scene.push.count else None
+        self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
         if scene.sensing.force_torque:
-            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, CONTROL_PERIOD)
+            self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)
         centers = {}
         for side in SIDES:
             centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side]))
@@ -125,7 +123,7 @@ class Simulation:
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
-        self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps))
+        self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps, self.body.leg))
 
     def _commands(self) -> tuple[VelocityCommand, ...]:
         """Who commands the walk while it is walked."""
@@ -196,22 +194,24 @@ class Simulation:
         ticks: list[float] = []
         skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
         began = shown = clock.perf_counter()
-        k, last = 0, math.ceil(self.end / PHYSICS_PERIOD)
+        k, last = 0, math.ceil(self.end / world.period)
         longest = _LONGEST * last
+        tick_every = round(self.settings.period / world.period)
+        frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
         while k < min(last, longest):
             feet = None
             if k % sensors.skin_every == 0:
                 feet = sensors.read_skins(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)
-            if k % _EVERY == 0:
+            if k % tick_every == 0:
                 check_stable(data)
                 reading = sensors.read_body()
                 start = clock.perf_counter()
                 command = controller.step(reading)
                 joints = servos.command(command)
                 ticks.append(1e6 * (clock.perf_counter() - start))
-                last = math.ceil(self.end / PHYSICS_PERIOD)  # a change of the plan may make it later
+                last = math.ceil(self.end / world.period)  # a change of the plan may make it later
                 skipped["percept_members"] += _compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.update(command.footholds)
@@ -236,7 +236,7 @@ class Simulation:
                         data.time / self.end,
                         f"{data.time:.1f} s, {len(judge.landings)} landings for {len(self.steps)} steps",
                     )
-            if k % _FRAME_EVERY == 0:
+            if k % frame_every == 0:
                 if film is not None:
                     film.add()
                 else:
@@ -250,7 +250,7 @@ class Simulation:
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
-        overrun = (float(data.time), longest * PHYSICS_PERIOD / _LONGEST) if k >= longest else None
+        overrun = (float(data.time), longest * world.period / _LONGEST) if k >= longest else None
         return _Result(ticks, clock.perf_counter() - began, skipped, overrun)
 
     def _identity(self) -> dict[str, object]:
@@ -273,6 +273,7 @@ class Simulation:
         balance = {} if self.recovery is None else self.recovery.summary()
         stopped = self.controller.stopped
         ending = Ending(
+            body=self.body,
             fall=judge.fall,
             stopped=stopped,
             steps=(taken, len(self.steps)),

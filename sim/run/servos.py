@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from gait.controller import Command
 from plantar.sides import SIDES
 from sim.model.leg_model import LegModel
-from sim.model.world import PHYSICS_PERIOD, World
+from sim.model.world import World
 
 __all__ = ["LegServos"]
 
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
-_REACH_ERROR = 0.02  # m or rad, of a joint solution; the motion of one control period leaves 8 mm
+_REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
 _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
 
 
@@ -85,7 +85,7 @@ class LegServos:
         velocity = (joints - last) / self._period
         w = self._world
         self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness
-        self._rate = velocity * PHYSICS_PERIOD
+        self._rate = velocity * w.period
         self._last = joints
         return joints
 

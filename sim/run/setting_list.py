@@ -78,4 +78,4 @@ def settings_of_robot(name: str | None, robot: str | None) -> dict[str, Setting]
     from sim.robots import load_robot
 
     found = load_robot(robot)
-    return settings_listed(name, body_of(found, build_leg_model(found)))
+    return settings_listed(name, body_of(found, build_leg_model(found).model))

@@ -16,13 +16,13 @@ from plantar.mechanics.rotation import level_rotation
 from plantar.sides import SIDES
 from sim.judging.leg_contact import legs_that_touch
 from sim.model.leg_model import LegModel
-from sim.model.world import PHYSICS_PERIOD, World, check_stable
+from sim.model.world import World, check_stable
 from sim.run.servos import LegServos
 
 __all__ = ["stand"]
 
-_SETTLING = 0.5  # s
-_SINKING_MAX = 0.05  # m, of the base while it settles; soft servos yield by less
+_SETTLING = 500  # physics steps: half a second of H1
+_SINKING_MAX = 1 / 12  # leg, of the base while it settles; soft servos yield by less
 
 
 def stand(
@@ -80,7 +80,7 @@ def stand(
     data = world.data
     mujoco.mj_resetData(world.model, data)
     data.qpos[:] = legs.configuration
-    data.time = -_SETTLING
+    data.time = -_SETTLING * world.period
     mujoco.mj_kinematics(world.model, data)
     mujoco.mj_collision(world.model, data)
     touching = legs_that_touch(world)
@@ -91,13 +91,14 @@ def stand(
             f"{' and '.join(touching)} touch; allowed: a wider stance (walk.stance_width, or the robot's stance_width)"
         )
     servos.start(joints, torques)
-    mujoco.mj_step(world.model, data, round(_SETTLING / PHYSICS_PERIOD))
+    mujoco.mj_step(world.model, data, _SETTLING)
     check_stable(data)
     sunk = float(legs.configuration[2] - data.qpos[2])
-    if abs(sunk) > _SINKING_MAX:
+    if abs(sunk) > _SINKING_MAX * world.body.leg:
+        settling = _SETTLING * world.period
         raise SceneError(
             f"robot '{world.robot.name}' does not keep standing: it came to be {abs(sunk):.2f} m "
-            f"{'lower' if sunk > 0.0 else 'higher'} in its first {_SETTLING:g} s; allowed: ground at a height of "
+            f"{'lower' if sunk > 0.0 else 'higher'} in its first {settling:g} s; allowed: ground at a height of "
             f"{ground:g} m (terrain.height) under both feet, and servos that carry the robot"
         )
     data.time = 0.0

@@ -14,7 +14,7 @@ from gait.estimate.ankle_sensor import AnkleSensor
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 from sim.model.contact_truth import ContactSet, feet_contacts
-from sim.model.world import PHYSICS_PERIOD, World
+from sim.model.world import World
 from sim.robots.robot import Robot
 from sim.sensing.proximity import ProximitySensor, SoleProximity
 from sim.sensing.settings import Sensing
@@ -60,7 +60,7 @@ class SensorSuite:
             )
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }
-        self.skin_every = max(1, round(1.0 / (sensing.skin_rate * PHYSICS_PERIOD)))
+        self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
 
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[ContactSet, ...]:

@@ -11,6 +11,7 @@ import pytest
 
 from gait.plan.phases import Timing
 from gait.propose.velocity_command import VelocityTable, table_of
+from plantar.settings.body_scale import REFERENCE_BODY
 from sim.judging.velocity_truth import VelocityTruth
 
 TIMING = Timing()
@@ -20,7 +21,7 @@ STEP = TIMING.single_support + TIMING.double_support
 def moved(table: VelocityTable, velocity: tuple[float, float, float], until: float = 40.0) -> VelocityTruth:
     """A torso that follows a velocity in its own heading frame, one step after the command begins."""
     com, xmat = np.zeros((1, 3)), np.zeros((1, 9))
-    world: Any = SimpleNamespace(torso=0, data=SimpleNamespace(subtree_com=com, xmat=xmat))
+    world: Any = SimpleNamespace(torso=0, body=REFERENCE_BODY, data=SimpleNamespace(subtree_com=com, xmat=xmat))
     truth, heading, period = VelocityTruth(world, table, TIMING), 0.0, 0.005
     for k in range(round(until / period)):
         time = k * period

@@ -16,10 +16,10 @@ from sim.robots import builtin_robots, load_robot
 @pytest.mark.parametrize("name", builtin_robots())
 def test_a_leg_is_as_long_as_thigh_and_shank(name: str) -> None:
     robot = load_robot(name)
-    legs = build_leg_model(robot)
+    model = build_leg_model(robot).model
     assert robot.biped is not None
-    assert leg_length(robot, legs) == pytest.approx(robot.biped.thigh_length + robot.biped.shank_length, abs=1e-6)
-    body = body_of(robot, legs)
+    assert leg_length(robot, model) == pytest.approx(robot.biped.thigh_length + robot.biped.shank_length, abs=1e-6)
+    body = body_of(robot, model)
     assert body.mass == pytest.approx(robot.biped.total_mass)
     outline = robot.layouts["left"].outline
     assert (body.sole, body.sole_width) == pytest.approx(tuple(outline.max(axis=0) - outline.min(axis=0)))
@@ -27,13 +27,13 @@ def test_a_leg_is_as_long_as_thigh_and_shank(name: str) -> None:
 
 def test_the_posture_does_not_change_it() -> None:
     robot = load_robot("h1")
-    legs = build_leg_model(robot)
+    model = build_leg_model(robot).model
     straight = replace(robot, posture=dict.fromkeys(SIDES, (0.0,) * 6))
     turned = replace(robot, posture=dict.fromkeys(SIDES, (0.3, 0.1, -0.9, math.pi / 2, -0.4, 0.0)))
-    assert leg_length(straight, legs) == leg_length(robot, legs)
-    assert leg_length(turned, legs) == pytest.approx(leg_length(robot, legs), abs=1e-6)
+    assert leg_length(straight, model) == leg_length(robot, model)
+    assert leg_length(turned, model) == pytest.approx(leg_length(robot, model), abs=1e-6)
 
 
 def test_the_file_may_say_it() -> None:
     robot = replace(load_robot("h1"), leg_length=0.55)
-    assert body_of(robot, build_leg_model(robot)).leg == 0.55
+    assert body_of(robot, build_leg_model(robot).model).leg == 0.55
