@@ -22,11 +22,11 @@ __all__ = ["COLLIDES", "add_leg_shapes", "keep_apart"]
 COLLIDES: Mapping[Side, tuple[int, int]] = {"left": (4, 8), "right": (8, 4)}
 """MuJoCo's contype and conaffinity of each leg's shapes."""
 
-_LONG = 0.1  # m: shorter links get no capsule
+_LONG = 0.125  # of the CoM height: shorter links get no capsule
 _SLENDER = 0.15  # radius of a capsule as a share of the link's length
 _HIP_SHARE = 0.2  # of a link at its upper end that is left out: thighs meet in the hip
-_FOOT_HEIGHT = 0.04  # m above the shoe
-_CLEAR = 0.005  # m between the legs in the robot's posture
+_FOOT_HEIGHT = 0.05  # of the CoM height, above the shoe
+_CLEAR = 0.00625  # of the CoM height between the legs in the robot's posture
 _SMALLER = 0.8
 _TRIES = 12
 _KINDS = tuple(
@@ -49,8 +49,8 @@ def add_leg_shapes(spec: Any, robot: Robot, own: Collection[str] = ()) -> None:
             for geom in kept:
                 _collide(geom, side)
             if child is not None and not kept:
-                _add_capsule(body, np.array(child.pos), side)
-        _add_foot(spec, side)
+                _add_capsule(body, np.array(child.pos), side, _LONG * robot.com_height)
+        _add_foot(spec, side, _FOOT_HEIGHT * robot.com_height)
 
 
 def _links(spec: Any, robot: Robot, side: Side) -> list[Any]:
@@ -63,10 +63,11 @@ def _links(spec: Any, robot: Robot, side: Side) -> list[Any]:
     return chain[::-1]
 
 
-def _add_capsule(body: Any, end: NDArray[np.float64], side: Side) -> None:
-    """A link's shape up to the next link at `end` (3,) in m of its frame; a short link has none."""
+def _add_capsule(body: Any, end: NDArray[np.float64], side: Side, least: float) -> None:
+    """A link's shape up to the next link at `end` (3,) in m of its frame; one shorter than `least` in m
+    has none."""
     length = float(np.linalg.norm(end))
-    if length < _LONG:
+    if length < least:
         return
     ends = [*(_HIP_SHARE * end), *end]
     shape = body.add_geom(
@@ -75,13 +76,13 @@ def _add_capsule(body: Any, end: NDArray[np.float64], side: Side) -> None:
     _collide(shape, side)
 
 
-def _add_foot(spec: Any, side: Side) -> None:
-    """The foot from its sole's lower face up, as a box."""
+def _add_foot(spec: Any, side: Side, height: float) -> None:
+    """The foot from its sole's lower face up to a height in m above the shoe, as a box."""
     sole = spec.geom(f"{side}_sole_box")
     half = np.array(sole.size)
-    half[2] += 0.5 * _FOOT_HEIGHT
+    half[2] += 0.5 * height
     box = sole.parent.add_geom(name=f"{side}_foot_shape", type=mujoco.mjtGeom.mjGEOM_BOX, size=half, group=4, mass=0.0)
-    box.pos = np.array(sole.pos) + np.array([0.0, 0.0, 0.5 * _FOOT_HEIGHT])
+    box.pos = np.array(sole.pos) + np.array([0.0, 0.0, 0.5 * height])
     _collide(box, side)
 
 
@@ -112,13 +113,14 @@ def keep_apart(model: Any, robot: Robot) -> None:
     for a, b in product(legs["left"], legs["right"]):
         free = [g for g in (a, b) if g not in feet]
         if free:
-            _clear(model, data, (a, b), free)
+            _clear(model, data, (a, b), free, _CLEAR * robot.com_height)
 
 
-def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int]) -> None:
-    """Shrink those of a pair of geoms that may shrink until they are clear; they collide no more where that fails."""
+def _clear(model: Any, data: Any, pair: tuple[int, int], free: list[int], least: float) -> None:
+    """Shrink those of a pair of geoms that may shrink until they are `least` m apart; they collide no more where that
+    fails."""
     for _ in range(_TRIES):
-        if mujoco.mj_geomDistance(model, data, *pair, _CLEAR, None) >= _CLEAR:
+        if mujoco.mj_geomDistance(model, data, *pair, least, None) >= least:
             return
         model.geom_size[free] *= _SMALLER
     model.geom_contype[free] = model.geom_conaffinity[free] = 0
