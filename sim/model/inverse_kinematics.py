@@ -26,6 +26,8 @@ so do almost all steps of a walk. Otherwise these rules hold:
   exactly straight, where no task moves it, bends again.
 - **Scale.** The step of a level is scaled as a whole, by one factor for all joints, until no entry of the sum is larger
   than allowed. No joint is clamped by itself.
+- **Unit of length.** Lengths and angles share residuals, singular values and limits, so it matters what length counts
+  as much as 1 rad. It is 1 m for a leg of 0.6 m, and goes with the leg: robots of one shape take the same steps.
 - **Limits.** A joint that would leave its limits stops at the limit, the one that would leave them farthest first, and
   the step is solved again for the others.
 """
@@ -66,6 +68,7 @@ class InverseKinematics:
         tasks: The tasks.
         posture: Reference posture, for directions that the tasks leave free.
         columns: Velocities (n,) of the model that a step may use, in the order in which it solves for them.
+        unit: Length in m that counts as much as 1 rad.
     """
 
     def __init__(
@@ -75,6 +78,7 @@ class InverseKinematics:
         tasks: Sequence[Task],
         posture: PostureTask,
         columns: NDArray[np.int_],
+        unit: float = 1.0,
     ) -> None:
         self._model, self._data, self._columns = model, data, _as_slice(columns)
         self._configuration = data.qpos  # the data's own array
@@ -87,6 +91,11 @@ class InverseKinematics:
         self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
         self._used = np.empty((rows, len(columns)), order="F")  # the order decides the last bit of the products
         self._velocity = np.zeros(model.nv)
+        in_units = [np.repeat([1.0 / unit, 1.0], [task.lengths, task.rows - task.lengths]) for task in tasks]
+        self._per_unit = None if unit == 1.0 else np.concatenate(in_units)
+        self._units = np.ones(model.nv)
+        for joint in np.flatnonzero(model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)):
+            self._units[model.jnt_dofadr[joint] : model.jnt_dofadr[joint] + 3] = unit
         self._diagonal = slice(None, None, len(columns) + 1)
         joint_of = model.dof_jntid[columns]
         kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
@@ -106,10 +115,10 @@ class InverseKinematics:
 
         Args:
             iterations: Number of steps.
-            largest_step: Largest entry of a step in m and rad.
+            largest_step: Largest entry of a step in units of length and rad.
 
         Returns:
-            The largest task error before the last step (m or rad); not a number if a target is not.
+            The largest task error before the last step (units of length or rad); not a number if a target is not.
         """
         for _ in range(iterations):
             self._step(largest_step)
@@ -122,6 +131,10 @@ class InverseKinematics:
         for task, part, rows in self._parts:
             task.error(part)
             task.jacobian(rows)
+        if self._per_unit is not None:
+            self._error *= self._per_unit
+            self._jacobian *= self._per_unit[:, None]
+            self._jacobian *= self._units
         jacobian = self._used
         np.copyto(jacobian, self._jacobian[:, self._columns])
         normal = jacobian.T @ jacobian
@@ -135,6 +148,8 @@ class InverseKinematics:
         ):
             step = self._careful(jacobian, largest)
         self._velocity[self._columns] = step
+        if self._per_unit is not None:
+            self._velocity *= self._units
         mujoco.mj_integratePos(model, self._configuration, self._velocity, 1.0)
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:

@@ -27,9 +27,12 @@ class LegModel:
         joints: Names of the leg joints in the order of all joint vectors.
         soles: Name of each sole's site.
         torso: Name of the body that is kept upright.
+        unit: Length in m that counts as much as 1 rad where targets cannot all be met (`InverseKinematics`).
     """
 
-    def __init__(self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str) -> None:
+    def __init__(
+        self, model: mujoco.MjModel, joints: Sequence[str], soles: Mapping[Side, str], torso: str, unit: float = 1.0
+    ) -> None:
         self.model = model
         self._data = mujoco.MjData(model)  # of the solution
         self._probe = mujoco.MjData(model)  # of the measured posture, in the base frame
@@ -52,6 +55,7 @@ class LegModel:
             [self._com, self._torso, *self._soles.values()],
             self._reference,
             np.concatenate([np.arange(6), self._dof]),
+            unit,
         )
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
@@ -110,11 +114,11 @@ class LegModel:
             iterations: Newton steps.
             yielding: Feet that miss their targets where not all can be met, rather than that CoM, torso and the other
                 foot do: those that carry nothing.
-            largest_step: Largest change of a joint in rad, or of the base in m or rad, in a Newton step.
+            largest_step: Largest change of a joint in rad, or of the base in units of length or rad, in a Newton step.
 
         Returns:
-            Joint angles (k,) in rad within their limits, and the largest task error before the last step (m or rad),
-            not a number if a target is not.
+            Joint angles (k,) in rad within their limits, and the largest task error before the last step
+            (units of length or rad), not a number if a target is not.
         """
         self._com.target, self._torso.target = com, rotation_torso
         for side, sole in self._soles.items():

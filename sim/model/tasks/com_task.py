@@ -24,6 +24,7 @@ class ComTask(Task):
     """
 
     rows = 3
+    lengths = 3
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
         self._model, self._data, self._body = model, data, body

@@ -26,6 +26,7 @@ class PoseTask(Task):
     """
 
     rows = 6
+    lengths = 3
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
         self._model, self._data, self._site = model, data, site

@@ -18,10 +18,12 @@ class Task(ABC):
 
     Attributes:
         rows: Number of rows of error and Jacobian.
+        lengths: How many of them, the first ones, are lengths in m; the others are angles in rad.
         level: Where tasks cannot all be fulfilled, those of a lower level go first, and others miss their targets.
     """
 
     rows: int
+    lengths: int = 0
     level: int = 0
 
     @abstractmethod
