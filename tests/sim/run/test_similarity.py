@@ -1,0 +1,72 @@
+"""Robots of one shape walk alike whatever their size: every length, force and time is a share of the body."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from plantar.recordings.recording import read_mcap
+from sim.run.runner import run_scene
+from sim.run.scene import load_scene
+
+from .scaled_robot import scaled_h1
+
+BEAT = math.sqrt(0.6 / 9.81)
+
+CLOCK = [
+    f"control.period={0.005 / BEAT!r} beat",
+    f"control.physics_period={0.001 / BEAT!r} beat",
+    f"skin_rate={250.0 * BEAT!r} 1/beat",
+    f"gyro_noise={2e-3 * BEAT!r} rad/beat",
+    f"walk.begin={2.0 / BEAT!r} beat",
+    f"settle={0.5 / BEAT!r} beat",
+]
+"""What does not grow with a robot by itself, as shares: periods of physics, control and skin, and the gyro's noise."""
+
+Motion = dict[str, NDArray[np.float64]]
+
+
+def walked(robot: Path, folder: Path, scene: str, settings: list[str]) -> tuple[dict[str, Any], Motion]:
+    """Summary of a walk, and its motion over time: joint angles in rad, true CoM in m."""
+    path = folder / f"{robot.parent.name}.mcap"
+    summary = run_scene(load_scene(scene, settings, str(robot)), 1, record=path)
+    topics = read_mcap(path).topics
+    joints = topics["/joints"]
+    return summary, {
+        "time": joints.time,
+        "angles": joints.fields["position"],
+        "com": topics["/truth/body"].fields["com"],
+    }
+
+
+@pytest.mark.parametrize("s", [0.35, pytest.param(1.2, marks=pytest.mark.long)])
+def test_a_scaled_robot_takes_the_same_steps(tmp_path: Path, s: float) -> None:
+    # What is left is how the feet settle on the ground in the beginning, which rounding decides.
+    settings = ["steps=3", *CLOCK]
+    own, first = walked(scaled_h1(tmp_path / "own", 1.0), tmp_path, "flat", settings)
+    other, motion = walked(scaled_h1(tmp_path / "other", s), tmp_path, "flat", settings)
+    assert own["completed"], own["reasons"]
+    assert other["completed"], other["reasons"]
+    assert motion["time"] == pytest.approx(math.sqrt(s) * first["time"], abs=1e-6)
+    assert np.abs(motion["angles"] - first["angles"]).max() < 0.02
+    assert np.abs(motion["com"] / s - first["com"]).max() < 0.005 * 0.6
+    assert np.array(other["landings_s"]) / math.sqrt(s) == pytest.approx(own["landings_s"], abs=0.01)
+    assert other["tilt_max_deg"] == pytest.approx(own["tilt_max_deg"], abs=0.1)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("s", "mass"), [(0.35, 0.0), (0.6, 33.0), (1.2, 95.0)])
+@pytest.mark.parametrize(("scene", "steps"), [("flat", 6), ("push", 6), ("beam", 24), ("uneven", 12), ("stones", 12)])
+def test_a_scaled_robot_holds_what_its_model_holds(
+    tmp_path: Path, s: float, mass: float, scene: str, steps: int
+) -> None:
+    # The clocks of physics, control and skin, IMU and encoders stay what they are.
+    robot = scaled_h1(tmp_path / "robot", s, mass)
+    summary = run_scene(load_scene(scene, [f"steps={steps}"], str(robot)), 0)
+    assert summary["completed"], summary["reasons"]
+    assert summary["final"]["tilt_deg"] < 0.5
