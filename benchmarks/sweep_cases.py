@@ -57,7 +57,7 @@ def run_cases(cases: Iterable[SweepCase], folder: Path) -> None:
 
 
 def rows_of_cases(cases: Iterable[SweepCase], folder: Path) -> Iterator[tuple[SweepCase, list[Row]]]:
-    """Each case that was run, with its runs.
+    """Each case of which there are runs, with these.
 
     Args:
         cases: The cases.
@@ -68,9 +68,12 @@ def rows_of_cases(cases: Iterable[SweepCase], folder: Path) -> Iterator[tuple[Sw
     """
     for case in cases:
         path = folder / case.folder / "results.csv"
-        if path.exists():
-            with path.open(newline="", encoding="utf-8") as file:
-                yield case, list(csv.DictReader(file))
+        if not path.exists():
+            continue
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        if rows:
+            yield case, rows
 
 
 def completed(rows: Sequence[Row]) -> str:
