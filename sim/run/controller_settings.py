@@ -25,7 +25,10 @@ from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
 from sim.run.scene import Control, Scene, Walk
 
-__all__ = ["controller_settings"]
+__all__ = ["CONTROL_PERIOD", "controller_settings"]
+
+CONTROL_PERIOD = Control().period
+"""Control period in s of a scene that does not say."""
 
 _YAW_ON_UNKNOWN_GROUND = 0.1
 """Heading correction by the loaded feet in 1/s where they meet ground that is not where it is expected: they turn a

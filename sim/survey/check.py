@@ -128,7 +128,7 @@ class _Checked:
     def __init__(self, robot: Robot, scene: Scene) -> None:
         self.robot = robot
         self.legs: LegModel = build_leg_model(robot)
-        self.body: BodyScale = body_of(robot, self.legs)
+        self.body: BodyScale = body_of(robot, self.legs.model)
         self.scene = scene.for_body(self.body)
         self.names = robot.legs["left"].joints
         self.walked = self._walked()

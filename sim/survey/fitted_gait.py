@@ -105,7 +105,7 @@ def fit_gait(draft: Robot) -> FittedGait:
     """
     legs = build_leg_model(draft)
     robot = replace(draft, posture=_bent(draft, legs))
-    body = body_of(robot, legs)
+    body = body_of(robot, legs.model)
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
     seed = _seed_height(robot, legs)
