@@ -31,6 +31,7 @@ from sim.model.world import World
 __all__ = ["Judge", "Landing"]
 
 _TOUCH = 0.0237  # weight: less than this is no contact; 20 N for H1, the usual level of force plates in gait analysis
+_LEAST = 0.0012  # weight on both feet below which there is no ZMP: 1 N for H1
 _AIRBORNE = 0.607  # beats without contact before a touch counts as a landing: 0.15 s for H1
 _IMPACT_WINDOW = 0.202  # beats after touchdown in which the impact is looked for: 50 ms
 _SETTLED = 2.43  # beats after touchdown in which the contact area is looked for: 0.6 s
@@ -91,7 +92,7 @@ class Judge:
         self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         body = self.world.body
-        self._touch = _TOUCH * body.weight
+        self._touch, self._least = _TOUCH * body.weight, _LEAST * body.weight
         self._airborne_steps = round(_AIRBORNE * body.beat / self.world.period)
         self.steps = StepCount(self.goal, body.weight)
         self.legs = LegContact(self.world)
@@ -170,7 +171,7 @@ class Judge:
         data = self.world.data
         if feet is None:
             feet = feet_contacts(self.world.model, data, [self._geoms[s] for s in SIDES])
-        truth = ground_truth(feet)
+        truth = ground_truth(feet, minimum_force=self._least, reach=self.world.reach)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
             if self.landings:

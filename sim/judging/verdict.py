@@ -21,8 +21,8 @@ HEADING = 5.0
 UPRIGHT = 5.0
 """Tilt of the torso in degrees that counts as upright."""
 
-FASTER_FOR = 0.0809
-"""Beats of the leg for which a joint may be faster than its limit: 20 ms for H1."""
+FASTER_FOR = 0.02
+"""Time in s for which a joint may be faster than its limit: four control periods, which no robot's size changes."""
 
 
 @dataclass(frozen=True)
@@ -85,12 +85,11 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
         text = f"{one} touched {other}, first at {time:.2f} s, for {legs.duration:.3f} s in all"
         add("collision", round(legs.duration, 4), 0.0, text)
     longest = float(joints.longest.max())
-    faster_for = FASTER_FOR * ending.body.beat
-    if longest > faster_for + SAME_TIME:
+    if longest > FASTER_FOR + SAME_TIME:
         k = int(joints.longest.argmax())
         share = float(joints.fastest[k])
         text = f"{joints.names[k]} was faster than its limit for {longest:.3f} s, by {share:.2f} times at most"
-        add("joint_speed", round(longest, 4), round(faster_for, 4), text)
+        add("joint_speed", round(longest, 4), FASTER_FOR, text)
     taken, planned = ending.steps
     if taken < planned:
         add("steps", taken, planned, f"{taken} of {planned} steps; step {taken} (from 0): {ending.missed}")

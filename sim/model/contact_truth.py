@@ -36,7 +36,7 @@ __all__ = [
 
 
 REACH = 5e-4
-"""Largest gap in m between sole and ground that still counts as contact: what a rubber sole gives."""
+"""Largest gap in m between sole and ground that still counts as contact: what the rubber sole of H1 gives."""
 
 
 class ContactSet(NamedTuple):
@@ -253,7 +253,7 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH
 
 
 def ground_truth(
-    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0
+    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0, reach: float = REACH
 ) -> GroundTruth:
     """Wrench, ZMP, support polygon and the margin between the last two, of all feet together.
 
@@ -261,6 +261,7 @@ def ground_truth(
         feet: Contacts of each foot.
         plane_height: Height in m of the plane of the ZMP; None takes the mean contact height weighted by force.
         minimum_force: Vertical force in N below which there is no ZMP.
+        reach: Largest gap in m of a point that could carry a force.
 
     Returns:
         The truth, in the world frame.
@@ -269,7 +270,7 @@ def ground_truth(
     points: tuple[list[tuple[float, float]], ...] = tuple([] for _ in feet)
     for c, own in zip(feet, points, strict=True):
         if c.size:
-            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), REACH, sums, own)
+            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), reach, sums, own)
     fx, fy, fz, tx, ty, _, height = sums.tolist()
     wrench = sums[:6]
     ring = small_hull([p for own in points for p in own])

@@ -15,6 +15,7 @@ from plantar.errors import RobotError, SceneError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES, Side
 from sim.model.body import body_of
+from sim.model.contact_truth import REACH
 from sim.model.leg_model import LegModel
 from sim.robots.biped import biped_mjcf
 from sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
@@ -230,6 +231,11 @@ class World:
     period: float = PHYSICS_PERIOD
     moving_ground: tuple[tuple[int, Solid], ...] = ()
     ground_top: float = math.inf
+
+    @property
+    def reach(self) -> float:
+        """Largest gap in m between sole and ground that still counts as contact."""
+        return REACH * self.body.leg / REFERENCE_BODY.leg
 
     def move_ground(self) -> None:
         """Put what moves of the ground where it is now."""

@@ -22,6 +22,8 @@ from sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
 
 __all__ = ["SensorSuite", "ankle_sensors"]
 
+_RUBBER = 0.013  # of a sole's length that its rubber is thick: 3 mm for H1
+
 
 class SensorSuite:
     """Reads all sensors of a world.
@@ -122,7 +124,8 @@ def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[
 def _skin(world: World, side: Side) -> SoleSkin:
     """The skin of one sole, free of noise."""
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
-    return SoleSkin(world.model, world.robot.layouts[side], world.robot.legs[side].sole_site, geoms)
+    site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole
+    return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach)
 
 
 def _proximity(

@@ -38,6 +38,7 @@ class SoleSkin:
         site: Name of the site that is the sole frame, for example "left_sole".
         geoms: Names of the sole's collision geoms.
         rubber: Thickness in m of the sole's rubber, see `SolePressure`.
+        reach: Largest gap in m between sole and ground that the rubber closes.
 
     Raises:
         RobotError: If the model has no such site or geom.
@@ -52,6 +53,7 @@ class SoleSkin:
         geoms: Sequence[str],
         *,
         rubber: float = 3e-3,
+        reach: float = REACH,
     ) -> None:
         self.model = model
         self.layout = layout
@@ -60,6 +62,7 @@ class SoleSkin:
         if not self.geom_ids:
             raise RobotError("the sole has no collision geom; name at least one")
         self.pressure = SolePressure(layout, rubber=rubber)
+        self._reach = reach
 
     def __len__(self) -> int:
         return len(self.layout)
@@ -90,7 +93,7 @@ class SoleSkin:
             contacts.forces.dot(rotation),
             contacts.torques.dot(rotation),
             contacts.distances,
-            REACH,
+            self._reach,
         )
         out: NDArray[np.float64] | None = None
         for fz, tx, ty, patch in pairs:
