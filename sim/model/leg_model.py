@@ -15,8 +15,11 @@ from sim.model.tasks.com_task import ComTask
 from sim.model.tasks.orientation_task import OrientationTask
 from sim.model.tasks.pose_task import PoseTask
 from sim.model.tasks.posture_task import PostureTask
+from sim.model.tasks.rolling_pose_task import RollingPoseTask
 
 __all__ = ["LegModel"]
+
+_FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
 class LegModel:
@@ -47,7 +50,8 @@ class LegModel:
         self._static = mujoco.MjData(model)
         self._com = ComTask(model, self._data, self._root)
         self._torso = OrientationTask(model, self._data, upright)
-        self._soles: dict[Side, PoseTask] = {s: PoseTask(model, self._data, self._sites[s]) for s in SIDES}
+        sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
+        self._soles: dict[Side, PoseTask] = {s: sole(model, self._data, self._sites[s]) for s in SIDES}
         self._reference = PostureTask(model, self._data, ids)
         self._inverse = InverseKinematics(
             model,
@@ -103,7 +107,8 @@ class LegModel:
         """Joint angles for CoM, torso orientation and both soles: Newton steps from the last solution.
 
         The 18 task rows (CoM 3, torso orientation 3, two soles 6 each) meet the 18 unknowns of a 12-joint biped, so a
-        step is one square solve. Near a straight knee, at a joint's limit and out of reach the rules of
+        step is one square solve; so do the 16 of one whose legs have five joints and leave the soles' roll to the
+        ground. Near a straight knee, at a joint's limit and out of reach the rules of
         `sim.model.inverse_kinematics` hold.
 
         Args:

@@ -29,7 +29,7 @@ from sim.robots.robot_tables import RobotTables
 __all__ = ["builtin_robots", "load_robot"]
 
 _FOLDER = Path(__file__).parent
-_LEAST_JOINTS = 6  # of a leg: a sole has six degrees of freedom
+_LEAST_JOINTS = 5  # of a leg: a sole has six degrees of freedom, of which the ground may choose its roll
 _LARGEST_ANGLE = 360.0  # degrees, of a posture
 
 _KEYS: Mapping[str, tuple[str, ...]] = {

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from plantar.layouts.layout import Side
+from plantar.sides import SIDES
 from sim.model.leg_model import LegModel
 from sim.model.world import build_leg_model, robot_spec
 from sim.robots import Robot, load_robot
@@ -183,3 +184,30 @@ def test_a_stance_out_of_reach_stretches_and_stays_calm(legs: LegModel, height: 
     assert max(steps) <= 0.1 + 1e-12
     assert max(steps[-100:]) < 0.01
     assert joints[[3, 9]].max() < 0.5 * start[[3, 9]].min()  # the knees
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_legs_without_ankle_roll_leave_the_roll_of_their_soles(h1: Robot, seed: int) -> None:
+    spec = robot_spec(h1)
+    names = [name for side in SIDES for name in h1.legs[side].joints if not name.endswith("ankle_roll")]
+    for side in SIDES:
+        spec.delete(spec.actuator(f"{side}_ankle_roll"))
+        spec.delete(spec.joint(f"{side}_ankle_roll"))
+    model = spec.compile()
+    legs = LegModel(model, names, {s: f"{s}_sole" for s in SIDES}, "base")
+    posture = np.array([*h1.posture["left"][:5], *h1.posture["right"][:5]])
+    legs.set_configuration(np.array([0.0, 0.0, 0.84]), np.array([1.0, 0.0, 0.0, 0.0]), posture)
+    com, torso, positions, rotations = random_targets(seed)
+    _, error = legs.solve(com, torso, positions, rotations, iterations=20)
+    assert error < 1e-9
+    data = mujoco.MjData(model)
+    data.qpos[:] = legs.configuration
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    assert data.subtree_com[0] == pytest.approx(com, abs=1e-8)
+    assert data.body("base").xmat.reshape(3, 3) == pytest.approx(torso, abs=1e-8)
+    for side in SIDES:
+        place = data.site(f"{side}_sole")
+        assert place.xpos == pytest.approx(positions[side], abs=1e-8)
+        # The sole's x axis is where it shall be; it may have rolled about it.
+        assert place.xmat.reshape(3, 3)[:, 0] == pytest.approx(rotations[side][:, 0], abs=1e-7)
