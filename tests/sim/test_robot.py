@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
+from plantar.settings.body_scale import BodyScale
 from sim.model.world import robot_spec
 from sim.robots import load_robot
+from sim.run.controller_settings import controller_settings
+from sim.run.scene import load_scene
 
 
 def test_hrp2kai_has_the_published_masses_limits_and_heights() -> None:
@@ -72,7 +75,12 @@ def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path: Path) -> None:
     file = folder / "robot.toml"
     text = file.read_text()
     file.write_text(text.replace("single_support = 1.4", "").replace("double_support = 0.5", ""))
-    assert (load_robot(file).single_support, load_robot(file).double_support) == (0.9, 0.3)
+    unsaid = load_robot(file)
+    assert (unsaid.single_support, unsaid.double_support) == (0.0, 0.0)
+    for leg, pace in ((0.6, (0.9, 0.3)), (0.15, (0.45, 0.15))):
+        body = BodyScale(mass=65.0, leg=leg, sole=0.25, sole_width=0.15)
+        timing = controller_settings(load_scene("flat"), unsaid, body, {}).timing
+        assert (timing.single_support, timing.double_support) == pytest.approx(pace, rel=5e-3)
     file.write_text(text.replace("single_support = 1.4", "single_support = 0"))
     with pytest.raises(RobotError, match="single_support"):
         load_robot(file)

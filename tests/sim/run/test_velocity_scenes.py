@@ -56,8 +56,9 @@ def test_the_seed_draws_where_a_walk_wanders_to() -> None:
     assert len(one.times) == 11
     assert one.commands[-1] is None
     drawn = np.array([[c.forward, c.left, c.turn] for c in one.commands if c is not None])
-    assert (np.abs(drawn) <= walk.wander).all()
-    assert (np.ptp(drawn, axis=0) > walk.wander).all()
+    most = [0.0618 * walk.body.in_si("leg/beat"), 0.0289 * walk.body.in_si("leg/beat"), 0.0495 / walk.body.beat]
+    assert (np.abs(drawn) <= most).all()
+    assert (np.ptp(drawn, axis=0) > most).all()
     with pytest.raises(SceneError, match="a velocity command is"):
         load_scene("wander", ["wander=[0.1, 0.1]"])
 
