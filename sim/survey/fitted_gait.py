@@ -49,6 +49,7 @@ _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MOST_CROUCH = 0.25
 _CROUCH_STEPS = 5
 _SLOWER = (1.0, 1.15, 1.3)
+_SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
 _BENDS = tuple(math.radians(a) for a in (20.0, 30.0, 40.0, 50.0))
 _GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
@@ -109,7 +110,7 @@ def fit_gait(draft: Robot) -> FittedGait:
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
     seed = _seed_height(robot, legs)
-    robot, reach = _fitted(robot, legs, body, seed, notes)
+    robot, body, reach = _stepping(robot, legs, body, seed, notes)
     height = robot.com_height
     settled(robot, legs, standing_feet(robot.stance_width), height)
     configuration = legs.configuration
@@ -192,11 +193,36 @@ def _paced(robot: Robot, height: float, slower: float) -> Robot:
     )
 
 
-def _fitted(robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]) -> tuple[Robot, PlanReach]:
+def _stepping(
+    robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
+) -> tuple[Robot, BodyScale, PlanReach]:
+    """The robot with a height and pace, and the leg that its steps are shares of: the whole one where joints let it."""
+    for share in _SHORTER:
+        length = math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg
+        shorter = replace(body, leg=length)
+        found = _fitted(robot, legs, shorter, seed, notes)
+        if found is None:
+            continue
+        if share < 1.0:
+            notes.append(
+                f"joint limits leave no steps of a third of the leg with soles that stay flat: steps are shares of "
+                f"leg_length = {length:g} m, not of {body.leg:g} m"
+            )
+            return replace(found[0], leg_length=length), shorter, found[1]
+        return found[0], body, found[1]
+    raise RobotError(
+        f"robot '{robot.name}': no height of its CoM lets it take steps of {_SHORTER[-1] * STEP_SHARE * body.leg:.3f} "
+        "m with bent knees and within its joints' limits; are these the legs, and their limits right?"
+    )
+
+
+def _fitted(
+    robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
+) -> tuple[Robot, PlanReach] | None:
     """The robot at the greatest height and the quickest pace at which its knees stay bent and its motors hold.
 
     A knee that is almost straight has to move fast, and a quick swing takes torque to move itself: where motors do not
-    hold, more bend and a slower pace are tried, the least of both first.
+    hold, more bend and a slower pace are tried, the least of both first. None where there is no such height.
     """
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     found: list[tuple[float, Robot, PlanReach]] = []
@@ -204,16 +230,13 @@ def _fitted(robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: l
         paced = _paced(robot, seed, slower)
         height, reach = _height(paced, legs, body, seed, bend)
         if reach is None:
+            if not found:
+                return None  # more bend and more sway reach no further
             continue
         asked = float((reach.torque / limits).max())
         found.append((asked, replace(paced, com_height=height), reach))
         if asked <= HELD:
             break
-    if not found:
-        raise RobotError(
-            f"robot '{robot.name}': no height of its CoM lets it take steps of {STEP_SHARE * body.leg:.3f} m, a third "
-            "of its legs, with bent knees and within its joints' limits; are these the legs, and their limits right?"
-        )
     asked, best, reach = min(found, key=lambda f: (max(f[0], HELD), found.index(f)))
     if asked > HELD:
         j = int((reach.torque / limits).argmax())

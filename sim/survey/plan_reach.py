@@ -29,6 +29,7 @@ PITCHES = 0.7
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
 _EACH = 3  # Newton steps for each later instant
+_HOPELESS = 0.05  # m or rad by which the legs miss what is asked of them: the rest of the plan is not looked at
 _STEP = 0.15  # rad: largest change in a Newton step, see sim.model.inverse_kinematics
 
 Array = NDArray[np.float64]
@@ -160,6 +161,9 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
         yielding = [s for s in SIDES if share[s] == 0.0]
         _, error = legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
         missed = max(missed, error)
+        if not missed < _HOPELESS:
+            never = np.full(len(robot.legs["left"].joints), math.inf)
+            return PlanReach(missed, knee, time - begin, -never, never, never)
         bend = probe.knees(legs)
         if bend < knee:
             knee, when = bend, time - begin

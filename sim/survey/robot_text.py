@@ -156,6 +156,7 @@ def _posture(robot: Robot) -> list[str]:
 
 def _gait(fitted: FittedGait) -> list[str]:
     robot, body, reach = fitted.robot, fitted.body, fitted.reach
+    leg = "hip over knee to ankle" if not robot.leg_length else "shorter than the leg, see the note above"
     pace = robot.single_support / math.sqrt(robot.com_height / GRAVITY)
     return [
         "[gait]",
@@ -166,7 +167,7 @@ def _gait(fitted: FittedGait) -> list[str]:
         ),
         f"com_height = {robot.com_height:g}  # m",
         f"stance_width = {robot.stance_width:g}  # m, of the ankles: as in the model, or wider to keep the soles apart",
-        f"leg_length = {body.leg:g}  # m, hip over knee to ankle",
+        f"leg_length = {body.leg:g}  # m, {leg}",
         *_told("How much lower all joints keep their range and three quarters of their torque."),
         f"largest_crouch = {robot.largest_crouch:g}  # m",
         f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
