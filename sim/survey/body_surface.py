@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from typing import Any
 
@@ -10,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
-__all__ = ["convex_surface", "geom_triangles", "shapes_of"]
+__all__ = ["convex_surface", "geom_triangles", "resting_plane", "shapes_of"]
 
 _AROUND, _ALONG = 32, 8  # of a round shape
+_STEEPEST = math.cos(math.radians(45.0))  # of a plane to rest on
+_SAME_PLANE = math.cos(math.radians(1.0))
 _BOX = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 
 Triangles = NDArray[np.float64]
@@ -71,6 +74,39 @@ def convex_surface(points: NDArray[np.float64]) -> Triangles:
     inward = np.einsum("ij,ij->i", cross, hull.equations[:, :3]) < 0.0
     triangles[inward] = triangles[inward][:, ::-1]
     return np.asarray(triangles)
+
+
+def resting_plane(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """The plane on which a body would come to rest.
+
+    Args:
+        points: Points (n, 3) of its surface, z up.
+
+    Returns:
+        Outward normal (3,) of the largest plane on the lower side of their convex hull, and its area over that of the
+        silhouette from above: 0, and straight down, where there is none within 45 degrees.
+    """
+    down = np.array([0.0, 0.0, -1.0])
+    try:
+        hull = ConvexHull(points)
+        silhouette = ConvexHull(points[:, :2]).volume
+    except (QhullError, ValueError):
+        return down, 0.0
+    corners = points[hull.simplices]
+    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    normal = hull.equations[:, :3]
+    below = normal[:, 2] < -_STEEPEST
+    if not below.any():
+        return down, 0.0
+    normal, area = normal[below], area[below]
+    best, largest = down, 0.0
+    for i in np.argsort(-area, kind="stable")[:24]:
+        same = normal @ normal[i] > _SAME_PLANE
+        if float(area[same].sum()) > largest:
+            largest = float(area[same].sum())
+            mean = (area[same, None] * normal[same]).sum(axis=0)
+            best = mean / np.linalg.norm(mean)
+    return best, largest / max(silhouette, 1e-12)
 
 
 def _points_of(kind: int, size: NDArray[np.float64]) -> NDArray[np.float64]:

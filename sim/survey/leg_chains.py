@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.sides import Side
-from sim.survey.body_surface import geom_triangles, shapes_of
+from sim.survey.body_surface import geom_triangles, resting_plane, shapes_of
 
 __all__ = ["LEAST_JOINTS", "Leg", "Legs", "find_legs"]
 
@@ -20,6 +20,7 @@ LEAST_JOINTS = 5
 """Hinges that a leg has at least: a sole has six degrees of freedom, one of which narrow feet do without."""
 
 _NEAR_FLOOR = 0.15  # of the height of its joint: how far a part of the foot may be above the sole
+_FLAT = 0.25  # share of its silhouette that the plane has that a foot rests on
 _AS_LOW = 0.1  # of the robot's height: how far two feet of a pair may differ
 _AXES_APART = math.cos(math.radians(20.0))  # how far the line between the feet may be off an axis
 _AHEAD = 0.03  # of the foot's length: what tells toes from heel
@@ -214,6 +215,7 @@ def _apart(tree: _Tree, a: int, b: int) -> tuple[list[int], list[int]]:
 def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
     """The leg of a chain of links: the foot is the highest one that stands on the floor, too; below it are toes."""
     model, data = tree.model, tree.data
+    up = _above_sole(tree.points[chain[-1]], up)
     floor = float((tree.points[chain[-1]] @ up).min())
     last = len(chain) - 1
     while last > 0 and len(tree.hinges(chain[:last])) >= LEAST_JOINTS and chain[last - 1] in tree.points:
@@ -230,6 +232,15 @@ def _leg(tree: _Tree, up: Array, chain: list[int], where: str) -> Leg:
     parts = frozenset(b for i in tree.below(foot) for b in tree.bodies[i])
     toes = tuple(model.joint(j).name for i in tree.below(foot) if i != foot for j in tree.joints(i))
     return Leg(tuple(hinges), foot, parts, toes, _ankle(data, hinges, tree.points[foot]))
+
+
+def _above_sole(points: Array, up: Array) -> Array:
+    """Direction (3,) that points up from the plane that a foot would rest on, in whatever posture."""
+    side = np.eye(3)[int(np.abs(up).argmin())]
+    level = np.stack([np.cross(side, up), np.cross(up, np.cross(side, up)), up])
+    level /= np.linalg.norm(level, axis=1, keepdims=True)
+    normal, share = resting_plane(points @ level.T)
+    return np.asarray(-normal @ level) if share > _FLAT else up
 
 
 def _ankle(data: Any, hinges: list[int], foot: Array) -> Array:

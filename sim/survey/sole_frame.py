@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from plantar.errors import RobotError
-from sim.survey.body_surface import convex_surface, geom_triangles, shapes_of
+from sim.survey.body_surface import convex_surface, geom_triangles, resting_plane, shapes_of
 from sim.survey.leg_chains import Leg
 
 __all__ = ["Rested", "Sole", "find_sole", "rested"]
 
-_STEEPEST = math.cos(math.radians(45.0))  # of the sole in the file's posture
-_SAME_PLANE = math.cos(math.radians(1.0))
 _RESTS = 0.25  # share of the silhouette that a plane must have to be what the foot rests on
 _LEVEL = math.radians(0.2)  # a sole that is tilted by less is taken as level: rounding of the model's numbers
 _BAND = 0.005  # m: the lowest part of a foot, which is its sole
@@ -87,12 +85,16 @@ def rested(model: Any, data: Any, parts: Collection[int], rotation: Array) -> Re
         The plane; None for a foot without shapes.
     """
     found = []
-    for kind, shapes in zip(("drawn", "colliding"), shapes_of(model, parts), strict=True):
+    for kind in ("drawn", "colliding"):
+        shapes: list[int] = []
+        for body in parts:  # one that has no shapes of the kind has those of the other
+            drawn, colliding = shapes_of(model, (body,))
+            shapes += (drawn or colliding) if kind == "drawn" else (colliding or drawn)
         kept = _without_markers(model, shapes)
         if kept:
             surface = _surface(model, data, kept, rotation)
             if len(surface):
-                found.append(Rested(kind, surface, *_resting_plane(surface.reshape(-1, 3))))
+                found.append(Rested(kind, surface, *resting_plane(surface.reshape(-1, 3))))
     if not found:
         return None
     return found[0] if found[0].share >= _RESTS else max(found, key=lambda r: r.share)
@@ -167,31 +169,6 @@ def _without_markers(model: Any, shapes: list[int]) -> list[int]:
 def _surface(model: Any, data: Any, shapes: list[int], rotation: Array) -> Array:
     """Triangles (n, 3, 3) of some shapes, turned into the robot's axes."""
     return np.concatenate([geom_triangles(model, data, g) for g in shapes]) @ rotation.T
-
-
-def _resting_plane(points: Array) -> tuple[Array, float]:
-    """Outward normal (3,) of the largest plane on the lower side of points (n, 3), and its share of the silhouette."""
-    down = np.array([0.0, 0.0, -1.0])
-    try:
-        hull = ConvexHull(points)
-        silhouette = ConvexHull(points[:, :2]).volume
-    except (QhullError, ValueError):
-        return down, 0.0
-    corners = points[hull.simplices]
-    area = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    normal = hull.equations[:, :3]
-    below = normal[:, 2] < -_STEEPEST
-    if not below.any():
-        return down, 0.0
-    normal, area = normal[below], area[below]
-    best, largest = down, 0.0
-    for i in np.argsort(-area, kind="stable")[:24]:
-        same = normal @ normal[i] > _SAME_PLANE
-        if float(area[same].sum()) > largest:
-            largest = float(area[same].sum())
-            mean = (area[same, None] * normal[same]).sum(axis=0)
-            best = mean / np.linalg.norm(mean)
-    return best, largest / max(silhouette, 1e-12)
 
 
 def _axes(surface: Array, normal: Array) -> tuple[Array, float]:

@@ -1,0 +1,122 @@
+"""From a model to a robot that stands, its file says how, and the check names what somebody spoils in it."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.errors import RobotError
+from shoes.found_foot import shoe_for_surface, taxel_area
+from sim.robots import load_robot
+from sim.run.runner import run_scene
+from sim.run.scene import load_scene
+from sim.survey.check import check_robot
+from sim.survey.introduce import Introduced, introduce
+
+from .random_biped import Truth, random_biped
+
+SEED = 10
+"""A biped of six joints a leg whose left foot is turned in its body."""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Truth, Introduced, Path]:
+    """A drawn biped, introduced."""
+    folder = tmp_path_factory.mktemp("introduced")
+    (folder / "out").mkdir()
+    truth = random_biped(SEED, folder)
+    (folder / "LICENSE").write_text("as you like")
+    return truth, introduce(truth.file, folder / "out", shoe_for_surface), folder / "out"
+
+
+def test_the_robot_file_is_read_and_its_copy_stands_by_itself(made: tuple[Truth, Introduced, Path]) -> None:
+    truth, found, folder = made
+    robot = load_robot(folder / "robot.toml")
+    assert {s: list(robot.legs[s].joints) for s in ("left", "right")} == truth.joints
+    assert len(robot.layouts["left"]) >= 20
+    assert (folder / "model-LICENSE").read_text() == "as you like"
+    copy = mujoco.MjModel.from_xml_path(str(folder / "model.xml"))
+    assert copy.nv == 6 + 2 * len(robot.legs["left"].joints)
+    assert mujoco.mj_getTotalmass(copy) == pytest.approx(truth.mass, rel=1e-5)
+    assert found.fitted.reach.knee > np.radians(19.0)
+    assert float(np.degrees(found.survey.soles["left"].turn)) > 5.0
+    assert "robot.png" in found.files
+    text = (folder / "robot.toml").read_text()
+    assert text.count("#") > 20
+    assert "against the sole" in text
+
+
+def test_nothing_is_found_that_would_go_wrong(made: tuple[Truth, Introduced, Path]) -> None:
+    checked = check_robot(made[2] / "robot.toml", "flat")
+    assert checked.holds, checked.text()
+
+
+@pytest.mark.parametrize(
+    ("field", "factor", "shift", "name", "words"),
+    [
+        ("com_height", 1.12, 0.0, "reach", "com_height = "),
+        ("stance_width", 0.5, 0.0, "stance", "stance_width = "),
+        ("stiffness", 50.0, 0.0, "stiff servos", "it chatters"),
+        ("stiffness", 0.05, 0.0, "soft servos", "m g h"),
+        ("damping", 0.02, 0.0, "damping", "damping = "),
+        ("rotation", 1.0, [0.0, 12.0, 0.0], "left sole", "rotation = "),
+        ("thickness", 0.0, 0.03, "under the left foot", "origin with z = "),
+    ],
+)
+def test_the_check_names_what_is_spoilt(
+    made: tuple[Truth, Introduced, Path], field: str, factor: float, shift: float | list[float], name: str, words: str
+) -> None:
+    folder = made[2]
+    text = (folder / "robot.toml").read_text()
+    match = re.search(rf"^{field} = ([^#\n]*)", text, re.MULTILINE)
+    assert match is not None
+    changed = factor * np.array(json.loads(match[1])) + np.array(shift)
+    spoilt = folder / "spoilt.toml"
+    spoilt.write_text(text.replace(match[0], f"{field} = {np.round(changed, 6).tolist()}", 1))
+    wrong = {f.name: f.text for f in check_robot(spoilt, "flat").findings if not f.holds}
+    assert name in wrong
+    assert words in wrong[name]
+
+
+def test_it_walks(made: tuple[Truth, Introduced, Path]) -> None:
+    summary = run_scene(load_scene("flat", ["steps=4"], robot=str(made[2] / "robot.toml")))
+    assert summary["completed"], summary["reasons"]
+    assert summary["final"]["tilt_deg"] < 0.5
+
+
+def test_a_soles_taxels_are_as_many_as_the_papers() -> None:
+    assert [round(area / taxel_area(area)) for area in (5e3, 1e4, 2.9e4, 5e4)] == [42, 42, 42, 72]
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("", "no chain of 5 hinges"),
+        ("<body><joint type='hinge'/><geom size='.1' mass='1'/></body>", "no chain of 5 hinges"),
+    ],
+)
+def test_what_is_no_biped_is_refused_in_one_line(tmp_path: Path, body: str, words: str) -> None:
+    file = tmp_path / "odd.xml"
+    file.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    with pytest.raises(RobotError) as caught:
+        introduce(file, tmp_path, shoe_for_surface)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_legs_that_are_closed_chains_are_refused(tmp_path: Path) -> None:
+    truth = random_biped(SEED, tmp_path)
+    spec = mujoco.MjSpec.from_file(str(truth.file))
+    foot, trunk = truth.feet["left"], "trunk"
+    spec.add_equality(
+        type=mujoco.mjtEq.mjEQ_CONNECT, objtype=mujoco.mjtObj.mjOBJ_BODY, name1=foot, name2=trunk, data=[0.0] * 12
+    )
+    spec.compile()
+    truth.file.write_text(spec.to_xml())
+    with pytest.raises(RobotError, match="closed chain"):
+        introduce(truth.file, tmp_path, shoe_for_surface)

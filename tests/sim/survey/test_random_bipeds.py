@@ -1,0 +1,46 @@
+"""Bipeds that are drawn by lot are found right: legs, sides, feet, soles and how they lie, IMU."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from sim.survey.survey import survey_model
+
+from .random_biped import random_biped
+
+SEEDS = range(60)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_biped_that_nobody_has_seen_is_found(seed: int, tmp_path: Path) -> None:
+    truth = random_biped(seed, tmp_path)
+    found = survey_model(truth.file, tmp_path)
+    model = found.source.model
+    assert {s: found.joint_names(s) for s in ("left", "right")} == truth.joints
+    assert {s: found.foot_name(s) for s in ("left", "right")} == truth.feet
+    np.testing.assert_allclose(found.legs.rotation, truth.rotation.T, atol=1e-9)
+    assert found.mass == pytest.approx(truth.mass, rel=1e-5)
+    assert (found.imu is not None) == truth.imu
+    for side in ("left", "right"):
+        sole, (point, frame) = found.soles[side], truth.soles[side]
+        place = model.body(truth.feet[side])
+        # Seen from the body, the sole's z is the robot's up, and its x the robot's forward direction.
+        np.testing.assert_allclose(frame @ sole.rotation, truth.rotation @ truth.pitched, atol=2e-3)
+        middle = frame.T @ (point - _origin(model, int(place.id)))
+        local = sole.rotation.T @ (middle - sole.origin)
+        assert abs(float(local[2])) < 1e-3, "the sole plane"
+        np.testing.assert_allclose(0.5 * (sole.low + sole.high), local[:2], atol=2e-3)
+        assert (sole.high - sole.low)[0] == pytest.approx(truth.size[0], abs=0.12 * truth.size[0])
+        assert (sole.high - sole.low)[1] == pytest.approx(truth.size[1], abs=0.3 * truth.size[1])
+
+
+def _origin(model, body: int) -> np.ndarray:
+    """Where a body's frame is in the posture of the file."""
+    import mujoco
+
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    return data.xpos[body].copy()
