@@ -15,15 +15,17 @@ __all__ = ["LegServos"]
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
 _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
+_SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
 
 class LegServos:
     """Turns commands of the walking controller into servo set-points.
 
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
-    own damping, it follows q_d without lag and holds the expected load without error. Between control ticks u moves on
-    at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque. Where a joint would have to be faster
-    than the robot's speed limits, all joints move on by the same smaller share of their way, and make up for it later.
+    own damping and its friction counts as load, it follows q_d without lag and holds the expected load without error.
+    Between control ticks u moves on at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque. Where
+    a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of their
+    way, and make up for it later.
 
     Args:
         world: The world.
@@ -43,6 +45,8 @@ class LegServos:
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
         self._velocity_gain = world.damping + world.model.dof_damping[world.joint_qvel]
+        self._friction = world.model.dof_frictionloss[world.joint_qvel]
+        self._slow = _SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
         self.out_of_reach_since: float | None = None
@@ -84,6 +88,9 @@ class LegServos:
                 joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world
+        if self._friction.any():
+            # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
+            torques = torques + self._friction * np.tanh(velocity / self._slow)
         self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness
         self._rate = velocity * w.period
         self._last = joints

@@ -8,6 +8,7 @@ import pytest
 from plantar.errors import RobotError
 from sim.run.runner import Simulation
 from sim.run.scene import load_scene
+from sim.run.servos import LegServos
 
 
 @pytest.fixture
@@ -41,6 +42,27 @@ def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Si
     knee = np.array(setpoints)[10:, 3]
     steps = np.diff(knee)
     assert steps.std() < 0.02 * abs(steps.mean())
+
+
+def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulation) -> None:
+    """Both knees bend at a constant speed; knees that rub are asked for their friction more, in the way that they go."""
+    from dataclasses import replace
+
+    world = standing.world
+    knees = [3, 9]
+    command = standing.controller.step(_sensors(standing))
+    asked = []
+    for friction in (0.0, 6.0):
+        world.model.dof_frictionloss[world.joint_qvel[knees]] = friction
+        servos = LegServos(world, standing.legs, 0.005)
+        stand = standing.legs.configuration
+        for k in range(12):
+            joints = servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -1e-3 * k])))
+        standing.legs.set_configuration(stand[:3], stand[3:7], stand[7:])
+        asked.append(world.stiffness * (servos._setpoint - joints))
+    more = asked[1] - asked[0]
+    assert more[knees] == pytest.approx(6.0, rel=0.01)
+    assert np.delete(more, knees) == pytest.approx(0.0, abs=1e-9)
 
 
 def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
