@@ -23,9 +23,9 @@ class LegServos:
 
     A servo computes torque = kp (u - q) - kv q'. With u = q_d + ((kv + d) q'_d + tau_ff) / kp, where d is the joint's
     own damping and its friction counts as load, it follows q_d without lag and holds the expected load without error.
-    Between control ticks u moves on at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque. Where
-    a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of their
-    way, and make up for it later.
+    Between control ticks u moves on at q'_d: held set-points would make a saw tooth of kp q'_d dt in every torque.
+    Where a joint would have to be faster than the robot's speed limits, all joints move on by the same smaller share of
+    their way, and make up for it later.
 
     Args:
         world: The world.

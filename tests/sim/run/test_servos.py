@@ -45,7 +45,7 @@ def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Si
 
 
 def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulation) -> None:
-    """Both knees bend at a constant speed; knees that rub are asked for their friction more, in the way that they go."""
+    """Both knees bend at a constant speed; those that rub are asked for their friction more, the way they go."""
     from dataclasses import replace
 
     world = standing.world
