@@ -208,8 +208,7 @@ def robot(
     from sim.survey.introduce import introduce
 
     with output_folder(output) as folder, progress_bar() as tell:
-        shoes = partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5))
-        made = introduce(model, folder, shoes, tell)
+        made = introduce(model, folder, partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5)), tell)
     end_command(made.as_dict(output), as_json, made.text(output))
 
 

@@ -21,7 +21,7 @@ from sim.robots.robot_file import load_robot
 from sim.run.controller_settings import CONTROL_PERIOD, controller_settings
 from sim.run.scene import Scene, load_scene
 from sim.sensing.sensors import ankle_sensors
-from sim.survey.fitted_gait import HELD, MISSED
+from sim.survey.fitted_gait import HELD, MISSED, ROLL_MOST
 from sim.survey.joint_inertia import joint_inertia
 from sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled
 from sim.survey.robot_text import roll_pitch_yaw
@@ -174,7 +174,14 @@ class _Checked:
             told += (
                 f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
             )
+        roll, level = math.degrees(reach.roll), reach.roll <= ROLL_MOST or not holds
+        said = f"a sole that carries alone is off level by {roll:.1f} degrees"
+        if not level:
+            said += (
+                f"; allowed: {math.degrees(ROLL_MOST):g}; legs with an ankle that rolls work, or a scene that stands"
+            )
         return [
+            Finding("level soles", round(roll, 2), math.degrees(ROLL_MOST), "degrees", level, said),
             Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
             Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, told),
         ]

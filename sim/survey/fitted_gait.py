@@ -26,7 +26,17 @@ from sim.survey.joint_inertia import JointInertia, joint_inertia
 from sim.survey.plan_reach import PITCHES, PlanReach, Walked, plan_reach, settled, standing_feet
 from sim.survey.servo_gains import servo_gains
 
-__all__ = ["HELD", "KNEE_LEAST", "MISSED", "STEP_SHARE", "FittedGait", "fit_gait", "stance_width", "straight_walk"]
+__all__ = [
+    "HELD",
+    "KNEE_LEAST",
+    "MISSED",
+    "ROLL_MOST",
+    "STEP_SHARE",
+    "FittedGait",
+    "fit_gait",
+    "stance_width",
+    "straight_walk",
+]
 
 KNEE_LEAST = math.radians(20.0)
 """Bend of the straightest knee over a walk of level steps: h1 walks with 14, hrp2kai with 24 degrees."""
@@ -42,6 +52,9 @@ MISSED = 2e-3
 
 HELD = 0.75
 """Share of the torque limits that a planned walk may take; the rest is to balance with."""
+
+ROLL_MOST = math.radians(3.0)
+"""Angle of a sole that carries alone against level ground up to which its taxels' soft pad lets it rest whole."""
 
 _SEED_BEND = math.radians(40.0)
 _SPARE = math.radians(1.0)  # of a joint's range that a walk leaves unused
@@ -112,6 +125,11 @@ def fit_gait(draft: Robot) -> FittedGait:
     seed = _seed_height(robot, legs)
     robot, body, reach = _stepping(robot, legs, body, seed, notes)
     height = robot.com_height
+    if reach.roll > ROLL_MOST:
+        notes.append(
+            f"without ankle roll a sole that carries alone is off level by {math.degrees(reach.roll):.0f} degrees, on "
+            "its edge: such a robot stands, but does not walk yet"
+        )
     settled(robot, legs, standing_feet(robot.stance_width), height)
     configuration = legs.configuration
     robot = replace(robot, posture=_angles(robot, legs, configuration))

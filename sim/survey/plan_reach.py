@@ -68,6 +68,7 @@ class PlanReach:
         torque: Largest torque in N m that each joint of a leg needs, both legs taken together: to carry, and to move
             itself against its own damping and the inertia of what it swings.
         carrying: The same without what moving takes.
+        roll: Largest angle in rad by which a sole that carries alone is off level: of legs without ankle roll.
     """
 
     missed: float
@@ -76,6 +77,7 @@ class PlanReach:
     spare: Array
     torque: Array
     carrying: Array
+    roll: float
 
 
 def standing_feet(width: float) -> dict[Side, Footstep]:
@@ -132,6 +134,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
     low = probe.spare(legs)
     every = walked.timing.single_support / _INSTANTS
     angles, static = [], []
+    roll = 0.0
     feet = dict(walked.feet)
     omega2 = GRAVITY / walked.com_height
     height = np.mean([feet[s].z for s in SIDES])
@@ -163,7 +166,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
         missed = max(missed, error)
         if not missed < _HOPELESS:
             never = np.full(len(robot.legs["left"].joints), math.inf)
-            return PlanReach(missed, knee, time - begin, -never, never, never)
+            return PlanReach(missed, knee, time - begin, -never, never, never, math.pi)
         bend = probe.knees(legs)
         if bend < knee:
             knee, when = bend, time - begin
@@ -175,6 +178,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
                 points[s] = np.array([*reference.vrp, feet[s].z])
         static.append(legs.static_torques({s: share[s] * push for s in SIDES}, points))
         angles.append(probe.angles(legs))
+        roll = max([roll, *(probe.tilt(s) for s in SIDES if share[s] == 1.0)])
     moved = np.gradient(np.array(angles), every, axis=0)
     moving = probe.damping * moved + probe.swinging * np.gradient(moved, every, axis=0)
     carrying = np.abs(np.array(static))
@@ -187,6 +191,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
         low,
         torque.max(axis=0).reshape(2, joints).max(axis=0),
         carrying.max(axis=0).reshape(2, joints).max(axis=0),
+        roll,
     )
 
 
@@ -229,6 +234,7 @@ class _Probe:
         self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
         self._model = model
         self._torso = model.body(robot.torso_body).id
+        self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self._pitch: list[tuple[int, int, int]] = []
         self._data.qpos[:] = model.qpos0
         for side in SIDES:
@@ -255,6 +261,10 @@ class _Probe:
             thigh, shank = thigh - (thigh @ axis) * axis, shank - (shank @ axis) * axis
             bends.append(math.atan2(float(np.cross(thigh, shank) @ axis), float(thigh @ shank)))
         return min(bends, default=math.pi)
+
+    def tilt(self, side: Side) -> float:
+        """Angle in rad of a sole against level ground, in the posture whose knees were read last."""
+        return math.acos(min(1.0, float(self._data.site_xmat[self._soles[side], 8])))
 
     def angles(self, legs: LegModel) -> Array:
         """Angles (k,) in rad of the joints of both legs in the posture that the legs hold."""

@@ -120,3 +120,12 @@ def test_legs_that_are_closed_chains_are_refused(tmp_path: Path) -> None:
     truth.file.write_text(spec.to_xml())
     with pytest.raises(RobotError, match="closed chain"):
         introduce(truth.file, tmp_path, shoe_for_surface)
+
+
+def test_legs_without_ankle_roll_are_told_what_they_cannot_do(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    seed = next(s for s in range(99) if len(random_biped(s, tmp_path).joints["left"]) == 5)
+    found = introduce(random_biped(seed, tmp_path).file, tmp_path / "out", shoe_for_surface)
+    assert any("without ankle roll" in note for note in found.fitted.notes)
+    wrong = {f.name for f in check_robot(tmp_path / "out" / "robot.toml", "flat").findings if not f.holds}
+    assert "level soles" in wrong
