@@ -134,7 +134,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
     low = probe.spare(legs)
     every = walked.timing.single_support / _INSTANTS
     angles, static = [], []
-    roll = 0.0
+    edged = 0.0
     feet = dict(walked.feet)
     omega2 = GRAVITY / walked.com_height
     height = np.mean([feet[s].z for s in SIDES])
@@ -178,7 +178,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
                 points[s] = np.array([*reference.vrp, feet[s].z])
         static.append(legs.static_torques({s: share[s] * push for s in SIDES}, points))
         angles.append(probe.angles(legs))
-        roll = max([roll, *(probe.tilt(s) for s in SIDES if share[s] == 1.0)])
+        edged = max([edged, *(probe.tilt(s) for s in SIDES if share[s] == 1.0)])
     moved = np.gradient(np.array(angles), every, axis=0)
     moving = probe.damping * moved + probe.swinging * np.gradient(moved, every, axis=0)
     carrying = np.abs(np.array(static))
@@ -191,7 +191,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
         low,
         torque.max(axis=0).reshape(2, joints).max(axis=0),
         carrying.max(axis=0).reshape(2, joints).max(axis=0),
-        roll,
+        edged,
     )
 
 
