@@ -33,8 +33,8 @@ CASES = (
 )
 
 COLUMNS: dict[str, tuple[str, ...]] = {
-    "hug": ("compliance_min", "cop_margin_min_mm", "tilt_max_deg", "most_active"),
-    "multi-contact": ("compliance_min", "cop_margin_min_mm", "tilt_max_deg", "most_active"),
+    "hug": ("yield_least", "yield_median", "cop_margin_min_mm", "most_active"),
+    "multi-contact": ("yield_least", "yield_median", "cop_margin_min_mm", "most_active"),
     "pressure": ("speed_ratio", "area_ratio", "cop_margin_min_mm"),
     "feather": ("distance_min_mm", "moved_mm", "cop_margin_min_mm"),
     "stove": ("temperature_max", "retreat_mm", "cop_margin_min_mm"),

@@ -13,7 +13,7 @@ _LEG = {f"right {part.replace('_', ' ')}": (f"right_{part}",) for part in ("uppe
 
 
 class MultiContact(PressedExperiment):
-    """Pads press on thirteen instances one after the other, then on all of them.
+    """Pads press on thirteen instances, one after the other, then on all of them.
 
     T 3.2.4.1 has support by the left leg, self-collision, skin, and a centre of mass at 0.8 m below it. Thirteen links
     that own all their rows leave nothing to a centre of mass below them, nor a spring that brings them back: in that
@@ -28,10 +28,5 @@ class MultiContact(PressedExperiment):
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        self.duration = 11.0
-        order = self.rng.permutation(list(self.instances))
-        for i, name in enumerate(order.tolist()):
-            self.press(name, self.instances[name], 0.6 + 0.35 * i + self.rng.uniform(0.0, 0.1), 1.9)
-        begin = self.rng.uniform(7.7, 8.0)
-        for name, patches in self.instances.items():
-            self.press(f"together {name}", patches, begin + self.rng.uniform(0.0, 0.2), 2.2)
+        self.press_each()
+        self.press_together(list(self.instances))

@@ -15,6 +15,8 @@ from sim.companion.standing.pad import Pad
 
 __all__ = ["PlannedContact", "outer_taxel"]
 
+_FIRST = 0.05  # of its force when it touches
+
 
 @dataclass
 class PlannedContact:
@@ -25,8 +27,10 @@ class PlannedContact:
         begin: Time in s at which it begins to press.
         hold: Time in s for which it presses.
         force: Its force in N.
-        yielded: How far in m the link yielded along the pad's first direction, at most, against the centre of mass,
-            which leans into the contacts.
+        swell: Time in s over which its force grows; it fades in that time, and in 0.6 s at least.
+        against: Link against which it is measured how far the pressed link yields; empty for the centre of mass, which
+            leans into the contacts.
+        yielded: How far in m the link yielded along the pad's first direction, at most.
         felt: Largest true force in N.
     """
 
@@ -34,18 +38,28 @@ class PlannedContact:
     begin: float
     hold: float
     force: float
+    swell: float = 0.3
+    against: str = ""
     yielded: float = 0.0
     felt: float = 0.0
+    _touched: float = field(default=math.inf, repr=False)
     _first: tuple[NDArray[np.float64], NDArray[np.float64]] | None = field(default=None, repr=False)
 
-    SWELL = 0.3
-    FADE = 0.6
+    def act(self, time: float, felt: float) -> None:
+        """Set the pad's wanted force: it comes near as if for all of it, which then grows from the first touch on.
 
-    def act(self, time: float) -> None:
-        """Set the pad's wanted force."""
-        into, left = time - self.begin, self.begin + self.hold - time
-        share = min(1.0, into / self.SWELL, left / self.FADE) if into > 0.0 and left > 0.0 else 0.0
-        self.pad.wanted = self.force * share
+        Args:
+            time: Time in s.
+            felt: Force in N with which it presses now.
+        """
+        left = self.begin + self.hold - time
+        if time <= self.begin or left <= 0.0:
+            self.pad.wanted = 0.0
+            return
+        if math.isinf(self._touched) and felt > 0.0:
+            self._touched = time
+        grown = 1.0 if math.isinf(self._touched) else max(_FIRST, (time - self._touched) / self.swell)
+        self.pad.wanted = self.force * min(1.0, grown, left / max(0.6, self.swell))
 
     def judge(self, world: Any, force: float) -> None:
         """Take note of how far the link has yielded.
@@ -58,7 +72,11 @@ class PlannedContact:
             return
         self.felt = max(self.felt, force)
         place, inward = self.pad.touching(world)
-        place = place - world.data.subtree_com[world.model.body(world.machine.base.link).id]
+        if self.against:
+            origin, rotation = world.pose(self.against)
+            place, inward = (place - origin) @ rotation, inward @ rotation
+        else:
+            place = place - world.data.subtree_com[world.model.body(world.machine.base.link).id]
         if self._first is None:
             self._first = place, inward
         self.yielded = max(self.yielded, float((place - self._first[0]) @ self._first[1]))

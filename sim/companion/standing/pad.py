@@ -34,17 +34,23 @@ class Pad:
     Attributes:
         wanted: Force in N that it shall press with; 0 or less lifts it off.
         parked: Whether it is out of everybody's way.
+        middle: Where (3,) the middle of its face touches the link, in the link's frame in m.
     """
 
     def __init__(self, name: str, patch: SkinPatch, taxel: int, face: float, stiffness: float) -> None:
         self.name, self.patch, self.face = f"pad {name}", patch, face
         self.wanted = 0.0
         self.parked = True
-        self._point, self._turn = patch.positions[taxel], patch.rotations[taxel]
+        self.middle, self._turn = patch.positions[taxel], patch.rotations[taxel]
         self._half = 0.02
         self._gap = _CLEAR
         self._stiffness = stiffness
         self._last: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+
+    @property
+    def inward(self) -> NDArray[np.float64]:
+        """Direction (3,) in which it presses, in the link's frame."""
+        return np.asarray(self._turn[:, 2])
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world."""
@@ -79,20 +85,20 @@ class Pad:
         before = self._last or (origin, rotation)
         self._last = (origin, rotation)
         ahead, turned = 2.0 * origin - before[0], rotation @ before[1].T @ rotation
-        inward = turned @ self._turn[:, 2]
+        inward = turned @ self.inward
         number = int(world.model.body(self.name).mocapid[0])
         self.parked = self.wanted <= 0.0 and self._gap >= _CLEAR
         if self.parked:  # out of everybody's way
             world.data.mocap_pos[number] = [0.0, 0.0, 5.0]
             self._last = None
             return
-        world.data.mocap_pos[number] = ahead + turned @ self._point - (self._gap + self._half) * inward
+        world.data.mocap_pos[number] = ahead + turned @ self.middle - (self._gap + self._half) * inward
         mujoco.mju_mat2Quat(world.data.mocap_quat[number], np.ascontiguousarray(turned @ self._turn).ravel())
 
     def touching(self, world: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Where (3,) its face is to touch the link in the world in m, and the direction (3,) into the link."""
         origin, rotation = world.pose(self.patch.link)
-        return origin + rotation @ self._point, rotation @ self._turn[:, 2]
+        return origin + rotation @ self.middle, rotation @ self.inward
 
     def force(self, on_obstacles: dict[str, NDArray[np.float64]], rotation: NDArray[np.float64]) -> float:
         """Force in N with which it presses along its axis.
@@ -104,4 +110,4 @@ class Pad:
         Returns:
             The force.
         """
-        return float(-on_obstacles[self.name][:3] @ (rotation @ self._turn[:, 2]))
+        return float(-on_obstacles[self.name][:3] @ (rotation @ self.inward))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.plotting import COLOURS, new_figure, save_figure
@@ -40,20 +42,28 @@ _SHARES = {"upper_arm": 0.03, "lower_arm": 0.02, "hand": 0.012, "torso": 0.04, "
 _TRUNK = ("torso", "hip")
 _FACES = {"torso": 0.07, "hip": 0.06}  # m: radius; elsewhere _FACE
 _FACE = 0.04
+_FIRST, _APART, _EACH = 0.6, 1.0, 1.5  # s: when single contacts begin; each takes half a second to come near
+_TOGETHER, _SWELLING = 4.6, 1.5  # s: contacts that press together, and of that both to grow and to fade
+_STRONGEST = 4.0  # times the force of a single contact
 
 
 class PressedSettings(Settings):
     """How hard it is pressed, and what counts as yielding.
 
     Attributes:
-        strength: Factor on all forces; 1 presses with up to 3 % of body weight on an upper arm and 4 % on the torso.
-        yield_limb: Compliance that arms, hands and a free leg need to have at least.
-        yield_trunk: Compliance that torso and hips need to have at least; they lean into a push, so none is asked for.
+        strength: Factor on the force of single contacts; 1 presses with up to 3 % of body weight on an upper arm and
+            4 % on the torso.
+        moment: Moment of all contacts that press together about the middle of the feet, as the distance by which it
+            shifts the centre of pressure of a robot that does not lean against it.
+        yield_median: How many times as far as on the springs of the posture alone limbs yield in the median: half of
+            the gain with which the skin's forces act.
+        yield_least: How many times as far every limb yields at least.
     """
 
     strength: float = number(1.0, "1", 0.0, 10.0)
-    yield_limb: float = number(0.1, "mm/N", 0.0, 100.0)
-    yield_trunk: float = number(0.0, "mm/N", 0.0, 100.0)
+    moment: float = number(0.13, "m", 0.0, 0.5)
+    yield_median: float = number(4.5, "1", 0.0, 100.0)
+    yield_least: float = number(2.0, "1", 0.0, 100.0)
 
 
 class PressedExperiment(StandingExperiment):
@@ -65,7 +75,14 @@ class PressedExperiment(StandingExperiment):
     """
 
     settings_type: ClassVar = PressedSettings
-    columns: ClassVar = ("tilt_max_deg", "com_off_max_mm", "cop_margin_min_mm", "compliance_min", "most_active")
+    columns: ClassVar = (
+        "tilt_max_deg",
+        "com_off_max_mm",
+        "cop_margin_min_mm",
+        "yield_least",
+        "yield_median",
+        "most_active",
+    )
     instances: ClassVar[Mapping[str, tuple[str, ...]]] = UPPER_BODY
     """Instances of direct interaction and their patches."""
 
@@ -76,14 +93,18 @@ class PressedExperiment(StandingExperiment):
         self._control: StandingController | None = None
         self._trace: list[tuple[float, ...]] = []
 
-    def press(self, name: str, patches: Sequence[str], begin: float, hold: float) -> None:
+    def press_each(self) -> None:
+        """Plan a contact on each instance, one after the other: each moves links that others press on."""
+        for i, name in enumerate(self.rng.permutation(list(self.instances)).tolist()):
+            begin = _FIRST + i * _APART + self.rng.uniform(0.0, 0.1)
+            self._press(name, self.instances[name], begin, _EACH)
+
+    def _press(
+        self, name: str, patches: Sequence[str], begin: float, hold: float, swell: float = 0.3
+    ) -> PlannedContact:
         """Plan a contact on one of some patches, with a force and at a taxel of the seed.
 
-        Args:
-            name: Name of the contact.
-            patches: Names of the patches; those at the sides of the trunk, inside of the arms, are left out.
-            begin: Time in s at which it begins.
-            hold: Time in s for which it presses.
+        Patches at the sides of the trunk, inside of the arms, are left out.
         """
         free = [p for p in patches if p not in ("torso_left", "torso_right")]
         patch = self.skin.patch(str(self.rng.choice(free)))
@@ -94,7 +115,57 @@ class PressedExperiment(StandingExperiment):
         taxel = outer_taxel(self.robot, patch, "torso", self.rng)
         pad = Pad(name, patch, taxel, face, 2e5 if kind in _TRUNK else 6e4)
         self.pads.append(pad)
-        self.contacts.append(PlannedContact(pad, begin, hold, force))
+        self.contacts.append(PlannedContact(pad, begin, hold, force, swell, self._root(name)))
+        return self.contacts[-1]
+
+    def _root(self, name: str) -> str:
+        """Link from which an instance's limb hangs; empty for the trunk."""
+        if name in _TRUNK:
+            return ""
+        return "torso" if name in UPPER_BODY else self.machine.base.link
+
+    def press_together(self, names: Sequence[str]) -> None:
+        """Plan contacts that press together when the single ones are over, those on the trunk from front or back.
+
+        They grow slowly; torso and hips are pressed so hard that feet cannot hold the moment about them by the place of
+        their centre of pressure alone: the robot has to lean against it.
+
+        Args:
+            names: Of the instances.
+        """
+        over = max(c.begin + c.hold for c in self.contacts)
+        self.duration = over + _TOGETHER + 0.5
+        face = str(self.rng.choice(["front", "back"]))
+        together = []
+        for name in names:
+            patches = self.instances[name]
+            faced = [p for p in patches if p.endswith(face)] if name in _TRUNK else patches
+            begin = over + self.rng.uniform(0.0, 0.2)
+            together.append(self._press(f"together {name}", faced, begin, _TOGETHER, _SWELLING))
+        trunk = [c for c in together if c.pad.patch.name.startswith(_TRUNK)]
+        limbs = self._moment([c for c in together if c not in trunk])
+        factor = _reaching(limbs, self._moment(trunk), self.settings.moment)
+        for contact in trunk:
+            contact.force *= min(factor, _STRONGEST)
+
+    def _moment(self, contacts: Sequence[PlannedContact]) -> NDArray[np.float64]:
+        """Shift (2,) in m of the centre of pressure by contacts on the robot in its first posture."""
+        middle = np.mean(list(self.stance.places.values()), axis=0)
+        moment = np.zeros(3)
+        for contact in contacts:
+            place, inward = contact.pad.touching(self.robot)
+            moment += np.cross(place - middle, contact.force * inward)
+        return np.array([moment[1], -moment[0]]) / (GRAVITY * float(self.robot.model.body_subtreemass[0]))
+
+    def _on_springs(self, contact: PlannedContact) -> float:
+        """Compliance in mm/N along a pad's normal of the posture's springs between the limb's root and its link."""
+        robot, pad = self.robot, contact.pad
+        place = pad.touching(robot)[0]
+        origin, rotation = robot.pose(contact.against)
+        root = robot.jacobian(contact.against, rotation.T @ (place - origin))[:3]
+        own = robot.jacobian(pad.patch.link, pad.middle)[:3] - root
+        row = own.T @ robot.pose(pad.patch.link)[1] @ pad.inward
+        return 1e3 * float((row[robot.joints] ** 2 / self.posture_task().stiffness).sum())
 
     def levels(self, skin: BodySkin) -> list[list[Task]]:
         """Tasks by priority: balance, what keeps links and joints apart, and last skin and posture together."""
@@ -109,7 +180,7 @@ class PressedExperiment(StandingExperiment):
 
     def act(self, world: World, time: float) -> None:
         for contact in self.contacts:
-            contact.act(time)
+            contact.act(time, self.pressing(contact.pad))
         super().act(world, time)
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
@@ -123,17 +194,20 @@ class PressedExperiment(StandingExperiment):
     def verdict(self) -> Verdict:
         reasons = self.balance_reasons()
         single = [c for c in self.contacts if "together" not in c.pad.name]
-        for contact in single:
-            trunk = contact.pad.patch.name.startswith(_TRUNK)
-            least = self.settings.yield_trunk if trunk else self.settings.yield_limb
-            if contact.compliance < least:
-                text = f"{contact.pad.name} yields by {contact.compliance:.2f} mm/N; wanted: {least:g}"
-                reasons.append(failed("yields", contact.compliance, least, text))
+        times = {c.pad.name: c.compliance / self._on_springs(c) for c in single if c.against}
+        name, least = min(times.items(), key=lambda item: item[1])
+        if least < self.settings.yield_least:
+            text = f"{name} yields {least:.2g} times as far as on springs; wanted: {self.settings.yield_least:g}"
+            reasons.append(failed("yields", least, self.settings.yield_least, text))
+        middle = float(np.median(list(times.values())))
+        if middle < self.settings.yield_median:
+            text = f"limbs yield {middle:.2g} times as far as on springs; wanted: {self.settings.yield_median:g}"
+            reasons.append(failed("yields_median", middle, self.settings.yield_median, text))
         assert self._control is not None
         figures = {
             **self.balance_figures(),
-            "compliance_min": round(min(c.compliance for c in single), 3),
-            "compliance_median": round(float(np.median([c.compliance for c in single])), 3),
+            "yield_least": round(least, 2),
+            "yield_median": round(middle, 2),
             "compliance_mm_N": {c.pad.name: round(c.compliance, 3) for c in self.contacts},
             "force_max_N": {c.pad.name: round(c.felt, 1) for c in self.contacts},
             "most_active": max(self._control.active, default=0),
@@ -160,3 +234,9 @@ class PressedExperiment(StandingExperiment):
         lower.set(xlabel="links with active taxels", ylabel="control tick [us]")
         name = type(self).__name__.lower()
         return [save_figure(figure, folder / f"{name}.png")]
+
+
+def _reaching(fixed: NDArray[np.float64], scaled: NDArray[np.float64], length: float) -> float:
+    """Factor k of the second vector (2,) with which |fixed + k scaled| is a length; 0 where it is longer without."""
+    a, b, c = float(scaled @ scaled), float(fixed @ scaled), float(fixed @ fixed) - length**2
+    return max(0.0, (-b + math.sqrt(max(0.0, b * b - a * c))) / a)
