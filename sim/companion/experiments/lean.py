@@ -52,6 +52,8 @@ _LOOK_EVERY = 5  # physics steps between two looks at the contacts
 _SEEN_LOWER = 0.008  # m below the ground where taxels see it: skin that would carry has no stiction
 _NEAR = 0.02  # m: a taxel that sees ground nearer than this stands on it
 _OUTSIDE = 0.01  # m: by which the centre of mass has to be outside the polygon of the feet
+_CATCHING_UP = 1.0  # s in which what is aimed at makes up for what is missing: slower than a lean and its load
+_MOST_AHEAD = 0.04  # m
 _MARGIN = 0.004  # m by which what can carry is smaller than the middles of the taxels that see ground
 
 
@@ -98,6 +100,38 @@ class LeanControl(StandingControl):
     press_gain: float = number(0.5, "1", 0.0, 10.0)
 
 
+class Aim:
+    """Aims beyond a target by what a soft task falls short of it.
+
+    What is felt and what is planned differ by some 20 N, to which a centre of mass yields by a centimetre.
+
+    Args:
+        axes: Factor (3,) of each axis; 0 for one that is aimed at as it is.
+
+    Attributes:
+        ahead: How far (3,) it aims beyond the target in m.
+    """
+
+    def __init__(self, axes: NDArray[np.float64]) -> None:
+        self._axes = axes
+        self.ahead = np.zeros(3)
+
+    def at(self, target: NDArray[np.float64], reached: NDArray[np.float64], period: float) -> NDArray[np.float64]:
+        """What (3,) to aim at.
+
+        Args:
+            target: What (3,) is to be reached in m.
+            reached: What (3,) is reached in m.
+            period: Time in s since the last call.
+
+        Returns:
+            The place in m.
+        """
+        self.ahead += period / _CATCHING_UP * (target - reached) * self._axes
+        self.ahead *= min(1.0, _MOST_AHEAD / max(float(np.linalg.norm(self.ahead)), _MOST_AHEAD))
+        return target + self.ahead
+
+
 class LeanController:
     """Settle, bring the forearm over the table, lower it until it touches, lean, reach.
 
@@ -135,6 +169,7 @@ class LeanController:
         self._turn = CartesianPose(ARM, None, PoseGains(turn_stiffness=60.0, turn_damping=15.0), "orientation")
         self._hand = CartesianPose("left_hand", HAND, PoseGains(stiffness=40.0, damping=13.0), "position")
         self._felt = self.wanted = 0.0
+        self._com_aim, self._hand_aim = Aim(np.array([1.0, 1.0, 0.0])), Aim(np.ones(3))
         # Accelerations, not torques: what a level above releases must not let springs of the posture loose.
         self._posture = Posture(experiment.first[7:], self.control.posture_rate)
         self._waist = list(experiment.machine.joints).index("waist_pitch")
@@ -194,8 +229,11 @@ class LeanController:
             self._paths["arm"] = (origin + rotation @ UNDERSIDE, over)
         if "lean" in self.began:
             share = (time - self.began["lean"] - 0.5) / 3.0
-            self._com.target = _along(*self._paths["com"], share)
-            self._hand.target_position = _along(*self._paths["hand"], share)
+            planned = _along(*self._paths["com"], share)
+            self._com.target = self._com_aim.at(planned, robot.com()[0], self.control.period)
+            origin, rotation = robot.pose("left_hand")
+            planned = _along(*self._paths["hand"], share)
+            self._hand.target_position = self._hand_aim.at(planned, origin + rotation @ HAND, self.control.period)
             return
         since = time - self.began["bring"]
         low = max(0.0, since - 2.2) * self.control.lowering
@@ -278,7 +316,7 @@ class Lean(StandingExperiment):
 
     def __init__(self, machine: Machine, settings: Any, control: Any, seed: int) -> None:
         super().__init__(machine, settings, control, seed)
-        self.duration = 12.0
+        self.duration = 13.0
         s = self.settings
         self.part = str(self.rng.choice(["front", "rear", "inner", "outer"]))
         self.height = s.table_height + self.rng.uniform(-1.0, 1.0) * s.height_error
