@@ -156,12 +156,14 @@ class LeanController:
         base = experiment.machine.base.link
         self._weight = GRAVITY * float(experiment.robot.model.body_subtreemass[0])
         self._feet, self._all = self.stance.support(), self.stance.support()
-        # The forearm shall help by its share, not carry until each sole's centre of pressure is in its middle.
         # Feet that push each other sideways would cost the hips what they need for the trunk.
-        weights = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
-        self._carried = ContactForces(self._feet, base, self._weight, weights=weights)
+        feet = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)
+        self._carried = ContactForces(self._feet, base, self._weight, weights=feet)
         self._carried.shares = {link: SHARES[link] for link in self.stance.feet}
-        self._planned = ContactForces(self._all, base, self._weight, weights=weights)
+        # The forearm shall help by its share, not carry until each sole's centre of pressure is in its middle: it would
+        # relieve the foot on an edge, which then tilts.
+        leaning = DistributionWeights(ankle=0.03, pressure=3.0, friction=1.0)
+        self._planned = ContactForces(self._all, base, self._weight, weights=leaning)
         self._com = CenterOfMass(experiment.com, self.control.balance)
         # A forearm has five joints of its own: its orientation must not ask the trunk for a sixth.
         self._arm = CartesianPose(ARM, UNDERSIDE, PoseGains(stiffness=80.0, damping=18.0), "position")

@@ -32,8 +32,8 @@ _FACES = {"one": 0.010, "hundred": 0.148}  # m: radius; a taxel's inner radius i
 _WINDOWS = {"one": (0.35, 0.55), "hundred": (0.8, 7.2)}
 """When a probe is measured, in s from its full force on.
 
-Noise of the gyro, 2 mrad/s in each tick, is damped like motion and lets the torso drift: 7 % of the slow speed in 1.4 s,
-3 % in 6.4.
+Noise of the gyro, 2 mrad/s in each tick, is damped like motion and lets the torso drift: 7 % of the slow speed in 1.4,
+3 % in 6.4 s.
 """
 _PRESS, _REST = 9.0, 1.6  # s
 
