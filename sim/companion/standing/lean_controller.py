@@ -27,11 +27,14 @@ from wholebody.tasks.task import Demand, Task
 
 __all__ = ["HAND", "PATCH", "Aim", "LeanControl", "LeanController"]
 
-ARM, PATCH = "right_lower_arm", "right_lower_arm"
+ARM = "right_lower_arm"
+PATCH = "right_lower_arm"
+"""Patch whose skin feels the table."""
 UNDERSIDE = np.array([-0.045, 0.0, -0.12])
 LEVEL = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
 """Rotation of a forearm that points forward, its underside down."""
 HAND = np.array([0.0, 0.0, -0.09])
+"""Point of the left hand that reaches, in its frame in m."""
 SHARES = {"left_foot": 0.55, "right_foot": 0.3, ARM: 0.15}
 """How the load is shared where there is a choice: little on the foot that stands on an edge."""
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sim.companion.standing.lean_controller import _foremost
 from sim.companion.runner import Companion, run_companion
+from sim.companion.standing.lean_controller import _foremost
 from sim.run.scene_kind import open_scene
 
 
