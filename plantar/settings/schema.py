@@ -240,7 +240,7 @@ class Settings:
         return tuple(
             Setting(
                 f.name,
-                _as_toml(f.default.si(body) if isinstance(f.default, Quantity) else f.default),
+                f"{f.default.si(body):.4g}" if isinstance(f.default, Quantity) else _as_toml(f.default),
                 f.metadata["unit"],
                 _allowed(f),
                 meanings.get(f.name, ""),
@@ -327,7 +327,7 @@ def _as_toml(value: Any) -> str:
         return str(value).lower()
     if isinstance(value, tuple):
         return "[]"
-    return f'"{value}"' if isinstance(value, str) else f"{value:.4g}" if isinstance(value, float) else str(value)
+    return f'"{value}"' if isinstance(value, str) else f"{value:g}"
 
 
 def _meanings(kind: type[Settings]) -> dict[str, str]:

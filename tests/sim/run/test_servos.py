@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
+from plantar.mechanics.rotation import rotation_from_vector
 from sim.run.runner import Simulation
 from sim.run.scene import load_scene
 from sim.run.servos import LegServos
@@ -63,6 +64,28 @@ def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulati
     more = asked[1] - asked[0]
     assert more[knees] == pytest.approx(6.0, rel=0.01)
     assert np.delete(more, knees) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_tick_moves_a_joint_by_more_than_a_tenth_of_a_radian(standing: Simulation, seed: int) -> None:
+    """Whatever is asked of legs that have no speed limits: places far away, feet turned over, a CoM that jumps."""
+    from dataclasses import replace
+
+    world = replace(standing.world, robot=replace(standing.robot, velocity_limits=()))
+    servos, rng = LegServos(world, standing.legs, 0.005), np.random.default_rng(seed)
+    command = standing.controller.step(_sensors(standing))
+    last = servos.command(command).copy()
+    for _ in range(40):
+        feet = {
+            side: foot._replace(
+                position=foot.position + rng.uniform(-0.6, 0.6, 3),
+                rotation=rotation_from_vector(rng.uniform(-1.0, 1.0, 3)),
+            )
+            for side, foot in command.feet.items()
+        }
+        joints = servos.command(replace(command, com=command.com + rng.uniform(-0.5, 0.5, 3), feet=feet)).copy()
+        assert np.abs(joints - last).max() <= 0.1 + 1e-12
+        last = joints
 
 
 def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
