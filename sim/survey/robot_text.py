@@ -67,7 +67,14 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
     ]
     for side in SIDES:
         lines += ["", *_leg(robot, side)]
-    for part in (_torso(survey, robot), _posture(robot), _gait(fitted), _servo(survey, fitted), _balance(fitted)):
+    for part in (
+        _torso(survey, robot),
+        _posture(robot),
+        _gait(fitted),
+        _servo(survey, fitted),
+        _balance(fitted),
+        _landing(),
+    ):
         lines += ["", *part]
     return "\n".join(lines) + "\n"
 
@@ -220,4 +227,16 @@ def _balance(fitted: FittedGait) -> list[str]:
         "[balance]",
         *_told(f"The law and gains of h1, in the beat sqrt(leg / g) = {fitted.body.beat:.3f} s of these legs."),
         *(f"{key} = {json.dumps(value)}" for key, value in fitted.robot.balance.items()),
+    ]
+
+
+def _landing() -> list[str]:
+    """How a foot lands; see `gait.feet.foot_motion`."""
+    return [
+        "[landing]",
+        *_told(
+            "Less than the 0.237 that h1 presses a landed foot with: what the press lowers the foot by stays in legs "
+            "whose servos give, and the robot ends leaning by it (G1 by 0.67 degrees, with this by 0.4)."
+        ),
+        'press_force = "0.15 weight"',
     ]
