@@ -528,7 +528,8 @@ class WalkingController:
         self._frame.update(position, state.positions_sole[side], turn)
 
     def _contact(self, side: Side) -> Contact:
-        """Contact of a foot that stands; the same object until it is 0.1 mm or 0.1 mrad off, as the frame creeps."""
+        """Contact of a foot that stands; the same object until it is off by 1/6000 of the leg (0.1 mm for H1) or
+        0.1 mrad, as the frame creeps."""
         polygon = self.contacts.polygon(side)
         rectangle = self._rectangle_of.get(side)
         if rectangle is None or rectangle[0] is not polygon:
@@ -536,7 +537,8 @@ class WalkingController:
             rectangle = self._rectangle_of[side] = (polygon, Rectangle(x0, x1, y0, y1))
         position, yaw = self.motion.footholds[side]
         x, y, z = self._frame.offset.tolist()
-        place = (rectangle[1], yaw, round(x, 4), round(y, 4), round(z, 4), round(self._frame.turn, 4))
+        fine = 6000.0 / self.settings.body.leg
+        place = (rectangle[1], yaw, round(x * fine), round(y * fine), round(z * fine), round(self._frame.turn, 4))
         known = self._contact_of.get(side)
         if known is None or known[0] is not position or known[1] != place:
             center = self.contacts.center(side)

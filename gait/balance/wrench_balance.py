@@ -33,6 +33,7 @@ from plantar.settings.unknown_keys import refuse_unknown_keys
 __all__ = ["WrenchBalance", "WrenchBalanceGains"]
 
 _NO_WRENCH = np.zeros(6)
+_LENGTH = 1 / 6  # leg: lever that makes moments as large as forces in the distribution; 0.1 m for a leg of 0.6 m
 
 
 class WrenchBalanceGains(Settings):
@@ -119,7 +120,7 @@ class WrenchBalance:
         self.omega = omega
         self.mass = mass
         self.period = period
-        self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force)
+        self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
         self.feet = FootAdmittance(gains.feet, period)
         self.states: Counter[str] = Counter()
         self._integral = np.zeros(2)

@@ -33,11 +33,9 @@ from plantar.mechanics.zmp import zmp_of_wrench
 
 __all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
 
-_LENGTH = 0.1  # m: unit of moments over forces inside the program
-_SCALE = np.array([1.0, 1.0, 1.0, _LENGTH, _LENGTH, _LENGTH])
 _ROWS = 17  # of one contact: 16 facets of the cone and the least normal force
 _RIDGE = 1e-8  # on wrenches while the violations alone are minimised
-_TRACKED = 0.005  # of the body weight (or times 0.1 m): a net wrench nearer than this is tracked
+_TRACKED = 0.005  # of the body weight (or times the unit of length): a net wrench nearer than this is tracked
 
 
 class DistributionState(StrEnum):
@@ -154,9 +152,10 @@ class WrenchDistribution:
         weight: Weight of the robot in N; the unit of forces inside the program.
         weights: Weights of the cost.
         minimum_force: Least normal force in N of each contact.
+        length: Unit of moments over forces inside the program in m: about half a sole, so that both count alike.
 
     Raises:
-        InputError: If the weight is not above 0, or the minimum force below 0.
+        InputError: If the weight or the length is not above 0, or the minimum force below 0.
 
     Example:
         >>> flat, sole = np.eye(3), Rectangle(-0.1, 0.1, -0.06, 0.06)
@@ -167,15 +166,24 @@ class WrenchDistribution:
         ('tracked', {'left': 400, 'right': 200})
     """
 
-    def __init__(self, weight: float, weights: DistributionWeights | None = None, minimum_force: float = 15.0) -> None:
+    def __init__(
+        self,
+        weight: float,
+        weights: DistributionWeights | None = None,
+        minimum_force: float = 15.0,
+        length: float = 0.1,
+    ) -> None:
         if not (math.isfinite(weight) and weight > 0.0):
             raise InputError(f"weight of the robot is {weight} N; allowed: a finite value above 0")
         if not (math.isfinite(minimum_force) and minimum_force >= 0.0):
             raise InputError(f"minimum force is {minimum_force} N; allowed: a finite value, 0 or more")
+        if not (math.isfinite(length) and length > 0.0):
+            raise InputError(f"unit of length is {length} m; allowed: a finite value above 0")
         self.weight = weight
+        self.length = length
         self.weights = weights or DistributionWeights()
         self.minimum_force = minimum_force
-        self._unit = weight * _SCALE
+        self._unit = weight * np.array([1.0, 1.0, 1.0, length, length, length])
         self._workspaces: dict[int, _Workspace] = {}
 
     def solve(
@@ -300,7 +308,7 @@ class WrenchDistribution:
                 or contact.rotation.tolist() != last.rotation.tolist()
             )
             work.contacts[i] = contact
-        if moved and not _turn(work, contacts.values()):
+        if moved and not _turn(work, contacts.values(), self.length):
             work.forget()
             return None
         changed = moved or limited or shares != work.shares
@@ -312,7 +320,7 @@ class WrenchDistribution:
             self._weigh(work, shares)
         mx, my, mz = work.middle
         dx, dy, dz = px - mx, py - my, pz - mz
-        w, m = self.weight, self.weight * _LENGTH
+        w, m = self.weight, self.weight * self.length
         moments = ((tx + dy * fz - dz * fy) / m, (ty + dz * fx - dx * fz) / m, (tz + dx * fy - dy * fx) / m)
         wanted = np.array([fx / w, fy / w, fz / w, *moments])
         wanted.dot(work.jacobian, out=work.gradient)
@@ -333,14 +341,15 @@ class WrenchDistribution:
         """Cone, least force and own costs of one contact, in the program's units."""
         k, row = 6 * i, _ROWS * i
         x0, x1, y0, y1 = contact.rectangle
-        inner = Rectangle(x0 / _LENGTH, x1 / _LENGTH, y0 / _LENGTH, y1 / _LENGTH)
+        length = self.length
+        inner = Rectangle(x0 / length, x1 / length, y0 / length, y1 / length)
         work.constraints[row : row + 16, k : k + 6] = cone_rows(inner, contact.friction)
         work.constraints[row + 16, k + 2] = -1.0
         work.upper[row + 16] = -self.minimum_force / self.weight
         if len(work.contacts) > 1:
             # Moments about the preferred point: tx - y fz and ty + x fz.
             x, y = contact.preferred or contact.rectangle.center
-            x, y, ankle, own = x / _LENGTH, y / _LENGTH, self.weights.ankle, work.own
+            x, y, ankle, own = x / length, y / length, self.weights.ankle, work.own
             own[k + 2, k + 2] = ankle * (x * x + y * y)
             own[k + 2, k + 3] = own[k + 3, k + 2] = -ankle * y
             own[k + 2, k + 4] = own[k + 4, k + 2] = ankle * x
@@ -390,13 +399,13 @@ def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[f
     return tuple(found)
 
 
-def _turn(work: _Workspace, contacts: Collection[Contact]) -> bool:
+def _turn(work: _Workspace, contacts: Collection[Contact], length: float) -> bool:
     """Jacobian of the net wrench about the middle of the contacts, in the program's units; False if not finite."""
     places = [c.position.tolist() for c in contacts]
     mx, my, mz = work.middle = tuple(sum(v) / len(places) for v in zip(*places, strict=True))
     total = 0.0
     for k, (contact, (x, y, z)) in enumerate(zip(contacts, places, strict=True)):
-        dx, dy, dz = (x - mx) / _LENGTH, (y - my) / _LENGTH, (z - mz) / _LENGTH
+        dx, dy, dz = (x - mx) / length, (y - my) / length, (z - mz) / length
         (a, b, c), (d, e, f), (g, h, i) = contact.rotation.tolist()
         levers = [
             *(dy * g - dz * d, dy * h - dz * e, dy * i - dz * f),
