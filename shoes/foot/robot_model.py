@@ -90,7 +90,9 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     else:
         raise FootError(f"{file}: the outermost element is <{root.tag}>; allowed: <mujoco> (MJCF), <robot> (URDF)")
     if body is None or body not in bodies:
-        likely = [n for n in bodies if re.search("foot|ankle|sole|toe", n, re.IGNORECASE)] or list(bodies)
+        shaped = [n for n, shapes in bodies.items() if any(shapes)]
+        likely = [n for n in shaped if re.search("foot|ank|sole|toe", n, re.IGNORECASE)]
+        likely += [n for n in _ends_first(root, shaped) if n not in likely] if not likely else []
         shown = ", ".join(likely[:_SHOWN]) + (", ..." if len(likely) > _SHOWN else "")
         what = "name the foot's body (--body)" if body is None else f"there is no body '{body}'"
         raise FootError(f"{file}: {what}; allowed: {shown}")
@@ -103,6 +105,31 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     return BodyGeometry(
         triangles, side_of_name(body), f"body '{body}': {len(shapes)} {kind} shape(s), in m as models are"
     )
+
+
+def _ends_first(root: Element, names: list[str]) -> list[str]:
+    """Names of bodies in the order in which they may be feet: ends of chains, the longest first."""
+    depth: dict[str, int] = {}
+    inner: set[str] = set()
+    parents = {j.find("child"): j.find("parent") for j in root.findall("joint")}
+    above = {c.get("link", ""): p.get("link", "") for c, p in parents.items() if c is not None and p is not None}
+
+    def walk(element: Element, level: int, parent: str) -> None:
+        for child in element:
+            if child.tag == "body":
+                inner.add(parent)
+                depth[child.get("name", "")] = level
+                walk(child, level + 1, child.get("name", ""))
+            elif child.tag in ("worldbody", "frame"):
+                walk(child, level, parent)
+
+    walk(root, 0, "")
+    for name in names if above else ():
+        link, depth[name] = name, 0
+        while link in above and depth[name] <= len(above):
+            inner.add(link := above[link])
+            depth[name] += 1
+    return sorted(names, key=lambda n: (n in inner, -depth.get(n, 0)))
 
 
 Shape = Callable[[], Array]  # gives triangles: meshes are read only of the body that is asked for

@@ -171,3 +171,16 @@ def test_a_mesh_that_lies_elsewhere_is_not_read(tmp_path: Path, box: Shape) -> N
     path.write_text(f'<robot name="r"><link name="foot">{geometry}</link></robot>')
     with pytest.raises(FootError, match=r"lies elsewhere; allowed: .*PLANTAR_MODEL_FOLDERS"):
         read_foot_body(path, "foot")
+
+
+def test_bodies_without_telling_names_are_listed_from_the_ends_of_chains(tmp_path):
+    inner = '<body name="d"><joint/><geom size="0.1"/></body>'
+    for name in ("c", "b", "a"):
+        inner = f'<body name="{name}"><joint/><geom size="0.1"/>{inner}</body>'
+    arms = "".join(f'<body name="arm{i}"><joint/><geom size="0.1"/></body>' for i in range(20))
+    path = tmp_path / "robot.xml"
+    path.write_text(
+        f"<mujoco><worldbody><body name='trunk'><geom size='0.1'/>{arms}{inner}</body></worldbody></mujoco>"
+    )
+    with pytest.raises(FootError, match=r"allowed: d, arm0, arm1, .*\.\.\."):
+        read_foot_body(path, "tail")
