@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import mujoco
@@ -129,3 +131,16 @@ def test_legs_without_ankle_roll_are_told_what_they_cannot_do(tmp_path: Path) ->
     assert any("without ankle roll" in note for note in found.fitted.notes)
     wrong = {f.name for f in check_robot(tmp_path / "out" / "robot.toml", "flat").findings if not f.holds}
     assert "level soles" in wrong
+
+
+def test_the_example_introduces_a_robot_and_lets_it_walk(tmp_path: Path) -> None:
+    truth = random_biped(SEED, tmp_path)
+    done = subprocess.run(
+        [sys.executable, "examples/introduce_robot.py", str(truth.file), str(tmp_path / "out")],
+        cwd=Path(__file__).parents[3],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "4 of 4 steps" in done.stdout
