@@ -25,9 +25,8 @@ def main(model: str, folder: str) -> bool:
     file = out / "robot.toml"
     print(check_robot(file, "flat").text())
     walk = run_scene(load_scene("flat", ["steps=4"], robot=str(file)))
-    print(
-        f"{walk['steps_taken']} of {walk['steps_planned']} steps, at the end tilted by {walk['final']['tilt_deg']:.2f} deg"
-    )
+    tilt = walk["final"]["tilt_deg"]
+    print(f"{walk['steps_taken']} of {walk['steps_planned']} steps, at the end tilted by {tilt:.2f} degrees")
     return bool(walk["completed"])
 
 
