@@ -16,6 +16,13 @@ from hypothesis import settings
 
 from plantar import SoleLayout, hex_layout
 
+# MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What is started from here says itself.
+if "MUJOCO_GL" not in os.environ:
+    os.environ["MUJOCO_GL"] = "egl"
+    import mujoco  # noqa: F401
+
+    del os.environ["MUJOCO_GL"]
+
 # Started in the background of a shell Ctrl-C is ignored, and under nohup SIGHUP, here and in all that is started from
 # here; tests send both.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
