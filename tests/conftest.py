@@ -16,7 +16,7 @@ from hypothesis import settings
 
 from plantar import SoleLayout, hex_layout
 
-# MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What is started from here says itself.
+# MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
 if "MUJOCO_GL" not in os.environ:
     os.environ["MUJOCO_GL"] = "egl"
     import mujoco  # noqa: F401
