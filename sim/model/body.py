@@ -9,7 +9,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from sim.robots.robot import Robot
 
-__all__ = ["body_of", "leg_length"]
+__all__ = ["body_of", "leg_length", "pitching_joints", "stood"]
 
 _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
 _PITCHES = 0.7  # cosine with the torso's y axis from which a joint pitches: nearer to it than to x and z
@@ -49,19 +49,49 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
     Returns:
         The length in m.
     """
+    data = stood(robot, model)
+    return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)
+
+
+def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:
+    """State of a model whose legs are in the robot's posture, with kinematics.
+
+    Args:
+        robot: The robot.
+        model: A model with the robot in it.
+
+    Returns:
+        The state.
+    """
     data = mujoco.MjData(model)
     for side in SIDES:
         for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
             data.qpos[model.joint(name).qposadr[0]] = angle
     mujoco.mj_kinematics(model, data)
-    return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)
+    return data
+
+
+def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
+    """Joints of a leg that turn about the torso's y axis more than about another: hip, knee and ankle.
+
+    Args:
+        robot: The robot.
+        side: The leg.
+        model: A model with the robot in it.
+        data: Its state, with kinematics.
+
+    Returns:
+        Their ids from hip to ankle.
+    """
+    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
+    ids = [int(model.joint(name).id) for name in robot.legs[side].joints]
+    return [i for i in ids if abs(float(data.xaxis[i] @ across)) > _PITCHES]
 
 
 def _length(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> float:
-    ids = [model.joint(name).id for name in robot.legs[side].joints]
-    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
-    pitching = [i for i in ids if abs(float(data.xaxis[i] @ across)) > _PITCHES]
+    pitching = pitching_joints(robot, side, model, data)
     if len(pitching) < 2:
+        ids = [model.joint(name).id for name in robot.legs[side].joints]
         return float(np.linalg.norm(data.xanchor[ids[-1]] - data.xanchor[ids[0]]))
     links = np.diff(data.xanchor[pitching], axis=0)
     axes = data.xaxis[pitching[:-1]]

@@ -17,13 +17,13 @@ from plantar.errors import RobotError
 from plantar.gravity import GRAVITY
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from sim.model.body import body_of
+from sim.model.body import body_of, pitching_joints
 from sim.model.leg_model import LegModel
 from sim.model.world import build_leg_model
 from sim.robots.robot import Robot
 from sim.run.controller_settings import CONTROL_PERIOD
 from sim.survey.joint_inertia import JointInertia, joint_inertia
-from sim.survey.plan_reach import PITCHES, PlanReach, Walked, plan_reach, settled, standing_feet
+from sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from sim.survey.servo_gains import servo_gains
 
 __all__ = [
@@ -79,7 +79,6 @@ class FittedGait:
         body: How large it is.
         inertia: Inertia about the joints of a leg.
         reach: What level steps of a third of a leg ask of it.
-        straight_height: Height in m of the CoM at which the legs are straight side by side.
         notes: What could not be met.
     """
 
@@ -163,7 +162,7 @@ def _bent(robot: Robot, legs: LegModel) -> dict[Side, tuple[float, ...]]:
     for side in SIDES:
         ids = [model.joint(n).id for n in robot.legs[side].joints]
         angles = model.qpos0[model.jnt_qposadr[ids]].copy()
-        pitch = [k for k, i in enumerate(ids) if abs(float(data.xaxis[i] @ across)) > PITCHES]
+        pitch = [ids.index(i) for i in pitching_joints(robot, side, model, data)]
         if len(pitch) < 3:
             raise RobotError(
                 f"robot '{robot.name}': the {side} leg has {len(pitch)} joints that pitch; allowed: hip, knee and ankle"

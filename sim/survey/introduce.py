@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from plantar.atomic import write_text
 from plantar.errors import RobotError
+from plantar.geometry.polygon import area
 from plantar.layouts.layout_file import read_layout
 from plantar.sides import SIDES
 from sim.robots.robot import LegNames, Robot
@@ -180,7 +181,9 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         model_file=folder / "model.xml",
         foot=None,
         shoe_thickness=thickness,
-        shoe_mass=shoes.mass if shoes.mass is not None else round(_SHOE_DENSITY * _area(layouts["left"].outline), 4),
+        shoe_mass=shoes.mass
+        if shoes.mass is not None
+        else round(_SHOE_DENSITY * abs(area(layouts["left"].outline)), 4),
         sole_origins=MappingProxyType(
             {s: survey.soles[s].origin - thickness * survey.soles[s].rotation[:, 2] for s in SIDES}
         ),
@@ -206,12 +209,6 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         controller={},
         path=folder / "robot.toml",
     )
-
-
-def _area(outline: NDArray[np.float64]) -> float:
-    """Area in m^2 inside a closed line (n, 2) in m."""
-    x, y = outline[:, 0], outline[:, 1]
-    return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
 def _copy_licences(model: Path, folder: Path) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from plantar.sides import SIDES
 from sim.robots.robot import Robot
 
-__all__ = ["JointInertia", "joint_inertia"]
+__all__ = ["JointInertia", "floating_inertia", "joint_inertia"]
 
 
 @dataclass(frozen=True)
@@ -43,12 +43,8 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
     Returns:
         The inertia about each joint.
     """
-    data = mujoco.MjData(model)
-    data.qpos[:] = configuration
-    mujoco.mj_forward(model, data)
-    whole = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, whole)
-    free = 1.0 / np.diag(np.linalg.inv(whole))
+    data = _at(model, configuration)
+    free = _floating(model, data)
     found = []
     for side in SIDES:
         joints = [model.joint(name).id for name in robot.legs[side].joints]
@@ -57,6 +53,33 @@ def joint_inertia(robot: Robot, model: Any, configuration: NDArray[np.float64]) 
         found.append((free[dofs], standing, model.dof_armature[dofs], model.dof_damping[dofs]))
     swing, stance, armature, damping = (np.minimum(a, b) for a, b in zip(*found, strict=True))
     return JointInertia(swing, stance, armature, damping)
+
+
+def floating_inertia(model: Any, configuration: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Inertia about each joint where the robot floats freely: 1 / (M^-1)_jj.
+
+    Args:
+        model: The robot alone as it is simulated.
+        configuration: Its configuration (nq,).
+
+    Returns:
+        The inertia (nv,) in kg m^2, or kg of what slides.
+    """
+    return _floating(model, _at(model, configuration))
+
+
+def _at(model: Any, configuration: NDArray[np.float64]) -> Any:
+    """State of a model in a configuration (nq,)."""
+    data = mujoco.MjData(model)
+    data.qpos[:] = configuration
+    mujoco.mj_forward(model, data)
+    return data
+
+
+def _floating(model: Any, data: Any) -> NDArray[np.float64]:
+    whole = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, whole)
+    return np.asarray(1.0 / np.diag(np.linalg.inv(whole)))
 
 
 def _above(model: Any, data: Any, joint: int) -> float:

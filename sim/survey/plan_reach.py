@@ -18,13 +18,12 @@ from gait.plan.walk_plan import WalkPlan, vrp_of_step
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sides import SIDES, Side
+from sim.model.body import pitching_joints, stood
 from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
+from sim.survey.joint_inertia import floating_inertia
 
-__all__ = ["PITCHES", "PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
-
-PITCHES = 0.7
-"""Cosine with the torso's y axis from which on a joint is one that pitches."""
+__all__ = ["PlanReach", "Walked", "plan_reach", "settled", "standing_feet"]
 
 _INSTANTS = 24  # that are looked at in a single support; a swing foot moves by a twelfth of a step meanwhile at most
 _FIRST = 40  # Newton steps for the standing posture
@@ -203,16 +202,6 @@ def _shares(vrp: Array, feet: Mapping[Side, Footstep], middles: Mapping[Side, Ar
     return {"left": part, "right": 1.0 - part}
 
 
-def _swinging(model: mujoco.MjModel, configuration: Array) -> Array:
-    """Inertia (nv,) about each joint in kg m^2 where the robot floats freely: 1 / (M^-1)_jj."""
-    data = mujoco.MjData(model)
-    data.qpos[:] = configuration
-    mujoco.mj_forward(model, data)
-    whole = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, whole)
-    return np.asarray(1.0 / np.diag(np.linalg.inv(whole)))
-
-
 class _Probe:
     """Reads knees and joint ranges off a solution.
 
@@ -223,12 +212,12 @@ class _Probe:
 
     def __init__(self, robot: Robot, legs: LegModel) -> None:
         model = legs.model
-        self._data = mujoco.MjData(model)
+        self._data = stood(robot, model)
         ids = [model.joint(n).id for s in SIDES for n in robot.legs[s].joints]
         self._places = model.jnt_qposadr[ids]
         dofs = model.jnt_dofadr[ids]
         self.damping = model.dof_damping[dofs]
-        self.swinging = _swinging(model, legs.configuration)[dofs]
+        self.swinging = floating_inertia(model, legs.configuration)[dofs]
         free = model.jnt_limited[ids] == 0
         self._low = np.where(free, -math.inf, model.jnt_range[ids, 0])
         self._high = np.where(free, math.inf, model.jnt_range[ids, 1])
@@ -236,15 +225,8 @@ class _Probe:
         self._torso = model.body(robot.torso_body).id
         self._soles = {s: model.site(robot.legs[s].sole_site).id for s in SIDES}
         self._pitch: list[tuple[int, int, int]] = []
-        self._data.qpos[:] = model.qpos0
         for side in SIDES:
-            for name, angle in zip(robot.legs[side].joints, robot.posture[side], strict=True):
-                self._data.qpos[model.joint(name).qposadr[0]] = angle
-        mujoco.mj_kinematics(model, self._data)
-        across = self._data.xmat[self._torso].reshape(3, 3)[:, 1]
-        for side in SIDES:
-            own = [model.joint(n).id for n in robot.legs[side].joints]
-            pitch = [i for i in own if abs(float(self._data.xaxis[i] @ across)) > PITCHES]
+            pitch = pitching_joints(robot, side, model, self._data)
             if len(pitch) >= 3:
                 self._pitch.append((pitch[0], pitch[-2], pitch[-1]))
 
