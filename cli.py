@@ -193,6 +193,7 @@ def robot(
 
     Example: plantar robot check out/mine/robot.toml --scene beam
     """
+    os.environ.setdefault("MUJOCO_GL", "egl")
     need_libraries("sim", *_SIM)
     if (str(model) == "check") != (robot_file is not None) or (robot_file is None and scene is not None):
         raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
@@ -202,7 +203,6 @@ def robot(
         checked = check_robot(robot_file, scene or "flat")
         end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
         return
-    os.environ.setdefault("MUJOCO_GL", "egl")
     from plantar.atomic import output_folder
     from shoes.found_foot import shoe_for_surface
     from sim.survey.introduce import introduce
