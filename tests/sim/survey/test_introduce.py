@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import subprocess
 import sys
@@ -144,3 +145,18 @@ def test_the_example_introduces_a_robot_and_lets_it_walk(tmp_path: Path) -> None
     )
     assert done.returncode == 0, done.stderr
     assert "4 of 4 steps" in done.stdout
+
+
+def test_the_command_draws_where_nothing_is_said_of_opengl(tmp_path: Path) -> None:
+    truth = random_biped(SEED, tmp_path)
+    silent = {k: v for k, v in os.environ.items() if k not in ("MUJOCO_GL", "DISPLAY")}
+    done = subprocess.run(
+        [sys.executable, "cli.py", "robot", str(truth.file), "-o", str(tmp_path / "out")],
+        cwd=Path(__file__).parents[3],
+        env=silent,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out" / "robot.png").stat().st_size > 10_000
