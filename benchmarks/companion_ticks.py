@@ -46,11 +46,8 @@ def reading(skin: BodySkin, names: list[str]) -> SkinReading:
     """What the skin says when instances are touched."""
     force = np.zeros(len(skin))
     for name in names:
-        patch = MultiContact.instances[name][0]
-        own = skin.slices[patch]
-        places = skin.positions[own]
-        middle = np.argsort(np.linalg.norm(places - places.mean(axis=0), axis=1))[:3]
-        force[np.arange(own.start, own.stop)[middle]] = 2.0
+        patch = skin.patch(MultiContact.instances[name][0])
+        force[skin.slices[patch.name]][patch.from_middle[:3]] = 2.0
     return SkinReading(0.0, force, np.full(len(skin), np.inf), None)
 
 

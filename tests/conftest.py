@@ -8,6 +8,7 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -19,8 +20,7 @@ from plantar import SoleLayout, hex_layout
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
 if "MUJOCO_GL" not in os.environ:
     os.environ["MUJOCO_GL"] = "egl"
-    import mujoco  # noqa: F401
-
+    import_module("mujoco")
     del os.environ["MUJOCO_GL"]
 
 # Started in the background of a shell Ctrl-C is ignored, and under nohup SIGHUP, here and in all that is started from

@@ -66,6 +66,12 @@ class SkinPatch:
     def __len__(self) -> int:
         return len(self.positions)
 
+    @property
+    def from_middle(self) -> NDArray[np.int64]:
+        """Indices (t,) of the taxels, those nearest to the patch's middle first."""
+        off = np.linalg.norm(self.positions - self.positions.mean(axis=0), axis=1)
+        return np.asarray(np.argsort(off))
+
 
 class BodySkin:
     """All taxels of a body in one order: link by link, so that what is felt on a link is one slice.

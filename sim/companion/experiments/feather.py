@@ -80,8 +80,7 @@ class Feather(StandingExperiment):
         end = 0.5
         for visitor in self.visitors:
             patch = skin.patch(f"{self.side}_hand_{self.rng.choice(['palm', 'back'])}")
-            central = np.argsort(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1))
-            taxel = int(self.rng.choice(central[:4]))
+            taxel = int(self.rng.choice(patch.from_middle[:4]))
             origin, rotation = self.robot.pose(patch.link)
             way = rotation @ patch.rotations[taxel, :, 2] + self.rng.normal(0.0, 0.06, 3)
             speed = settings.speed * self.rng.uniform(0.6, 1.4)

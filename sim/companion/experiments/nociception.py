@@ -96,7 +96,7 @@ class Nociception(StandingExperiment):
         super().__init__(machine, settings, control, seed)
         skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
         patch = skin.patch(_PATCH)
-        middle = int(np.argmin(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1)))
+        middle = int(patch.from_middle[0])
         self.rate = _RATE * self.rng.uniform(0.7, 1.3)
         self.probes: dict[str, _Probe] = {}
         for i, name in enumerate(list(_FACES)[:: int(self.rng.choice([-1, 1]))]):

@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.mechanics.lip import GRAVITY
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
@@ -101,10 +100,8 @@ class Pressure(StandingExperiment):
         super().__init__(machine, settings, control, seed)
         skin = skin_from_tables(self.robot.model, machine.patches, machine.name)
         patch = skin.patch(_PATCH)
-        central = np.argsort(np.linalg.norm(patch.positions - patch.positions.mean(0), axis=1))
-        taxel = int(self.rng.choice(central[:5]))
-        weight = GRAVITY * float(self.robot.model.body_subtreemass[0])
-        self.force = settings.force * weight * self.rng.uniform(0.85, 1.15)
+        taxel = int(self.rng.choice(patch.from_middle[:5]))
+        self.force = settings.force * self.weight * self.rng.uniform(0.85, 1.15)
         order = list(_FACES)[:: int(self.rng.choice([-1, 1]))]
         self._pushes = {}
         begin = 0.5

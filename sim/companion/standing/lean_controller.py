@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import convex_hull
 from plantar.mechanics.easing import minimum_jerk
-from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.mechanics.wrench_distribution import DistributionWeights
 from plantar.sensing.link_skin import BodySkin, SkinReading
@@ -116,7 +115,7 @@ class LeanController:
         self.began: dict[str, float] = {}
         self.areas: dict[str, Rectangle] = {}
         base = experiment.machine.base.link
-        self._weight = GRAVITY * float(experiment.robot.model.body_subtreemass[0])
+        self._weight = experiment.weight
         self._feet, self._all = self.stance.support(), self.stance.support()
         # Feet that push each other sideways would cost the hips what they need for the trunk.
         feet = DistributionWeights(ankle=0.1, pressure=1.0, friction=1.0)

@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.mechanics.lip import GRAVITY
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number
@@ -109,8 +108,7 @@ class PressedExperiment(StandingExperiment):
         free = [p for p in patches if p not in ("torso_left", "torso_right")]
         patch = self.skin.patch(str(self.rng.choice(free)))
         kind = next(k for k in _SHARES if k in patch.name)
-        weight = GRAVITY * float(self.robot.model.body_subtreemass[0])
-        force = _SHARES[kind] * weight * self.rng.uniform(0.6, 1.0) * self.settings.strength
+        force = _SHARES[kind] * self.weight * self.rng.uniform(0.6, 1.0) * self.settings.strength
         face = _FACES.get(kind, _FACE)
         taxel = outer_taxel(self.robot, patch, "torso", self.rng)
         pad = Pad(name, patch, taxel, face, 2e5 if kind in _TRUNK else 6e4)
@@ -155,7 +153,7 @@ class PressedExperiment(StandingExperiment):
         for contact in contacts:
             place, inward = contact.pad.touching(self.robot)
             moment += np.cross(place - middle, contact.force * inward)
-        return np.array([moment[1], -moment[0]]) / (GRAVITY * float(self.robot.model.body_subtreemass[0]))
+        return np.array([moment[1], -moment[0]]) / self.weight
 
     def _on_springs(self, contact: PlannedContact) -> float:
         """Compliance in mm/N along a pad's normal of the posture's springs between the limb's root and its link."""

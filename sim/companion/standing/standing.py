@@ -41,6 +41,7 @@ class StandingExperiment(Experiment):
     """A machine on one foot or two. What it stands on and how it stands is judged by the true contacts.
 
     Attributes:
+        weight: Weight of the machine in N.
         pads: Pads that press on it.
     """
 
@@ -63,6 +64,7 @@ class StandingExperiment(Experiment):
         alone = machine.spec().compile()
         self.robot = MujocoDynamics(alone)
         self.stance = Stance(alone, self.sides)
+        self.weight = GRAVITY * float(alone.body_subtreemass[0])
         self.first = self._first_posture()
         self.robot.update(self.first, np.zeros(alone.nv), 0.0)
         self.com = self.robot.com()[0]
