@@ -10,9 +10,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gait.plan.footsteps import straight_plan
+from gait.plan.footsteps import Footstep, straight_plan
 from plantar.settings.body_scale import BodyScale
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 from sim.model.body import body_of
 from sim.model.leg_model import LegModel
 from sim.model.world import build_leg_model
@@ -146,15 +146,20 @@ class _Checked:
         """The scene's walk as it is planned; one at a velocity by steps in place."""
         walk, robot = self.scene.walk, self.robot
         steps = walk.steps if walk.velocities(0) is None else _STEPS
-        feet, plan = straight_plan(
-            min(steps, _STEPS),
-            length=walk.length,
-            sideways=walk.sideways,
-            width=walk.stance_width or robot.stance_width,
-            first="left" if walk.first == "left" else "right",
-        )
+        feet, plan = self._planned(min(steps, _STEPS), 1.0)
         settings = controller_settings(self.scene, robot, self.body, ankle_sensors(self.legs.model, robot))
         return Walked(feet, plan, settings.timing, walk.swing_height, settings.com_height, settings.trunk_lean)
+
+    def _planned(self, count: int, share: float) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
+        """So many footsteps of a share of the scene's length, and where the feet stand before."""
+        walk = self.scene.walk
+        return straight_plan(
+            count,
+            length=share * walk.length,
+            sideways=share * walk.sideways,
+            width=walk.stance_width or self.robot.stance_width,
+            first="left" if walk.first == "left" else "right",
+        )
 
     def _reach(self, reach: PlanReach, stands: float) -> list[Finding]:
         """Whether the legs reach what the plan asks of them."""
@@ -200,13 +205,7 @@ class _Checked:
         """How long steps may be that the legs reach at their height, in words."""
         walk = self.scene.walk
         for share in (0.8, 0.6, 0.4, 0.2):
-            feet, plan = straight_plan(
-                len(self.walked.steps),
-                length=share * walk.length,
-                sideways=share * walk.sideways,
-                width=walk.stance_width or self.robot.stance_width,
-                first="left" if walk.first == "left" else "right",
-            )
+            feet, plan = self._planned(len(self.walked.steps), share)
             found = plan_reach(self.robot, self.legs, replace(self.walked, feet=feet, steps=plan))
             if found.missed <= MISSED and found.knee >= _BENT:
                 return f"walk.length = {share * walk.length:.3f} with walk.sideways = {share * walk.sideways:.3f} works"

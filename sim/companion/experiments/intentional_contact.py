@@ -119,9 +119,10 @@ class IntentionalContactExperiment(Experiment):
             world: The world.
             time: Time in s.
         """
-        found = feet_contacts(world.model, world.data, [{geom} for geom in self._posts.values()])
+        posts = list(self._posts.values())
+        found = feet_contacts(world.model, world.data, [{geom} for geom in posts])
         for name, contacts in zip(self._posts, found, strict=True):
-            others = ~np.isin(contacts.other_geoms, list(self._posts.values()))  # posts lean on each other too
+            others = ~np.isin(contacts.other_geoms, posts)  # posts lean on each other too
             self._pressed[name] = contacts.forces[others].sum(axis=0)
 
     def judge(self, world: World, sensor: SkinSensor, time: float) -> None:
