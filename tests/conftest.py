@@ -23,6 +23,17 @@ if "MUJOCO_GL" not in os.environ:
     import_module("mujoco")
     del os.environ["MUJOCO_GL"]
 
+
+@pytest.fixture(autouse=True)
+def _same_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Commands that run in this process say for it how MuJoCo draws; what later tests start must not inherit that."""
+    if (said := os.environ.get("MUJOCO_GL")) is None:
+        monkeypatch.setenv("MUJOCO_GL", "")
+        monkeypatch.delenv("MUJOCO_GL")
+    else:
+        monkeypatch.setenv("MUJOCO_GL", said)
+
+
 # Started in the background of a shell Ctrl-C is ignored, and under nohup SIGHUP, here and in all that is started from
 # here; tests send both.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
