@@ -28,7 +28,7 @@ from plantar.settings.unknown_keys import refuse_unknown_keys
 __all__ = ["Setting", "Settings", "choice", "number", "share", "switch", "tables", "text", "whole"]
 
 
-def number(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
+def number(default: float, unit: str, low: float = 0.0, high: float = math.inf, words: tuple[str, ...] = ()) -> Any:
     """A field for a number.
 
     Args:
@@ -36,11 +36,12 @@ def number(default: float, unit: str, low: float = 0.0, high: float = math.inf) 
         unit: Its unit, "1" where it has none.
         low: Smallest allowed value.
         high: Largest allowed value; infinity allows every finite one.
+        words: What may stand instead of a number, such as "random".
 
     Returns:
         The field of a dataclass.
     """
-    return field(default=float(default), metadata={"unit": unit, "low": low, "high": high})
+    return field(default=float(default), metadata={"unit": unit, "low": low, "high": high, "words": words})
 
 
 def share(default: float, unit: str, low: float = 0.0, high: float = math.inf) -> Any:
@@ -92,9 +93,17 @@ def switch(default: bool) -> Any:
     return field(default=default, metadata={"unit": ""})
 
 
-def tables(allowed: str = "a list of tables") -> Any:
-    """A field for a list of tables, or of what else `allowed` says, which its class checks itself; empty by default."""
-    return field(default=(), metadata={"unit": "", "allowed": allowed})
+def tables(allowed: str = "a list of tables", words: tuple[str, ...] = ()) -> Any:
+    """A field for a list of tables, or of what else `allowed` says, which its class checks itself; empty by default.
+
+    Args:
+        allowed: What it takes, in words.
+        words: What may stand instead of a list, such as "random".
+
+    Returns:
+        The field of a dataclass.
+    """
+    return field(default=(), metadata={"unit": "", "allowed": allowed, "words": words})
 
 
 def text(default: str) -> Any:
@@ -196,6 +205,27 @@ class Settings:
             object.__setattr__(found, item.name, value)
         return found
 
+    def in_si(self, value: Any, unit: str, owner: str = "a list") -> Any:
+        """A member of a list of numbers in SI, for a class that checks its own lists.
+
+        Args:
+            value: The member: a number, or a text with a unit such as "0.03 leg".
+            unit: The unit of SI that it is told in.
+            owner: What holds the member, for messages.
+
+        Returns:
+            What the text comes to for the body that these settings count for; whatever else was given as it is.
+
+        Raises:
+            InputError: If the text has a unit of another kind.
+        """
+        found = Quantity.parsed(value) if isinstance(value, str) else None
+        if found is None:
+            return value
+        if not found.is_a(unit):
+            raise InputError(f"{owner} holds {value!r}; allowed: a number in {unit}")
+        return found.si(self._body)
+
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
         """Make the settings from a table of a TOML file; what it leaves out has its default.
@@ -286,6 +316,8 @@ def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
         told, value = repr(str(value)), value.si(body)
         told += f" = {value:.4g} {item.metadata['unit']}"
     good = False
+    if isinstance(value, str) and value in item.metadata.get("words", ()):
+        return value
     if isinstance(default, bool):
         good = isinstance(value, bool)
     elif isinstance(default, tuple):
@@ -305,6 +337,11 @@ def _checked(item: Field[Any], value: Any, body: BodyScale) -> Any:
 
 def _allowed(item: Field[Any]) -> str:
     """Range or choices of a field in words."""
+    return " or ".join([_range_of(item), *(f'"{word}"' for word in item.metadata.get("words", ()))])
+
+
+def _range_of(item: Field[Any]) -> str:
+    """Range or choices of a field without the words that may stand instead."""
     if isinstance(item.default, Quantity):
         return _range("a number", item)
     if isinstance(item.default, bool):

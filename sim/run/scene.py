@@ -20,7 +20,7 @@ from gait.propose.velocity_command import STOP, VelocityTable, table_of
 from plantar.errors import InputError, SceneError
 from plantar.files.input_file import is_file
 from plantar.files.structured_text import read_toml
-from plantar.settings.body_scale import BodyScale, Quantity
+from plantar.settings.body_scale import BodyScale
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
@@ -137,17 +137,8 @@ class Walk(Settings):
         those stays, for who reads the row to refuse."""
         if not isinstance(row, Sequence) or isinstance(row, str):
             return row
-        return [
-            self._number(value, unit) for value, unit in zip(row, chain(_VELOCITY_UNITS, repeat("1")), strict=False)
-        ]
-
-    def _number(self, value: Any, unit: str) -> Any:
-        found = Quantity.parsed(value) if isinstance(value, str) else None
-        if found is None:
-            return value
-        if not found.is_a(unit):
-            raise InputError(f"a velocity command holds {value!r}; allowed: a number in {unit}")
-        return found.si(self.body)
+        units = chain(_VELOCITY_UNITS, repeat("1"))
+        return [self.in_si(value, unit, "a velocity command") for value, unit in zip(row, units, strict=False)]
 
 
 class Push(Settings):

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from plantar.errors import InputError, SceneError
-from plantar.settings.schema import Settings, choice, number, switch, text, whole
+from plantar.settings.body_scale import BodyScale
+from plantar.settings.schema import Settings, choice, number, switch, tables, text, whole
 
 
 class Spring(Settings):
@@ -175,3 +176,30 @@ def _derived(kind: type[Settings]) -> list[type[Settings]]:
 def _instance(kind: type[Settings]) -> Settings:
     """One with defaults; what has none is 1."""
     return kind(**{f.name: 1.0 for f in fields(kind) if f.default is MISSING and f.default_factory is MISSING})
+
+
+def test_a_word_may_stand_instead_of_a_number_or_a_list() -> None:
+    class Drawn(Settings):
+        mass: float | str = number(1.0, "kg", 0.5, 2.0, ("random",))
+        place: tuple[float, ...] | str = tables("a list [x, y]", ("random",))
+
+    assert (Drawn(mass="random").mass, Drawn(mass="1.5 kg").mass, Drawn(place="random").place) == (
+        "random",
+        1.5,
+        "random",
+    )
+    assert [told.allowed for told in Drawn.described()] == [
+        'a number 0.5 to 2 or "random"',
+        'a list [x, y] or "random"',
+    ]
+    with pytest.raises(InputError, match=r"'mass' is 'ranndom'; allowed: a number 0.5 to 2 or \"random\"$"):
+        Drawn(mass="ranndom")
+    with pytest.raises(InputError, match="'place' is 'chance'; allowed: a list"):
+        Drawn(place="chance")
+
+
+def test_a_member_of_a_list_is_told_in_si_for_the_body() -> None:
+    spring = Spring().for_body(BodyScale(30.0, 0.5, 0.1, 0.05))
+    assert (spring.in_si("0.1 leg", "m"), spring.in_si(0.3, "m"), spring.in_si("left", "m")) == (0.05, 0.3, "left")
+    with pytest.raises(InputError, match=r"a list holds '2 N'; allowed: a number in m$"):
+        spring.in_si("2 N", "m")
