@@ -34,8 +34,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
-        *("terrain", "robots", "model", "judging", "sensing", "contact_models", "figures", "companion", "run"),
-        *("survey", "sweep"),
+        *("terrain", "robots", "plant", "model", "judging", "sensing", "contact_models", "figures", "companion"),
+        *("run", "survey", "sweep"),
     ),
     "shoes": (
         *(

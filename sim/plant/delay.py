@@ -1,0 +1,44 @@
+"""What arrives later than it was sent."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Generic, TypeVar
+
+from plantar.mechanics.same_time import SAME_TIME
+
+__all__ = ["Delay"]
+
+T = TypeVar("T")
+
+
+class Delay(Generic[T]):
+    """Hands on the newest item that is old enough.
+
+    Args:
+        delay: Time in s from when an item is sent until it arrives.
+
+    Example:
+        >>> line = Delay(0.01)
+        >>> [line.passed(0.005 * k, k) for k in range(5)]
+        [0, 0, 0, 1, 2]
+    """
+
+    def __init__(self, delay: float) -> None:
+        self._delay = delay
+        self._sent: deque[tuple[float, T]] = deque()
+
+    def passed(self, time: float, item: T) -> T:
+        """Send an item and take what arrives.
+
+        Args:
+            time: Time in s, which never goes back.
+            item: What is sent.
+
+        Returns:
+            The newest item that was sent at least the delay ago; the first one until that has arrived.
+        """
+        self._sent.append((time, item))
+        while len(self._sent) > 1 and self._sent[1][0] <= time - self._delay + SAME_TIME:
+            self._sent.popleft()
+        return self._sent[0][1]
