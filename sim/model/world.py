@@ -17,6 +17,8 @@ from plantar.sides import SIDES, Side
 from sim.model.body import body_of
 from sim.model.contact_truth import REACH
 from sim.model.leg_model import LegModel
+from sim.plant.body import make_true
+from sim.plant.draw import TruePlant
 from sim.robots.biped import biped_mjcf
 from sim.robots.leg_shapes import COLLIDES, add_leg_shapes, keep_apart
 from sim.robots.model_file import spec_from_file
@@ -198,14 +200,14 @@ class World:
         sole_geoms: Geom ids of each sole.
         sole_sites: Site id of each sole frame.
         torso: Body id of the torso.
-        stiffness: Servo position gains (k,) in N m/rad.
-        damping: Servo velocity gains (k,) in N m s/rad.
+        stiffness: Servo position gains (k,) in N m/rad, as the robot's file says them.
+        damping: Servo velocity gains (k,) in N m s/rad, likewise.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
         touch: Address in sensordata of the normal ground force on each sole; for the judge, not for control.
         leg_contact: Address in sensordata of whether one leg touches the other: above 0; likewise.
-        body: How large the robot is.
+        body: How large the robot is, by its file.
         period: Time step of the physics in s.
         moving_ground: Pieces of ground that move, with their number among the mocap bodies.
         ground_top: Height in m that no ground ever exceeds.
@@ -243,13 +245,14 @@ class World:
             self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
 
-def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD) -> World:
+def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD, plant: TruePlant | None = None) -> World:
     """Build and compile the world.
 
     Args:
         robot: The robot.
         ground: The ground.
         period: Time step of the physics in s.
+        plant: In what robot and ground differ from what these say; None for nothing.
 
     Returns:
         The world in its reference configuration; the runner puts the robot on its feet.
@@ -272,7 +275,10 @@ def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD) ->
     body = body_of(robot, model)
     _soften(model, soles, body, period)
     keep_apart(model, robot)
-    return _world_of(model, robot, ground, body)
+    world = _world_of(model, robot, ground, body)
+    if plant is not None:
+        make_true(model, plant, world.torso, world.servos, soles)
+    return world
 
 
 def _set_solver(spec: Any, period: float) -> None:

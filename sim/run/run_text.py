@@ -16,6 +16,9 @@ Summary = Mapping[str, Any]
 _TOLD = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
 """Settings whose numbers people want to know of a run; the JSON tells all of them."""
 
+_PLANT_UNITS = {"_rad_s": "rad/s", "_m": "m", "_deg": "deg", "_s": "s"}
+"""Units of the true plant's items by the ends of their names in the JSON."""
+
 
 def run_text(summary: Summary) -> str:
     """A run's figures for people.
@@ -33,7 +36,10 @@ def run_text(summary: Summary) -> str:
     )
     files = [f"  {name}" for name in summary.get("figures", [])]
     return "\n".join(
-        [*_outcome(summary), *_shares(summary), *_body(summary), *_joints(summary), *_balance(summary), speed, *files]
+        [
+            *(*_outcome(summary), *_shares(summary), *_plant(summary)),
+            *(*_body(summary), *_joints(summary), *_balance(summary), speed, *files),
+        ]
     )
 
 
@@ -78,6 +84,20 @@ def _shares(summary: Summary) -> list[str]:
     body = summary["body"]
     size = f"{body['mass_kg']:.3g} kg, legs of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
     return textwrap.wrap(f"on {size}: {', '.join(told)}", 118, initial_indent="  ", subsequent_indent="    ")
+
+
+def _plant(summary: Summary) -> list[str]:
+    """In what the true plant differed from the controller's model."""
+    told = []
+    for key, value in summary.get("plant", {}).items():
+        ending = next((e for e in _PLANT_UNITS if key.endswith(e)), "")
+        numbers = value if isinstance(value, list) else [value]
+        size = ", ".join(f"{v:.3g}" for v in numbers)
+        if len(numbers) > 3:
+            size = f"up to {max(map(abs, numbers)):.3g}"
+        told.append(f"{key.removesuffix(ending).replace('_', ' ')} {size} {_PLANT_UNITS.get(ending, '')}".rstrip())
+    words = f"true plant, which the controller does not know: {'; '.join(told)}"
+    return textwrap.wrap(words, 118, initial_indent="  ", subsequent_indent="    ") if told else []
 
 
 def _body(summary: Summary) -> list[str]:

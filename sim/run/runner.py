@@ -32,6 +32,7 @@ from sim.judging.walk_goal import WalkGoal
 from sim.judging.zmp_comparison import ZmpComparison
 from sim.model.body import body_of
 from sim.model.world import World, build_leg_model, build_world, check_stable
+from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
 from sim.run.controller_settings import controller_settings
@@ -99,7 +100,8 @@ class Simulation:
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.ground = ground
-        self.world: World = build_world(robot, ground, scene.control.physics_period)
+        self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
+        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant)
         self.sensors = SensorSuite(
             self.world,
             scene.sensing,
@@ -107,8 +109,9 @@ class Simulation:
             proximity=scene.control.pfc or scene.control.footholds == "skin",
             force_torque=scene.sensing.force_torque
             or "force_torque" in (scene.control.zmp_source, scene.control.feasibility),
+            plant=self.plant,
         )
-        self.servos = LegServos(self.world, self.legs, self.settings.period)
+        self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
         self.pusher = Pusher(scene.push, self.controller.schedule, seed)
         self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
@@ -261,7 +264,8 @@ class Simulation:
             "mass_kg": self.legs.mass,
             "ground": self.ground.seen_from_above(),
             "settings": {
-                name: asdict(getattr(self.scene, name)) for name in ("terrain", "walk", "sensing", "push", "control")
+                name: asdict(getattr(self.scene, name))
+                for name in ("terrain", "walk", "sensing", "push", "control", "plant")
             },
         }
 
@@ -343,6 +347,8 @@ class Simulation:
     def _of_parts(self, landings: list[float], balance: dict[str, Any]) -> dict[str, Any]:
         """What only some scenes have to say."""
         found: dict[str, Any] = {}
+        if self.plant is not None:
+            found["plant"] = self.plant.summary()
         if self.speeds is not None:
             found["velocity"] = self.speeds.summary(landings)
         footholds = self.foothold_truth.summary()

@@ -24,6 +24,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
+from sim.plant.settings import Plant
 from sim.sensing.settings import Sensing
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
 
@@ -210,6 +211,7 @@ SECTIONS: dict[str, type[Settings]] = {
     "sensing": Sensing,
     "push": Push,
     "control": Control,
+    "plant": Plant,
 }
 """Settings class of each table of a scene; `terrain` has the one of its kind."""
 
@@ -222,6 +224,7 @@ _ALIASES: Mapping[str, str] = {
     "t_ds": "walk.double_support",
     "noise": "sensing.force_noise",
     "delay": "sensing.delay_periods",
+    "plant": "plant.draw",
 }
 
 
@@ -239,6 +242,7 @@ class Scene:
         push: Disturbance.
         control: Switches.
         controller: Settings of the controller's parts by table and name (`gait.controller_tables`), as far as given.
+        plant: In what the true robot and ground differ from what the controller takes them for.
     """
 
     name: str
@@ -250,6 +254,7 @@ class Scene:
     push: Push
     control: Control
     controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    plant: Plant = field(default_factory=Plant)
 
     def for_body(self, body: BodyScale) -> Scene:
         """The scene for a robot: what it states as shares of a body is told for this one.
@@ -297,6 +302,8 @@ def override(source: Mapping[str, Any], settings: Sequence[str]) -> dict[str, An
         {'walk': {'steps': 4}, 'control': {'feedback': False}}
     """
     result = {k: dict(v) if isinstance(v, Mapping) else v for k, v in source.items()}
+    if isinstance(result.get("plant"), str):
+        result["plant"] = {"draw": result["plant"]}
     pairs: list[tuple[str, str]] = []
     for setting in settings:
         key, text = split_setting(setting)

@@ -9,6 +9,8 @@ from gait.controller import Command
 from plantar.sides import SIDES
 from sim.model.leg_model import LegModel
 from sim.model.world import World
+from sim.plant.draw import TruePlant
+from sim.plant.drives import TrueDrives
 
 __all__ = ["LegServos"]
 
@@ -31,12 +33,13 @@ class LegServos:
         world: The world.
         legs: Kinematics of the robot.
         period: Control period in s.
+        plant: In what the true drives differ from what these servos are taken to be; None for nothing.
 
     Attributes:
         out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
     """
 
-    def __init__(self, world: World, legs: LegModel, period: float) -> None:
+    def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
         self._world = world
         self._legs = legs
         self._period = period
@@ -49,6 +52,7 @@ class LegServos:
         self._slow = _SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
+        self._drives = None if plant is None else TrueDrives(plant)
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -61,7 +65,7 @@ class LegServos:
         self._last = joints.copy()
         self._setpoint = joints + torques / self._world.stiffness
         self._rate = np.zeros_like(joints)
-        self._controls[self._world.servos] = self._setpoint
+        self._write()
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
@@ -98,5 +102,12 @@ class LegServos:
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""
-        self._controls[self._world.servos] = self._setpoint
+        self._write()
         self._setpoint = self._setpoint + self._rate
+
+    def _write(self) -> None:
+        """Hand the set-points to the servos, as far as these get them."""
+        setpoint = self._setpoint
+        if self._drives is not None:
+            setpoint = self._drives.followed(float(self._world.data.time), setpoint)
+        self._controls[self._world.servos] = setpoint

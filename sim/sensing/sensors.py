@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -15,6 +16,9 @@ from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 from sim.model.contact_truth import ContactSet, feet_contacts
 from sim.model.world import World
+from sim.plant.delay import Delay
+from sim.plant.draw import TruePlant
+from sim.plant.taxels import TaxelErrors
 from sim.robots.robot import Robot
 from sim.sensing.proximity import ProximitySensor, SoleProximity
 from sim.sensing.settings import Sensing
@@ -34,10 +38,18 @@ class SensorSuite:
         seed: Seed of all noise; each sensor draws from its own stream.
         proximity: Whether the soles have proximity sensors that somebody uses.
         force_torque: Whether the ankles have force-torque sensors that somebody uses.
+        plant: What sensors read wrong that are not as they are taken to be; None for nothing.
     """
 
     def __init__(
-        self, world: World, sensing: Sensing, seed: int, *, proximity: bool = False, force_torque: bool = False
+        self,
+        world: World,
+        sensing: Sensing,
+        seed: int,
+        *,
+        proximity: bool = False,
+        force_torque: bool = False,
+        plant: TruePlant | None = None,
     ) -> None:
         self._world = world
         self._sensing = sensing
@@ -59,9 +71,12 @@ class SensorSuite:
                 SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
                 np.random.default_rng(stream),
                 self.proximity.get(side),
+                _errors(world, plant, side),
             )
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }
+        self._plant = plant
+        self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
 
@@ -82,18 +97,29 @@ class SensorSuite:
         return feet
 
     def read_body(self) -> Sensors:
-        """Read encoders and IMU, with the soles' latest readings."""
+        """Read encoders and IMU, with the soles' latest readings: what of it has arrived by now."""
+        read = self._read_now()
+        if self._line is None:
+            return read
+        return replace(self._line.passed(read.time, read), time=read.time)
+
+    def _read_now(self) -> Sensors:
+        """What encoders and IMU read at this instant, with the soles' latest readings."""
         w, s, rng = self._world, self._sensing, self._body_noise
         k = len(w.joint_qpos)
         noise = rng.standard_normal(k + 6)
         data = w.data
         gyro = data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3]
         specific = data.sensordata[w.accelerometer : w.accelerometer + 3] + s.accelerometer_noise * noise[k + 3 :]
+        joints = data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k]
+        if self._plant is not None:
+            gyro = gyro + self._plant.gyro_bias
+            joints = joints + self._plant.encoder_offsets
         if self._imu_to_base is not None:
             gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
         return Sensors(
             time=float(data.time),
-            joint_positions=data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k],
+            joint_positions=joints,
             gyro=gyro,
             accelerometer=specific,
             readings=dict(self.readings),
@@ -126,6 +152,13 @@ def _skin(world: World, side: Side) -> SoleSkin:
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole
     return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach)
+
+
+def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:
+    """What the taxels of one sole make of the forces on them."""
+    if plant is None:
+        return None
+    return TaxelErrors(world.robot.layouts[side], plant.taxel_gains[side], plant.crosstalk)
 
 
 def _proximity(

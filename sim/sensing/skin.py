@@ -23,6 +23,7 @@ from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.reading import Reading
 from sim.model.contact_truth import REACH, ContactSet, foot_contacts
+from sim.plant.taxels import TaxelErrors
 from sim.sensing.proximity import ProximitySensor
 from sim.sensing.sole_pressure import SolePressure
 
@@ -143,6 +144,7 @@ class SkinSensor:
         electronics: Rate, noise, delay and dead taxels.
         rng: Source of the noise; the same seed and calls give the same noise. None needs electronics without noise.
         proximity: Proximity of the same sole, sampled together with the forces; None where the skin has none.
+        errors: What the taxels make of the forces; None for taxels that read what is on them.
 
     Raises:
         InputError: If there is noise and no source of it, or a dead taxel does not exist.
@@ -154,6 +156,7 @@ class SkinSensor:
         electronics: SkinElectronics | None = None,
         rng: np.random.Generator | None = None,
         proximity: ProximitySensor | None = None,
+        errors: TaxelErrors | None = None,
     ) -> None:
         electronics = electronics or SkinElectronics()
         if rng is None and electronics.noise_std_N > 0.0:
@@ -170,6 +173,7 @@ class SkinSensor:
         self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
         self.proximity = proximity
         self._rng = rng
+        self._errors = errors
         self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
         self._start = 0.0
         self._taken = 0
@@ -207,6 +211,8 @@ class SkinSensor:
     def _forces(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
         force = self.skin.taxel_forces(data, contacts)
+        if self._errors is not None:
+            force = self._errors.felt(force)
         if self._rng is not None and self.noise_std > 0.0:
             force = force + self._rng.normal(0.0, self.noise_std, len(force))
         force = np.minimum(np.maximum(force, self.range[0]), self.range[1])

@@ -1,0 +1,127 @@
+"""Sensors and drives of the true plant: what they add, and that what comes late is what was, unchanged."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.settings.body_scale import REFERENCE_BODY
+from plantar.sides import SIDES
+from sim.model.world import World
+from sim.plant.delay import Delay
+from sim.plant.draw import TruePlant, drawn_plant
+from sim.plant.drives import TrueDrives
+from sim.plant.settings import Plant
+from sim.plant.taxels import TaxelErrors
+from sim.robots import load_robot
+from sim.run.runner import Simulation
+from sim.run.scene import load_scene
+from sim.sensing.sensors import SensorSuite
+from sim.sensing.settings import Sensing
+
+QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
+LAYOUTS = load_robot("h1").layouts
+
+
+def plant_of(**settings: object) -> TruePlant:
+    found = drawn_plant(Plant(**settings), 2, REFERENCE_BODY, 12, LAYOUTS)
+    assert found is not None
+    return found
+
+
+def test_gyro_and_encoders_read_too_much_by_what_is_stated(world: World) -> None:
+    plant = plant_of(gyro_bias=(0.01, -0.02, 0.03), encoder_offset=0.3)
+    world.data.qvel[3:6] = (0.1, 0.2, 0.3)
+    mujoco.mj_forward(world.model, world.data)
+    suites = [SensorSuite(world, QUIET, 0, plant=true) for true in (None, plant)]
+    for suite in suites:
+        suite.read_skins()
+    nominal, true = (suite.read_body() for suite in suites)
+    assert true.gyro - nominal.gyro == pytest.approx([0.01, -0.02, 0.03], abs=1e-12)
+    assert true.joint_positions - nominal.joint_positions == pytest.approx(plant.encoder_offsets, abs=1e-12)
+    assert np.array_equal(true.accelerometer, nominal.accelerometer)
+
+
+def test_what_is_read_late_is_what_was_read_then(world: World) -> None:
+    suites = [SensorSuite(world, QUIET, 0, plant=true) for true in (None, plant_of(sensor_delay=0.01))]
+    now, late = [], []
+    for k in range(60):
+        mujoco.mj_step(world.model, world.data)
+        if k % 4 == 0:
+            for suite in suites:
+                suite.read_skins()
+        if k % 5 == 0:
+            now.append(suites[0].read_body())
+            late.append(suites[1].read_body())
+    assert [s.time for s in late] == [s.time for s in now]
+    for earlier, arrived in zip([now[0], now[0], *now], late, strict=False):
+        assert np.array_equal(arrived.joint_positions, earlier.joint_positions)
+        assert np.array_equal(arrived.gyro, earlier.gyro)
+        assert np.array_equal(arrived.accelerometer, earlier.accelerometer)
+        assert all(arrived.readings[side].time == earlier.readings[side].time for side in SIDES)
+    assert not np.array_equal(now[0].joint_positions, now[-1].joint_positions)
+
+
+def test_drives_follow_the_shifted_set_points() -> None:
+    drives = TrueDrives(plant_of(actuation_delay=0.007))
+    sent = np.random.default_rng(0).normal(size=(40, 12))
+    followed = [drives.followed(0.001 * k, row) for k, row in enumerate(sent)]
+    assert np.array_equal(followed, [sent[max(0, k - 7)] for k in range(40)])
+
+
+def test_a_delay_between_samples_waits_for_the_next_one() -> None:
+    line: Delay[int] = Delay(0.012)
+    assert [line.passed(0.005 * k, k) for k in range(6)] == [0, 0, 0, 0, 1, 2]
+    none: Delay[int] = Delay(0.0)
+    assert [none.passed(0.1 * k, k) for k in range(3)] == [0, 1, 2]
+
+
+def test_a_joint_stands_off_by_its_encoder_s_error_and_reads_as_if_it_did_not() -> None:
+    nominal, true = (
+        Simulation(load_scene("flat", ["steps=0", "encoder_noise=0", f"encoder_offset={most}"]), 3) for most in (0, 0.1)
+    )
+    read = []
+    for simulation in (nominal, true):
+        simulation.sensors.read_skins()
+        read.append(simulation.sensors.read_body().joint_positions)
+    assert true.plant is not None
+    off = true.plant.encoder_offsets
+    # Both feet stand on the ground, so the joints cannot all go their own way: most of each error shows.
+    moved = true.world.data.qpos[true.world.joint_qpos] - nominal.world.data.qpos[nominal.world.joint_qpos]
+    assert moved @ -off / (off @ off) > 0.6
+    assert np.abs(read[1] - read[0]).max() < np.abs(moved).max()
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_crosstalk_keeps_the_sum_and_goes_to_neighbours_alone(side: str) -> None:
+    layout = LAYOUTS["left" if side == "left" else "right"]
+    errors = TaxelErrors(layout, np.ones(len(layout)), 0.1)
+    for i, force in enumerate(100.0 * np.eye(len(layout))):
+        felt = errors.felt(force)
+        assert felt.sum() == pytest.approx(100.0)
+        assert felt[i] == pytest.approx(90.0)
+        assert set(np.flatnonzero(felt)) == {i, *layout.neighbours[i]}
+
+
+def test_taxels_read_their_gain_times_what_is_on_them() -> None:
+    plant = plant_of(taxel_gain=0.2)
+    force = np.linspace(1.0, 5.0, len(LAYOUTS["left"]))
+    felt = TaxelErrors(LAYOUTS["left"], plant.taxel_gains["left"], 0.0).felt(force)
+    assert felt / force == pytest.approx(plant.taxel_gains["left"])
+    assert not np.array_equal(plant.taxel_gains["left"], plant.taxel_gains["right"])
+
+
+def test_a_sole_s_reading_has_the_errors_of_its_taxels() -> None:
+    world = Simulation(load_scene("flat", ["steps=0"]), 0).world
+    mujoco.mj_forward(world.model, world.data)
+    plant = plant_of(taxel_gain=0.2, crosstalk=0.1)
+    suites = [SensorSuite(world, replace(QUIET), 0, plant=true) for true in (None, plant)]
+    for suite in suites:
+        suite.read_skins()
+    for side in SIDES:
+        clean, felt = (suite.readings[side].force for suite in suites)
+        errors = TaxelErrors(LAYOUTS[side], plant.taxel_gains[side], 0.1)
+        assert felt == pytest.approx(errors.felt(clean))
