@@ -202,6 +202,8 @@ class World:
         torso: Body id of the torso.
         stiffness: Servo position gains (k,) in N m/rad, as the robot's file says them.
         damping: Servo velocity gains (k,) in N m s/rad, likewise.
+        joint_damping: Damping (k,) in N m s/rad that the joints have by themselves, as the robot's model says it.
+        joint_friction: Dry friction (k,) in N m of the joints, likewise.
         gyro: Address of the gyro in sensordata.
         accelerometer: Address of the accelerometer in sensordata.
         ankle_wrench: Addresses in sensordata of force and torque of each ankle's sensor.
@@ -224,6 +226,8 @@ class World:
     torso: int
     stiffness: NDArray[np.float64]
     damping: NDArray[np.float64]
+    joint_damping: NDArray[np.float64]
+    joint_friction: NDArray[np.float64]
     gyro: int
     accelerometer: int
     ankle_wrench: dict[Side, tuple[int, int]]
@@ -320,18 +324,21 @@ def _world_of(model: Any, robot: Robot, ground: Ground, body: BodyScale) -> Worl
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     ids = [model.joint(name).id for name in joints]
     servos = _servos_of(model, robot, joints, ids)
+    dofs = model.jnt_dofadr[ids].astype(np.int64)
     return World(
         model=model,
         data=mujoco.MjData(model),
         robot=robot,
         joint_qpos=model.jnt_qposadr[ids].astype(np.int64),
-        joint_qvel=model.jnt_dofadr[ids].astype(np.int64),
+        joint_qvel=dofs,
         servos=servos,
         sole_geoms={s: (model.geom(f"{s}_sole_box").id,) for s in SIDES},
         sole_sites={s: model.site(robot.legs[s].sole_site).id for s in SIDES},
         torso=model.body(robot.torso_body).id,
         stiffness=model.actuator_gainprm[servos, 0].copy(),
         damping=-model.actuator_biasprm[servos, 2].copy(),
+        joint_damping=model.dof_damping[dofs].copy(),
+        joint_friction=model.dof_frictionloss[dofs].copy(),
         gyro=int(model.sensor("imu_gyro").adr[0]),
         accelerometer=int(model.sensor("imu_accelerometer").adr[0]),
         ankle_wrench={

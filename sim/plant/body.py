@@ -18,9 +18,7 @@ from sim.plant.draw import TruePlant
 __all__ = ["make_true"]
 
 
-def make_true(
-    model: Any, plant: TruePlant, torso: int, servos: Sequence[int] | NDArray[np.int64], touching: Sequence[str]
-) -> None:
+def make_true(model: Any, plant: TruePlant, torso: int, servos: NDArray[np.int64], touching: Sequence[str]) -> None:
     """Change a compiled model into that of the true plant.
 
     Args:
@@ -34,6 +32,7 @@ def make_true(
     _move_com(model, plant.com_offset, torso)
     model.actuator_gainprm[servos, 0] *= plant.stiffness_ratio
     model.actuator_biasprm[servos, 1] *= plant.stiffness_ratio
+    model.dof_frictionloss[model.jnt_dofadr[model.actuator_trnid[servos, 0]]] += plant.joint_friction
     contacts = [model.geom(name).id for name in touching]
     model.geom_friction[contacts, 0] *= plant.friction_ratio
     model.geom_solref[contacts, 0] = np.hypot(model.geom_solref[contacts, 0], plant.softness)

@@ -75,6 +75,9 @@ RANGES: Mapping[str, Range] = {
     "crosstalk": Range(0.1, "1", _whole),
     "sensor_delay": Range(0.01, "s", _whole),
     "actuation_delay": Range(0.01, "s", _whole),
+    "joint_friction": Range(0.005, "weight leg", _up_to),  # 2.5 N m on h1, 1.8 % of its knee's limit
+    "backlash": Range(0.1, "deg", _up_to),
+    "torque_ripple": Range(0.05, "1", _whole),
 }
 """What each item is drawn from. What can be bought or met (IMU, encoders, electronics, ground) has limits in SI, for
 every robot the same; a length of the robot has one that grows with it."""
@@ -96,6 +99,9 @@ class TruePlant:
         crosstalk: Share of each taxel's force that its neighbours feel instead.
         sensor_delay: Time in s from a reading until the controller has it.
         actuation_delay: Time in s from a set-point until its servo follows it.
+        joint_friction: Dry friction of each leg joint in N m, beside what the model has.
+        backlash: Play of each leg joint's gear in rad.
+        torque_ripple: Share by which a servo's torque swings as its joint turns.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -109,6 +115,9 @@ class TruePlant:
     crosstalk: float
     sensor_delay: float
     actuation_delay: float
+    joint_friction: float
+    backlash: float
+    torque_ripple: float
 
     def summary(self) -> dict[str, Any]:
         """What differs, for a run's summary: nothing of what is nominal."""
@@ -125,6 +134,9 @@ class TruePlant:
             "crosstalk": (_rounded(self.crosstalk), 0.0),
             "sensor_delay_s": (_rounded(self.sensor_delay), 0.0),
             "actuation_delay_s": (_rounded(self.actuation_delay), 0.0),
+            "joint_friction_Nm": (_rounded(self.joint_friction), 0.0),
+            "backlash_deg": (_rounded(math.degrees(self.backlash)), 0.0),
+            "torque_ripple": (_rounded(self.torque_ripple), 0.0),
         }
         return {name: value for name, (value, nominal) in told.items() if np.any(np.array(value) != nominal)}
 
@@ -150,6 +162,7 @@ def drawn_plant(
     plant = plant.for_body(body)
     values = {name: _value(plant, name, seed) for name in plant.items()}
     most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
+    values["backlash"] = math.radians(values["backlash"])
     gains = _stream(seed, "gains")
     found = TruePlant(
         encoder_offsets=most * _stream(seed, "zeros").uniform(-1.0, 1.0, joints),

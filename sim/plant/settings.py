@@ -9,10 +9,16 @@ from typing import Any, Self
 from plantar.errors import InputError, PlantarError
 from plantar.settings.schema import Settings, choice, number, tables
 
-__all__ = ["RANDOM", "Plant"]
+__all__ = ["EVERYTHING", "RANDOM", "Plant"]
 
 RANDOM = "random"
 """What stands instead of a number that the seed draws."""
+
+EVERYTHING = "everything"
+"""What draws all items, those of wear and of poor ground, too."""
+
+_LAST_OF_CARE = "actuation_delay"
+"""The last of the items that a robot has that was built and calibrated with care; wear and poor ground follow."""
 
 _WORDS = (RANDOM,)
 _LARGEST = {"gyro_bias": ("rad/s", 1.0), "com_offset": ("m", 0.5)}
@@ -26,8 +32,9 @@ class Plant(Settings):
     (`sim.plant.draw.LIMITS`). Robot, sensors and ground are made so; the controller is told none of it.
 
     Attributes:
-        draw: With "random" all that the table does not state is drawn: `plant = "random"` in a scene, `--set
-            plant=random`.
+        draw: With "random" what a robot has that was built and calibrated with care is drawn, as far as the table does
+            not state it (all down to `actuation_delay`): `plant = "random"` in a scene, `--set plant=random`. With
+            "everything" all items are, those of wear and of poor ground, too.
         level: How much what is drawn may differ, in proportion: 2 is a robot that was built and calibrated with
             ordinary care, 1 half of that, 3 half more; 0 is nominal.
         gyro_bias: What the gyro reads too much about each of its axes, [x, y, z] in rad/s.
@@ -44,9 +51,12 @@ class Plant(Settings):
         sensor_delay: Time in s from when encoders, IMU, ankles and soles are read until the controller has it, up to
             the next control tick; it comes on top of `sensing.delay_periods`.
         actuation_delay: Time in s from a set-point until its servo follows it, to the next physics step.
+        joint_friction: Dry friction of each leg joint in N m, beside what the model has.
+        backlash: Play of each leg joint's gear: so far it moves from one flank to the other while no torque passes.
+        torque_ripple: Share by which a servo's torque swings as its joint turns, with the teeth of its gear.
     """
 
-    draw: str = choice("nominal", RANDOM)
+    draw: str = choice("nominal", RANDOM, EVERYTHING)
     level: float = number(2.0, "1", 0, 3)
     gyro_bias: tuple[float, ...] | str = tables("a list [x, y, z] of -1 to 1 rad/s", _WORDS)
     com_offset: tuple[float | str, ...] | str = tables("a list [forward, left, up] of -0.5 to 0.5 m", _WORDS)
@@ -59,16 +69,22 @@ class Plant(Settings):
     crosstalk: float | str = number(0.0, "1", 0, 0.9, _WORDS)
     sensor_delay: float | str = number(0.0, "s", 0, 0.1, _WORDS)
     actuation_delay: float | str = number(0.0, "s", 0, 0.1, _WORDS)
+    joint_friction: float | str = number(0.0, "N m", 0, 100, _WORDS)
+    backlash: float | str = number(0.0, "deg", 0, 5, _WORDS)
+    torque_ripple: float | str = number(0.0, "1", 0, 0.9, _WORDS)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in _LARGEST:
             self.vector(name)
-        if self.draw == RANDOM:
-            nominal = {item.name: item for item in self.__dataclass_fields__.values()}
-            for name in self.items():
-                if getattr(self, name) == nominal[name].default:
-                    object.__setattr__(self, name, RANDOM)
+        for name in self._drawn_as_a_whole():
+            if getattr(self, name) == self.__dataclass_fields__[name].default:
+                object.__setattr__(self, name, RANDOM)
+
+    def _drawn_as_a_whole(self) -> tuple[str, ...]:
+        """Names of what `draw` draws."""
+        last = {RANDOM: self.items().index(_LAST_OF_CARE) + 1, EVERYTHING: None}
+        return self.items()[: last[self.draw]] if self.draw in last else ()
 
     @classmethod
     def items(cls) -> tuple[str, ...]:
@@ -77,7 +93,7 @@ class Plant(Settings):
 
     @classmethod
     def from_table(cls, table: Any, where: str, error: type[PlantarError] = InputError, note: str = "") -> Self:
-        """Make the settings from a table; where `draw` is "random", what it states stays as stated, also if nominal.
+        """Make the settings from a table; where `draw` draws the rest, what it states stays as stated, also if nominal.
 
         Args:
             table: Values by name.
@@ -92,7 +108,7 @@ class Plant(Settings):
             PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
         """
         found = super().from_table(table, where, error, note)
-        if isinstance(table, Mapping) and found.draw == RANDOM:
+        if isinstance(table, Mapping) and found.draw != "nominal":
             stated = super().from_table({**table, "draw": "nominal"}, where, error, note)
             for name in cls.items():
                 if name in table:

@@ -16,7 +16,7 @@ Summary = Mapping[str, Any]
 _TOLD = ("terrain.", "push.", "walk.length", "walk.sideways", "walk.swing_height")
 """Settings whose numbers people want to know of a run; the JSON tells all of them."""
 
-_PLANT_UNITS = {"_rad_s": "rad/s", "_m": "m", "_deg": "deg", "_s": "s"}
+_PLANT_UNITS = {"_rad_s": "rad/s", "_Nm": "N m", "_m": "m", "_N": "N", "_deg": "deg", "_s": "s"}
 """Units of the true plant's items by the ends of their names in the JSON."""
 
 

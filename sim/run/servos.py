@@ -47,12 +47,12 @@ class LegServos:
         self._controls = world.data.ctrl
         self._setpoint = np.zeros(len(world.servos))
         self._rate = np.zeros(len(world.servos))
-        self._velocity_gain = world.damping + world.model.dof_damping[world.joint_qvel]
-        self._friction = world.model.dof_frictionloss[world.joint_qvel]
+        self._velocity_gain = world.damping + world.joint_damping
+        self._friction = world.joint_friction
         self._slow = _SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
-        self._drives = None if plant is None else TrueDrives(plant)
+        self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -109,5 +109,8 @@ class LegServos:
         """Hand the set-points to the servos, as far as these get them."""
         setpoint = self._setpoint
         if self._drives is not None:
-            setpoint = self._drives.followed(float(self._world.data.time), setpoint)
+            data, w = self._world.data, self._world
+            setpoint = self._drives.followed(
+                float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
+            )
         self._controls[self._world.servos] = setpoint

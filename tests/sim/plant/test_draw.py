@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import fields
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES
 from sim.plant.draw import RANGES, TruePlant, drawn_plant
-from sim.plant.settings import RANDOM, Plant
+from sim.plant.settings import EVERYTHING, RANDOM, Plant
 from sim.robots import load_robot
 
 LAYOUTS = load_robot("h1").layouts
@@ -24,7 +25,7 @@ def drawn(plant: Plant, seed: int, body: BodyScale = REFERENCE_BODY) -> TruePlan
 
 
 def everything(level: float) -> Plant:
-    return Plant(draw=RANDOM, level=level)
+    return Plant(draw=EVERYTHING, level=level)
 
 
 def same(one: TruePlant, other: TruePlant, name: str) -> bool:
@@ -45,10 +46,10 @@ def test_level_0_and_nothing_stated_are_the_nominal_plant() -> None:
 
 
 def test_the_seed_decides() -> None:
-    names = [f.name for f in fields(TruePlant)]
+    names = [f.name for f in fields(TruePlant) if f.name != "seed"]
     first, again, other = drawn(everything(2.0), 3), drawn(everything(2.0), 3), drawn(everything(2.0), 4)
     assert all(same(first, again, name) for name in names)
-    whole = {"crosstalk", "sensor_delay", "actuation_delay"}
+    whole = {"crosstalk", "sensor_delay", "actuation_delay", "torque_ripple"}
     assert {name for name in names if same(first, other, name)} == whole
 
 
@@ -64,6 +65,8 @@ def test_at_level_2_draws_fill_the_stated_ranges() -> None:
         ("stiffness_ratio", 0.5, 1.0),
         ("friction_ratio", 0.4, 1.0),
         ("softness", 0.0, 0.03),
+        ("joint_friction", 0.0, 0.005 * REFERENCE_BODY.weight * REFERENCE_BODY.leg),
+        ("backlash", 0.0, math.radians(0.1)),
     ):
         values = np.array([getattr(p, name) for p in plants])
         edge = 0.03 * (high - low)

@@ -10,17 +10,18 @@ import pytest
 
 from plantar.settings.body_scale import REFERENCE_BODY
 from plantar.sides import SIDES
-from sim.model.world import World
+from sim.model.world import World, build_world
 from sim.plant.delay import Delay
 from sim.plant.draw import TruePlant, drawn_plant
-from sim.plant.drives import TrueDrives
+from sim.plant.drives import RIPPLES, TrueDrives
 from sim.plant.settings import Plant
 from sim.plant.taxels import TaxelErrors
-from sim.robots import load_robot
+from sim.robots import Robot, load_robot
 from sim.run.runner import Simulation
 from sim.run.scene import load_scene
 from sim.sensing.sensors import SensorSuite
 from sim.sensing.settings import Sensing
+from sim.terrain import Ground
 
 QUIET = Sensing(force_noise=0.0, encoder_noise=0.0, gyro_noise=0.0, accelerometer_noise=0.0)
 LAYOUTS = load_robot("h1").layouts
@@ -30,6 +31,64 @@ def plant_of(**settings: object) -> TruePlant:
     found = drawn_plant(Plant(**settings), 2, REFERENCE_BODY, 12, LAYOUTS)
     assert found is not None
     return found
+
+
+STILL = np.zeros(12)
+STIFFNESS, DAMPING = np.full(12, 2000.0), np.full(12, 40.0)
+
+
+def drives_of(**settings: object) -> TrueDrives:
+    return TrueDrives(plant_of(**settings), STIFFNESS, DAMPING)
+
+
+def torques(drives: TrueDrives, setpoint: np.ndarray, joints: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+    """What a servo of nominal gains makes of what the drives tell it."""
+    return STIFFNESS * (drives.followed(0.0, setpoint, joints, speeds) - joints) - DAMPING * speeds
+
+
+def test_a_joint_moves_freely_by_its_play_and_winds_up_from_there() -> None:
+    drives = drives_of(backlash=0.2)
+    play = np.radians(0.2)
+    errors = np.linspace(-2.0 * play, 2.0 * play, 401)
+    torque = np.array([torques(drives, STILL, np.full(12, -e), STILL)[0] for e in errors])
+    free = errors[np.abs(torque) < 1e-9]
+    assert np.ptp(free) == pytest.approx(play, rel=0.02)
+    assert torque[-1] == pytest.approx(2000.0 * 1.5 * play)
+    assert np.diff(torque).min() > -1e-9
+    # A load that turns round moves the joint by the play more than an ideal servo's.
+    there, back = (float(np.interp(load, torque, -errors)) for load in (2.0, -2.0))
+    assert back - there == pytest.approx(2.0 * 2.0 / 2000.0 + play, rel=1e-3)
+
+
+def test_the_torque_swings_by_its_ripple_about_what_was_asked() -> None:
+    drives = drives_of(torque_ripple=0.05)
+    angles = np.linspace(0.0, 2.0 * np.pi / RIPPLES, 400, endpoint=False)
+    speeds = np.full(12, 0.5)
+    torque = np.array([torques(drives, np.full(12, a + 0.02), np.full(12, a), speeds)[3] for a in angles])
+    asked = 2000.0 * 0.02 - 40.0 * 0.5
+    assert torque.mean() == pytest.approx(asked)
+    assert (torque.max() - asked, asked - torque.min()) == pytest.approx((0.05 * asked, 0.05 * asked), rel=1e-3)
+
+
+def test_a_joint_with_dry_friction_does_not_move_under_less_torque_than_that(h1: Robot) -> None:
+    moved = []
+    for friction, torque in ((0.0, 2.0), (3.0, 2.0), (3.0, 9.0), (3.0, 12.0)):
+        plant = None if friction == 0.0 else plant_of(joint_friction=friction)
+        world = build_world(h1, Ground((), 0.0, 0.8), plant=plant)
+        model, data = world.model, world.data
+        model.opt.gravity[:] = 0.0
+        data.qpos[2] = 3.0  # it hangs in the air
+        model.actuator_gainprm[:, 0], model.actuator_biasprm[:, 1:3] = 1.0, 0.0  # what is told is the torque
+        knee = 3
+        data.ctrl[world.servos[knee]] = torque
+        start = data.qpos[world.joint_qpos[knee]]
+        mujoco.mj_step(model, data, 50)
+        moved.append(float(data.qpos[world.joint_qpos[knee]] - start))
+        assert not world.joint_friction.any()  # what the controller's side goes by
+    free, held, pulled, hard = moved
+    assert held < 0.05 * free
+    # Friction is an offset: what is pulled more moves the joint as much more as it moves one without friction.
+    assert (hard - pulled) / 3.0 == pytest.approx(free / 2.0, rel=0.05)
 
 
 def test_gyro_and_encoders_read_too_much_by_what_is_stated(world: World) -> None:
@@ -66,9 +125,9 @@ def test_what_is_read_late_is_what_was_read_then(world: World) -> None:
 
 
 def test_drives_follow_the_shifted_set_points() -> None:
-    drives = TrueDrives(plant_of(actuation_delay=0.007))
+    drives = drives_of(actuation_delay=0.007)
     sent = np.random.default_rng(0).normal(size=(40, 12))
-    followed = [drives.followed(0.001 * k, row) for k, row in enumerate(sent)]
+    followed = [drives.followed(0.001 * k, row, STILL, STILL) for k, row in enumerate(sent)]
     assert np.array_equal(followed, [sent[max(0, k - 7)] for k in range(40)])
 
 

@@ -18,7 +18,10 @@ def test_nothing_differs_by_default_and_everything_by_one_word() -> None:
     assert load_scene("flat").plant == Plant()
     drawn = load_scene("flat", ["plant=random", "plant.level=3"]).plant
     assert drawn.level == 3.0
-    assert {getattr(drawn, name) for name in drawn.items()} == {RANDOM}
+    care = [name for name in drawn.items() if getattr(drawn, name) == RANDOM]
+    assert (care[0], care[-1], len(care)) == ("gyro_bias", "actuation_delay", 11)
+    every = load_scene("flat", ["plant=everything", "backlash=0"]).plant
+    assert [name for name in every.items() if getattr(every, name) != RANDOM] == ["backlash"]
 
 
 def test_what_is_stated_is_not_drawn_even_where_it_is_nominal() -> None:
@@ -51,7 +54,7 @@ def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:
 @pytest.mark.parametrize(
     ("setting", "allowed"),
     [
-        ("plant=yes", "nominal, random"),
+        ("plant=yes", "nominal, random, everything"),
         ("level=4", "a number 0 to 3"),
         ("mass_ratio=0.4", 'a number 0.5 to 2 or "random"'),
         ("stiffness_ratio=soft", 'a number 0.05 to 5 or "random"'),

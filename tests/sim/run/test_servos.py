@@ -54,7 +54,7 @@ def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulati
     command = standing.controller.step(_sensors(standing))
     asked = []
     for friction in (0.0, 6.0):
-        world.model.dof_frictionloss[world.joint_qvel[knees]] = friction
+        world.joint_friction[knees] = friction
         servos = LegServos(world, standing.legs, 0.005)
         stand = standing.legs.configuration
         for k in range(12):
