@@ -16,7 +16,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from sim.plant.settings import RANDOM, Plant
 
-__all__ = ["RANGES", "Range", "TruePlant", "drawn_plant"]
+__all__ = ["RANGES", "Range", "TruePlant", "drawn_plant", "stream"]
 
 _LEVEL = 2.0  # at which `RANGES` hold
 
@@ -78,6 +78,9 @@ RANGES: Mapping[str, Range] = {
     "joint_friction": Range(0.005, "weight leg", _up_to),  # 2.5 N m on h1, 1.8 % of its knee's limit
     "backlash": Range(0.1, "deg", _up_to),
     "torque_ripple": Range(0.05, "1", _whole),
+    "hysteresis": Range(0.1, "1", _whole),
+    "taxel_drift": Range(0.002, "weight", _whole),  # 1.7 N on h1, as much as a taxel's noise
+    "dropout": Range(0.02, "1", _whole),
 }
 """What each item is drawn from. What can be bought or met (IMU, encoders, electronics, ground) has limits in SI, for
 every robot the same; a length of the robot has one that grows with it."""
@@ -102,6 +105,10 @@ class TruePlant:
         joint_friction: Dry friction of each leg joint in N m, beside what the model has.
         backlash: Play of each leg joint's gear in rad.
         torque_ripple: Share by which a servo's torque swings as its joint turns.
+        hysteresis: Share by which a taxel reads too little under a load that comes on, too much under one that goes.
+        taxel_drifts: Where each taxel's (n,) zero wanders off to as it becomes warm, in N.
+        dropout: Share of the time for which each connector of the soles has no contact.
+        seed: Of what happens by chance while the run goes on.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -118,27 +125,38 @@ class TruePlant:
     joint_friction: float
     backlash: float
     torque_ripple: float
+    hysteresis: float
+    taxel_drifts: Mapping[Side, NDArray[np.float64]]
+    dropout: float
+    seed: int
 
     def summary(self) -> dict[str, Any]:
         """What differs, for a run's summary: nothing of what is nominal."""
-        gains = np.concatenate([self.taxel_gains[side] for side in SIDES])
+        gains, drifts = (
+            np.concatenate([of_soles[side] for side in SIDES]) for of_soles in (self.taxel_gains, self.taxel_drifts)
+        )
         told: dict[str, tuple[Any, float]] = {  # each with its nominal value
-            "gyro_bias_rad_s": (_rounded(self.gyro_bias), 0.0),
-            "com_offset_m": (_rounded(self.com_offset), 0.0),
-            "mass_ratio": (_rounded(self.mass_ratio), 1.0),
-            "encoder_offsets_deg": (_rounded(np.degrees(self.encoder_offsets)), 0.0),
-            "stiffness_ratio": (_rounded(self.stiffness_ratio), 1.0),
-            "friction_ratio": (_rounded(self.friction_ratio), 1.0),
-            "softness_s": (_rounded(self.softness), 0.0),
-            "taxel_gain_spread": (_rounded(gains.std()), 0.0),
-            "crosstalk": (_rounded(self.crosstalk), 0.0),
-            "sensor_delay_s": (_rounded(self.sensor_delay), 0.0),
-            "actuation_delay_s": (_rounded(self.actuation_delay), 0.0),
-            "joint_friction_Nm": (_rounded(self.joint_friction), 0.0),
-            "backlash_deg": (_rounded(math.degrees(self.backlash)), 0.0),
-            "torque_ripple": (_rounded(self.torque_ripple), 0.0),
+            "gyro_bias_rad_s": (self.gyro_bias, 0.0),
+            "com_offset_m": (self.com_offset, 0.0),
+            "mass_ratio": (self.mass_ratio, 1.0),
+            "encoder_offsets_deg": (np.degrees(self.encoder_offsets), 0.0),
+            "stiffness_ratio": (self.stiffness_ratio, 1.0),
+            "friction_ratio": (self.friction_ratio, 1.0),
+            "softness_s": (self.softness, 0.0),
+            "taxel_gain_spread": (gains.std(), 0.0),
+            "crosstalk": (self.crosstalk, 0.0),
+            "sensor_delay_s": (self.sensor_delay, 0.0),
+            "actuation_delay_s": (self.actuation_delay, 0.0),
+            "joint_friction_Nm": (self.joint_friction, 0.0),
+            "backlash_deg": (math.degrees(self.backlash), 0.0),
+            "torque_ripple": (self.torque_ripple, 0.0),
+            "hysteresis": (self.hysteresis, 0.0),
+            "taxel_drift_spread_N": (drifts.std(), 0.0),
+            "dropout": (self.dropout, 0.0),
         }
-        return {name: value for name, (value, nominal) in told.items() if np.any(np.array(value) != nominal)}
+        return {
+            name: _rounded(value) for name, (value, nominal) in told.items() if np.any(np.asarray(value) != nominal)
+        }
 
 
 def drawn_plant(
@@ -161,12 +179,15 @@ def drawn_plant(
     """
     plant = plant.for_body(body)
     values = {name: _value(plant, name, seed) for name in plant.items()}
-    most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
     values["backlash"] = math.radians(values["backlash"])
-    gains = _stream(seed, "gains")
+    most, spread = math.radians(values.pop("encoder_offset")), values.pop("taxel_gain")
+    gains, drifts = (_of_each_taxel(stream(seed, name), layouts) for name in ("gains", "drifts"))
+    drift = values.pop("taxel_drift")
     found = TruePlant(
-        encoder_offsets=most * _stream(seed, "zeros").uniform(-1.0, 1.0, joints),
-        taxel_gains={side: 1.0 + _clipped(spread * gains.standard_normal(len(layouts[side]))) for side in SIDES},
+        encoder_offsets=most * stream(seed, "zeros").uniform(-1.0, 1.0, joints),
+        taxel_gains={side: 1.0 + np.clip(spread * row, -_GAIN_MOST, _GAIN_MOST) for side, row in gains.items()},
+        taxel_drifts={side: drift * row for side, row in drifts.items()},
+        seed=seed,
         **values,
     )
     return found if found.summary() else None
@@ -179,15 +200,24 @@ def _value(plant: Plant, name: str, seed: int) -> Any:
         return np.array(plant.vector(name)) if isinstance(stated, tuple) else stated
     limit, unit, draw = RANGES[name]
     in_si = 1.0 if unit == "deg" else plant.body.in_si(unit)
-    return draw(_stream(seed, name), plant.level / _LEVEL * limit * in_si)
+    return draw(stream(seed, name), plant.level / _LEVEL * limit * in_si)
 
 
-def _clipped(gain: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.clip(gain, -_GAIN_MOST, _GAIN_MOST)
+def _of_each_taxel(chance: np.random.Generator, layouts: Mapping[Side, SoleLayout]) -> dict[Side, NDArray[np.float64]]:
+    """A number of the standard normal distribution for each taxel (n,) of each sole."""
+    return {side: chance.standard_normal(len(layouts[side])) for side in SIDES}
 
 
-def _stream(seed: int, name: str) -> np.random.Generator:
-    """The source of chance of one item."""
+def stream(seed: int, name: str) -> np.random.Generator:
+    """The source of chance of one item.
+
+    Args:
+        seed: Seed of the run.
+        name: Name of what is drawn.
+
+    Returns:
+        The source; another one for every name.
+    """
     return np.random.default_rng([seed, 0x91, zlib.crc32(name.encode())])
 
 

@@ -54,6 +54,11 @@ class Plant(Settings):
         joint_friction: Dry friction of each leg joint in N m, beside what the model has.
         backlash: Play of each leg joint's gear: so far it moves from one flank to the other while no torque passes.
         torque_ripple: Share by which a servo's torque swings as its joint turns, with the teeth of its gear.
+        hysteresis: Share by which a taxel reads too little while its load comes on, and too much while it goes off.
+        taxel_drift: Standard deviation in N of what the taxels' zeros wander off to as they become warm, within
+            minutes; each one's is drawn.
+        dropout: Share of the time for which each connector of the soles has no contact, a tenth of a second at a time:
+            its taxels are silent.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -72,6 +77,9 @@ class Plant(Settings):
     joint_friction: float | str = number(0.0, "N m", 0, 100, _WORDS)
     backlash: float | str = number(0.0, "deg", 0, 5, _WORDS)
     torque_ripple: float | str = number(0.0, "1", 0, 0.9, _WORDS)
+    hysteresis: float | str = number(0.0, "1", 0, 0.9, _WORDS)
+    taxel_drift: float | str = number(0.0, "N", 0, 100, _WORDS)
+    dropout: float | str = number(0.0, "1", 0, 0.5, _WORDS)
 
     def __post_init__(self) -> None:
         super().__post_init__()

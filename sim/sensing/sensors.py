@@ -158,7 +158,7 @@ def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | 
     """What the taxels of one sole make of the forces on them."""
     if plant is None:
         return None
-    return TaxelErrors(world.robot.layouts[side], plant.taxel_gains[side], plant.crosstalk)
+    return TaxelErrors(world.robot.layouts[side], plant, side)
 
 
 def _proximity(

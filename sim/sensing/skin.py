@@ -205,14 +205,17 @@ class SkinSensor:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)
-            self._queue.append(Reading(time=now, force=self._forces(data, contacts), proximity=distance))
+            force = self._forces(data, contacts)
+            if self._errors is not None:
+                self._errors.silence(now, force, distance)
+            self._queue.append(Reading(time=now, force=force, proximity=distance))
         return self._queue[0]
 
     def _forces(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
-            force = self._errors.felt(force)
+            force = self._errors.felt(force, float(data.time))
         if self._rng is not None and self.noise_std > 0.0:
             force = force + self._rng.normal(0.0, self.noise_std, len(force))
         force = np.minimum(np.maximum(force, self.range[0]), self.range[1])

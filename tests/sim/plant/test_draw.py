@@ -30,7 +30,7 @@ def everything(level: float) -> Plant:
 
 def same(one: TruePlant, other: TruePlant, name: str) -> bool:
     a, b = getattr(one, name), getattr(other, name)
-    if name == "taxel_gains":
+    if name in ("taxel_gains", "taxel_drifts"):
         return all(np.array_equal(a[side], b[side]) for side in SIDES)
     return np.array_equal(a, b)
 
@@ -49,7 +49,7 @@ def test_the_seed_decides() -> None:
     names = [f.name for f in fields(TruePlant) if f.name != "seed"]
     first, again, other = drawn(everything(2.0), 3), drawn(everything(2.0), 3), drawn(everything(2.0), 4)
     assert all(same(first, again, name) for name in names)
-    whole = {"crosstalk", "sensor_delay", "actuation_delay", "torque_ripple"}
+    whole = {"crosstalk", "sensor_delay", "actuation_delay", "torque_ripple", "hysteresis", "dropout"}
     assert {name for name in names if same(first, other, name)} == whole
 
 
@@ -91,8 +91,8 @@ def test_the_level_scales_what_is_drawn() -> None:
 @pytest.mark.parametrize("name", Plant.items())
 def test_an_item_that_is_drawn_alone_is_what_it_is_with_all_others(name: str) -> None:
     alone, together = drawn(Plant(**{name: RANDOM}), 11), drawn(everything(2.0), 11)
-    field = {"encoder_offset": "encoder_offsets", "taxel_gain": "taxel_gains"}.get(name, name)
-    assert same(alone, together, field)
+    lists = {"encoder_offset": "encoder_offsets", "taxel_gain": "taxel_gains", "taxel_drift": "taxel_drifts"}
+    assert same(alone, together, lists.get(name, name))
     assert len(alone.summary()) == 1
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import mujoco
 import numpy as np
 import pytest
@@ -15,7 +13,6 @@ from sim.plant.delay import Delay
 from sim.plant.draw import TruePlant, drawn_plant
 from sim.plant.drives import RIPPLES, TrueDrives
 from sim.plant.settings import Plant
-from sim.plant.taxels import TaxelErrors
 from sim.robots import Robot, load_robot
 from sim.run.runner import Simulation
 from sim.run.scene import load_scene
@@ -152,35 +149,3 @@ def test_a_joint_stands_off_by_its_encoder_s_error_and_reads_as_if_it_did_not() 
     moved = true.world.data.qpos[true.world.joint_qpos] - nominal.world.data.qpos[nominal.world.joint_qpos]
     assert moved @ -off / (off @ off) > 0.6
     assert np.abs(read[1] - read[0]).max() < np.abs(moved).max()
-
-
-@pytest.mark.parametrize("side", SIDES)
-def test_crosstalk_keeps_the_sum_and_goes_to_neighbours_alone(side: str) -> None:
-    layout = LAYOUTS["left" if side == "left" else "right"]
-    errors = TaxelErrors(layout, np.ones(len(layout)), 0.1)
-    for i, force in enumerate(100.0 * np.eye(len(layout))):
-        felt = errors.felt(force)
-        assert felt.sum() == pytest.approx(100.0)
-        assert felt[i] == pytest.approx(90.0)
-        assert set(np.flatnonzero(felt)) == {i, *layout.neighbours[i]}
-
-
-def test_taxels_read_their_gain_times_what_is_on_them() -> None:
-    plant = plant_of(taxel_gain=0.2)
-    force = np.linspace(1.0, 5.0, len(LAYOUTS["left"]))
-    felt = TaxelErrors(LAYOUTS["left"], plant.taxel_gains["left"], 0.0).felt(force)
-    assert felt / force == pytest.approx(plant.taxel_gains["left"])
-    assert not np.array_equal(plant.taxel_gains["left"], plant.taxel_gains["right"])
-
-
-def test_a_sole_s_reading_has_the_errors_of_its_taxels() -> None:
-    world = Simulation(load_scene("flat", ["steps=0"]), 0).world
-    mujoco.mj_forward(world.model, world.data)
-    plant = plant_of(taxel_gain=0.2, crosstalk=0.1)
-    suites = [SensorSuite(world, replace(QUIET), 0, plant=true) for true in (None, plant)]
-    for suite in suites:
-        suite.read_skins()
-    for side in SIDES:
-        clean, felt = (suite.readings[side].force for suite in suites)
-        errors = TaxelErrors(LAYOUTS[side], plant.taxel_gains[side], 0.1)
-        assert felt == pytest.approx(errors.felt(clean))
