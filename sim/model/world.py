@@ -281,7 +281,7 @@ def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD, pl
     keep_apart(model, robot)
     world = _world_of(model, robot, ground, body)
     if plant is not None:
-        make_true(model, plant, world.torso, world.servos, soles)
+        make_true(model, plant, world.torso, world.servos, soles, body)
     return world
 
 

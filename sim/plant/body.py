@@ -1,4 +1,4 @@
-"""The true robot and ground in the simulator: mass and where it is, stiffness of the servos, friction and softness.
+"""The true robot in the simulator: its mass and where that is, stiffness of its servos, friction of its joints.
 
 What is changed is the compiled model of the world. The controller has a model of its own (`sim.model.leg_model`), which
 stays the nominal one.
@@ -13,12 +13,21 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.settings.body_scale import BodyScale
 from sim.plant.draw import TruePlant
+from sim.plant.ground import make_ground_true
 
 __all__ = ["make_true"]
 
 
-def make_true(model: Any, plant: TruePlant, torso: int, servos: NDArray[np.int64], touching: Sequence[str]) -> None:
+def make_true(
+    model: Any,
+    plant: TruePlant,
+    torso: int,
+    servos: NDArray[np.int64],
+    touching: Sequence[str],
+    body: BodyScale,
+) -> None:
     """Change a compiled model into that of the true plant.
 
     Args:
@@ -27,15 +36,14 @@ def make_true(model: Any, plant: TruePlant, torso: int, servos: NDArray[np.int64
         torso: Body id of the torso.
         servos: Indices of the legs' actuators.
         touching: Names of the geoms of soles and ground.
+        body: How large the robot is, by its file.
     """
     _scale_mass(model, plant.mass_ratio, torso)
     _move_com(model, plant.com_offset, torso)
     model.actuator_gainprm[servos, 0] *= plant.stiffness_ratio
     model.actuator_biasprm[servos, 1] *= plant.stiffness_ratio
     model.dof_frictionloss[model.jnt_dofadr[model.actuator_trnid[servos, 0]]] += plant.joint_friction
-    contacts = [model.geom(name).id for name in touching]
-    model.geom_friction[contacts, 0] *= plant.friction_ratio
-    model.geom_solref[contacts, 0] = np.hypot(model.geom_solref[contacts, 0], plant.softness)
+    make_ground_true(model, plant, [model.geom(name).id for name in touching], body)
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
 

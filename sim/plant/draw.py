@@ -81,6 +81,9 @@ RANGES: Mapping[str, Range] = {
     "hysteresis": Range(0.1, "1", _whole),
     "taxel_drift": Range(0.002, "weight", _whole),  # 1.7 N on h1, as much as a taxel's noise
     "dropout": Range(0.02, "1", _whole),
+    "rubber": Range(0.03, "sole", _up_to),  # 7 mm on h1
+    "patchiness": Range(0.5, "1", _whole),
+    "reflectance": Range(0.3, "1", _whole),
 }
 """What each item is drawn from. What can be bought or met (IMU, encoders, electronics, ground) has limits in SI, for
 every robot the same; a length of the robot has one that grows with it."""
@@ -108,7 +111,10 @@ class TruePlant:
         hysteresis: Share by which a taxel reads too little under a load that comes on, too much under one that goes.
         taxel_drifts: Where each taxel's (n,) zero wanders off to as it becomes warm, in N.
         dropout: Share of the time for which each connector of the soles has no contact.
-        seed: Of what happens by chance while the run goes on.
+        rubber: Thickness of the layer of foam that each sole ends in, in m.
+        patchiness: Share by which friction and softness may be less from one piece of ground to the next.
+        reflectance: Share by which patches of the ground may be lighter or darker.
+        seed: Of what each piece of ground is like, and of what happens by chance while the run goes on.
     """
 
     gyro_bias: NDArray[np.float64]
@@ -128,6 +134,9 @@ class TruePlant:
     hysteresis: float
     taxel_drifts: Mapping[Side, NDArray[np.float64]]
     dropout: float
+    rubber: float
+    patchiness: float
+    reflectance: float
     seed: int
 
     def summary(self) -> dict[str, Any]:
@@ -153,6 +162,9 @@ class TruePlant:
             "hysteresis": (self.hysteresis, 0.0),
             "taxel_drift_spread_N": (drifts.std(), 0.0),
             "dropout": (self.dropout, 0.0),
+            "rubber_m": (self.rubber, 0.0),
+            "patchiness": (self.patchiness, 0.0),
+            "reflectance": (self.reflectance, 0.0),
         }
         return {
             name: _rounded(value) for name, (value, nominal) in told.items() if np.any(np.asarray(value) != nominal)

@@ -59,6 +59,12 @@ class Plant(Settings):
             minutes; each one's is drawn.
         dropout: Share of the time for which each connector of the soles has no contact, a tenth of a second at a time:
             its taxels are silent.
+        rubber: Thickness in m of a layer of foam that each sole ends in, within the height that it has: it yields, and
+            what presses on an edge or a point spreads over that much more.
+        patchiness: Share by which friction and softness of the ground may be less from one of its pieces (floor, stone,
+            beam) to the next; each one's is drawn.
+        reflectance: Share by which patches of the ground may be lighter or darker than what the proximity sensors were
+            calibrated on; each one's is drawn. What is dark seems farther away.
     """
 
     draw: str = choice("nominal", RANDOM, EVERYTHING)
@@ -80,6 +86,9 @@ class Plant(Settings):
     hysteresis: float | str = number(0.0, "1", 0, 0.9, _WORDS)
     taxel_drift: float | str = number(0.0, "N", 0, 100, _WORDS)
     dropout: float | str = number(0.0, "1", 0, 0.5, _WORDS)
+    rubber: float | str = number(0.0, "m", 0, 0.05, _WORDS)
+    patchiness: float | str = number(0.0, "1", 0, 0.95, _WORDS)
+    reflectance: float | str = number(0.0, "1", 0, 0.95, _WORDS)
 
     def __post_init__(self) -> None:
         super().__post_init__()

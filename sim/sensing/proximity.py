@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from plantar.errors import InputError, RobotError
 from plantar.kernels.ground_rays import cast_rays
 from plantar.layouts.layout import SoleLayout
+from sim.plant.colours import GroundColours
 from sim.terrain import GROUND_GROUP
 
 __all__ = ["ProximitySensor", "SoleProximity"]
@@ -38,6 +39,7 @@ class SoleProximity:
         site: Name of the site that is the sole frame.
         sensing_range: Range of the sensors in m.
         ground_top: Height in m that no ground exceeds; a sole that is farther above it casts no rays.
+        colours: How light the ground is where; None for as light as the sensors were calibrated on.
 
     Raises:
         RobotError: If the model has no such site.
@@ -45,7 +47,13 @@ class SoleProximity:
     """
 
     def __init__(
-        self, model: Any, layout: SoleLayout, site: str, sensing_range: float = 0.05, ground_top: float = math.inf
+        self,
+        model: Any,
+        layout: SoleLayout,
+        site: str,
+        sensing_range: float = 0.05,
+        ground_top: float = math.inf,
+        colours: GroundColours | None = None,
     ) -> None:
         if not (math.isfinite(sensing_range) and sensing_range > 0.0):
             raise InputError(f"proximity range is {sensing_range} m; allowed: a finite value above 0")
@@ -60,6 +68,7 @@ class SoleProximity:
         self._way = np.ascontiguousarray(-axes)
         self._reach = float(np.linalg.norm(layout.positions[:, :2], axis=1).max())
         self._top = ground_top
+        self._colours = colours
         ids = np.flatnonzero(model.geom_group == GROUND_GROUP)
         self._kinds = model.geom_type[ids].astype(np.int32)
         self._simple = bool(np.isin(self._kinds, _SIMPLE).all())
@@ -76,7 +85,8 @@ class SoleProximity:
         return float(data.site_xpos[self._site, 2]) - self._reach * tilt <= self._top + self.range
 
     def distances(self, data: Any) -> NDArray[np.float64]:
-        """Distance (n,) from each taxel to the ground in m, free of noise; inf where nothing is in range.
+        """Distance (n,) from each taxel to the ground in m as its colour shows it, free of noise; inf where nothing is
+        in range.
 
         A taxel that is up to 20 mm inside the ground has a negative distance.
 
@@ -99,7 +109,10 @@ class SoleProximity:
             geom = np.empty(1, dtype=np.int32)
             for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
                 length[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
-        return np.where((length >= 0.0) & (length <= reach), length - _LIFT, np.inf)
+        distance = np.where((length >= 0.0) & (length <= reach), length - _LIFT, np.inf)
+        if self._colours is not None:
+            distance *= self._colours.stretch(starts + length[:, None] * ways)
+        return distance
 
 
 class ProximitySensor:

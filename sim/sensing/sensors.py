@@ -16,6 +16,7 @@ from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 from sim.model.contact_truth import ContactSet, feet_contacts
 from sim.model.world import World
+from sim.plant.colours import GroundColours
 from sim.plant.delay import Delay
 from sim.plant.draw import TruePlant
 from sim.plant.taxels import TaxelErrors
@@ -61,13 +62,14 @@ class SensorSuite:
         dead = {side: _dead_taxels(len(world.robot.layouts[side]), sensing.dead_taxels, chance) for side in SIDES}
         self.proximity: dict[Side, ProximitySensor] = {}
         if proximity:
+            colours = GroundColours(plant) if plant is not None and plant.reflectance else None
             self.proximity = {
-                side: _proximity(world, sensing, side, dead[side], np.random.default_rng(stream))
+                side: _proximity(world, sensing, side, dead[side], np.random.default_rng(stream), colours)
                 for side, stream in zip(SIDES, streams[3:5], strict=True)
             }
         self.skins = {
             side: SkinSensor(
-                _skin(world, side),
+                _skin(world, side, 0.0 if plant is None else plant.rubber),
                 SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
                 np.random.default_rng(stream),
                 self.proximity.get(side),
@@ -147,10 +149,10 @@ def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[
     return chance.permutation(count)[: round(share * count)].tolist()  # type: ignore[no-any-return]
 
 
-def _skin(world: World, side: Side) -> SoleSkin:
-    """The skin of one sole, free of noise."""
+def _skin(world: World, side: Side, foam: float) -> SoleSkin:
+    """The skin of one sole under so much foam in m more than its rubber, free of noise."""
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
-    site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole
+    site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
     return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach)
 
 
@@ -162,11 +164,16 @@ def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | 
 
 
 def _proximity(
-    world: World, sensing: Sensing, side: Side, dead: Collection[int], rng: np.random.Generator
+    world: World,
+    sensing: Sensing,
+    side: Side,
+    dead: Collection[int],
+    rng: np.random.Generator,
+    colours: GroundColours | None,
 ) -> ProximitySensor:
     """The proximity sensors of one sole."""
     site, layout = world.robot.legs[side].sole_site, world.robot.layouts[side]
-    rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top)
+    rays = SoleProximity(world.model, layout, site, sensing.proximity_range, world.ground_top, colours)
     return ProximitySensor(rays, sensing.proximity_noise, sensing.proximity_bias, rng, dead)
 
 

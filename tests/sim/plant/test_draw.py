@@ -49,7 +49,16 @@ def test_the_seed_decides() -> None:
     names = [f.name for f in fields(TruePlant) if f.name != "seed"]
     first, again, other = drawn(everything(2.0), 3), drawn(everything(2.0), 3), drawn(everything(2.0), 4)
     assert all(same(first, again, name) for name in names)
-    whole = {"crosstalk", "sensor_delay", "actuation_delay", "torque_ripple", "hysteresis", "dropout"}
+    whole = {
+        "crosstalk",
+        "sensor_delay",
+        "actuation_delay",
+        "torque_ripple",
+        "hysteresis",
+        "dropout",
+        "patchiness",
+        "reflectance",
+    }
     assert {name for name in names if same(first, other, name)} == whole
 
 
@@ -66,6 +75,7 @@ def test_at_level_2_draws_fill_the_stated_ranges() -> None:
         ("friction_ratio", 0.4, 1.0),
         ("softness", 0.0, 0.03),
         ("joint_friction", 0.0, 0.005 * REFERENCE_BODY.weight * REFERENCE_BODY.leg),
+        ("rubber", 0.0, 0.03 * REFERENCE_BODY.sole),
         ("backlash", 0.0, math.radians(0.1)),
     ):
         values = np.array([getattr(p, name) for p in plants])

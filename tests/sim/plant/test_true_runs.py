@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from sim.plant.settings import Plant
 from sim.run.run_text import run_text
 from sim.run.runner import run_scene
 from sim.run.scene import Scene, load_scene
@@ -44,9 +45,9 @@ def test_a_plant_that_differs_is_told_and_moves_otherwise(short_run: tuple[Any, 
 
 @pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
 def test_a_plant_that_is_drawn_whole_is_simulated_and_the_seed_repeats_it(robot: str) -> None:
-    scene = load_scene("flat", ["steps=1", "settle=0.1", "plant=random", "plant.level=3"], robot)
+    scene = load_scene("flat", ["steps=1", "settle=0.1", "plant=everything", "plant.level=3"], robot)
     first, again = run_scene(scene, 4), run_scene(scene, 4)
-    assert len(first["plant"]) == 11
+    assert len(first["plant"]) == len(Plant.items())
     assert motion(first) == motion(again)
     assert first["plant"] != run_scene(scene, 5)["plant"]
 
@@ -61,5 +62,12 @@ def imports_plant(path: Path) -> bool:
 def test_the_world_its_sensors_and_its_servos_alone_know_the_true_plant() -> None:
     knowing = {path.relative_to(SIM).as_posix() for path in SIM.rglob("*.py") if imports_plant(path)}
     outside = {name for name in knowing if not name.startswith("plant/")}
-    assert outside == {"model/world.py", "run/runner.py", "run/servos.py", "sensing/sensors.py", "sensing/skin.py"}
+    assert outside == {
+        "model/world.py",
+        "run/runner.py",
+        "run/servos.py",
+        "sensing/proximity.py",
+        "sensing/sensors.py",
+        "sensing/skin.py",
+    }
     assert "plant" not in (SIM / "run" / "controller_settings.py").read_text(encoding="utf-8").replace("plantar", "")
