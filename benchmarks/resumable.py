@@ -54,6 +54,7 @@ class Case(NamedTuple):
         settings: Settings of the scene.
         seeds: How many seeds from 0 on.
         aside: Whether it is there for comparison only, as the walk without the feature.
+        file: File of a robot that is not built in; empty for one that is.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Case(NamedTuple):
     settings: tuple[str, ...]
     seeds: int
     aside: bool = False
+    file: str = ""
 
 
 class Benchmark(NamedTuple):
@@ -145,7 +147,7 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     from sim.run.runner import Simulation
     from sim.run.scene import load_scene
 
-    simulation = Simulation(load_scene(case.scene, case.settings, case.robot), seed)
+    simulation = Simulation(load_scene(case.scene, case.settings, case.file or case.robot), seed)
     summary = simulation.run()
     row = {
         "case": case.name,
