@@ -33,8 +33,6 @@ _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the gro
 _NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
 _TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
-_GROUND_SHARE = 0.3
-"""Share of a new foothold's height in the height at which the next one is expected."""
 
 
 class SoleSense(NamedTuple):
@@ -56,6 +54,8 @@ class Landing(Settings):
         speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
         acceleration: Its acceleration in m/s^2.
         reach: Distance in m that it goes down at most.
+        ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
+            high as the last one, less averages over more footholds of uneven ground.
         approach_height: Height in m above the expected ground from which a swing goes down slowly (see
             `SwingTrajectory`); 0 comes down in one move.
         approach_speed: Speed of that in m/s.
@@ -67,6 +67,7 @@ class Landing(Settings):
     speed: float = share(0.0124, "leg/beat", 0.0001, 1)
     acceleration: float = share(0.102, "leg/beat^2", 0.01, 100)
     reach: float = share(0.05, "leg", 0, 0.2)
+    ground_share: float = number(0.3, "1", 0, 1)
     approach_height: float = number(0.0, "m", 0, 0.2)
     approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
 
@@ -268,7 +269,7 @@ class FootMotion:
         if self._swing is not None:
             # Where the other foot found the ground is the best guess of where this one will.
             landed = float(self.footholds[other_side(side)][0][2])
-            self._expected += _GROUND_SHARE * (landed - self._expected)
+            self._expected += self._landing.ground_share * (landed - self._expected)
         position, yaw = self.footholds[side]
         place = np.array([*frame.to_command(target.position[:2]), self._expected - self._landing.depth])
         path = SwingTrajectory(
