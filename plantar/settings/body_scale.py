@@ -1,9 +1,12 @@
-"""Units that grow with a robot: body weight, leg length, sole length, and the beat of a leg that swings.
+"""Units that grow with a robot: body weight, leg length, sole length, the beat of a leg that swings, and its pace.
 
 Two robots of one shape and one distribution of mass walk alike when every length is the same share of the leg, every
 force the same share of the weight and every time the same number of beats sqrt(leg / g) (dynamic similarity: Alexander,
 "The gaits of bipedal and quadrupedal animals", Int. J. Robotics Research 3(2), 1984). A quantity that is stated in
 these units therefore holds for a robot of 3 kg as for one of 95 kg; `BodyScale` says what it is in SI for one of them.
+
+Motors are not similar: a small robot's geared servos are slow for its beat. A time in paces is as many beats as a
+robot's motors need for what others do in one.
 """
 
 from __future__ import annotations
@@ -41,6 +44,7 @@ _SYMBOLS: dict[str, _Symbol] = {
     "sole": _Symbol((0, 1, 0), "m"),
     "sole_width": _Symbol((0, 1, 0), "m"),
     "beat": _Symbol((0, 0, 1), "s"),
+    "pace": _Symbol((0, 0, 1), "s"),
 }
 
 BODY_UNITS = tuple(name for name, symbol in _SYMBOLS.items() if symbol.si)
@@ -102,6 +106,7 @@ class BodyScale:
         leg: Length of a leg in m: from hip over knee to ankle.
         sole: Length of a sole in m.
         sole_width: Width of a sole in m.
+        pace_beats: Beats that a pace lasts: 1, or more where motors are slow.
 
     Raises:
         InputError: If one of them is not a finite number above 0.
@@ -116,6 +121,7 @@ class BodyScale:
     leg: float
     sole: float
     sole_width: float
+    pace_beats: float = 1.0
 
     def __post_init__(self) -> None:
         for name, value in self.__dict__.items():
@@ -131,6 +137,11 @@ class BodyScale:
     def beat(self) -> float:
         """Time sqrt(leg / g) in s that all motion of a leg under gravity scales with."""
         return math.sqrt(self.leg / GRAVITY)
+
+    @property
+    def pace(self) -> float:
+        """Time in s that the robot's motors need for what takes a beat where motors are quick enough."""
+        return self.pace_beats * self.beat
 
     def in_si(self, unit: str) -> float:
         """How many units of SI one unit is.

@@ -23,8 +23,8 @@ def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
         model: A model with the robot in it.
 
     Returns:
-        Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, and the left
-        sole's size as its layout's outline has it.
+        Its mass as the model has it, the leg's length as `[gait] leg_length` or else the model has it, the left sole's
+        size as its layout's outline has it, and its pace as `[gait] pace`.
     """
     _, (half_length, half_width) = robot.sole_rectangle("left")
     return BodyScale(
@@ -32,6 +32,7 @@ def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
         leg=robot.leg_length or leg_length(robot, model),
         sole=2.0 * half_length,
         sole_width=2.0 * half_width,
+        pace_beats=robot.pace,
     )
 
 

@@ -84,6 +84,8 @@ class Robot:
         single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
             the leg as for every robot (`sim.run.controller_settings`).
         double_support: t_ds likewise.
+        pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
+            (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.
         damping: Servo velocity gain of each leg joint in N m s/rad.
         balance: Balance law and its gains.
@@ -116,6 +118,7 @@ class Robot:
     trunk_lean: float
     single_support: float
     double_support: float
+    pace: float
     stiffness: tuple[float, ...]
     damping: tuple[float, ...]
     balance: Mapping[str, Any]

@@ -48,6 +48,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "trunk_lean",
         "single_support",
         "double_support",
+        "pace",
     ),
     "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
 }
@@ -263,6 +264,7 @@ class _RobotFile(RobotTables):
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
             "single_support": self._duration("single_support", 0.2),
             "double_support": self._duration("double_support", 0.02),
+            "pace": self.number("pace", "gait", 0.5, 5.0, 1.0),
         }
 
     def _duration(self, name: str, least: float) -> float:

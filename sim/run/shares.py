@@ -27,6 +27,7 @@ def body_told(body: BodyScale) -> dict[str, float]:
         "sole_m": round(body.sole, 6),
         "sole_width_m": round(body.sole_width, 6),
         "beat_s": round(body.beat, 6),
+        "pace_s": round(body.pace, 6),
     }
 
 

@@ -203,6 +203,7 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         trunk_lean=0.0,
         single_support=0.9,
         double_support=0.3,
+        pace=1.0,
         stiffness=(1000.0,) * len(joints["left"]),
         damping=(10.0,) * len(joints["left"]),
         balance={"law": "com_admittance"},

@@ -14,7 +14,7 @@ from plantar.mechanics.rotation import vector_from_rotation
 from plantar.sides import SIDES, Side
 from sim.robots.robot import Robot
 from sim.run.controller_settings import CONTROL_PERIOD
-from sim.survey.fitted_gait import KNEE_LEAST, STEP_SHARE, FittedGait
+from sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
 from sim.survey.servo_gains import SAMPLED, STIFFNESS
 from sim.survey.survey import Survey
 
@@ -179,9 +179,11 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"largest_crouch = {robot.largest_crouch:g}  # m",
         f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
         f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
-        *_told(f"The pace is {pace:.2f} sqrt(com_height / g); that of h1 is 3.15, more spares the motors."),
+        *_told(f"This pace is {pace:.2f} sqrt(com_height / g); that of h1 is 3.15, more spares the motors."),
         f"single_support = {robot.single_support:g}  # s",
         f"double_support = {robot.double_support:g}  # s, a third of it",
+        *_told(f"Beats of a pace, so that quick steps take {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."),
+        f"pace = {robot.pace:g}",
     ]
 
 
@@ -239,4 +241,9 @@ def _landing() -> list[str]:
             "whose servos give, and the robot ends leaning by it (G1 by 0.67 degrees, with this by 0.4)."
         ),
         'press_force = "0.15 weight"',
+        *_told(
+            "A swing is ahead of its command where its servos brake it, so each foothold is found a little higher than "
+            "the one before. Expected where the last one was, and not at their average, the ground is not hit hard."
+        ),
+        "ground_share = 1.0",
     ]

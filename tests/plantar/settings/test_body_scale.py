@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import math
 import pickle
 
@@ -42,6 +43,16 @@ def test_a_share_is_the_same_part_of_every_body() -> None:
         assert foot.rate == pytest.approx(2.0 / math.sqrt(body.leg / 9.81) / body.weight / body.sole)
         assert foot.time == 0.5
     assert Foot() == Foot().for_body(REFERENCE_BODY)
+
+
+def test_a_pace_is_a_beat_unless_motors_are_slow() -> None:
+    assert SMALL.in_si("pace") == SMALL.in_si("beat")
+    slow = dataclasses.replace(SMALL, pace_beats=1.6)
+    assert slow.in_si("pace") == pytest.approx(1.6 * SMALL.beat)
+    assert slow.in_si("leg/pace") == pytest.approx(SMALL.in_si("leg/beat") / 1.6)
+    assert slow.in_si("leg/beat") == SMALL.in_si("leg/beat")
+    with pytest.raises(InputError, match="pace_beats"):
+        dataclasses.replace(SMALL, pace_beats=0.0)
 
 
 def test_a_number_is_in_si_and_stays() -> None:
@@ -115,7 +126,7 @@ def test_a_copy_keeps_body_and_shares(again: object) -> None:
 @given(st.floats(0.1, 3.0), st.sampled_from(BODY_UNITS))
 def test_units_scale_as_bodies_of_one_shape_do(s: float, unit: str) -> None:
     big = BodyScale(SMALL.mass * s**3, SMALL.leg * s, SMALL.sole * s, SMALL.sole_width * s)
-    power = {"mass": 3.0, "weight": 3.0, "beat": 0.5}.get(unit, 1.0)
+    power = {"mass": 3.0, "weight": 3.0, "beat": 0.5, "pace": 0.5}.get(unit, 1.0)
     assert big.in_si(unit) == pytest.approx(SMALL.in_si(unit) * s**power)
     assert Quantity(1.0, unit).is_a(si_unit(unit))
 

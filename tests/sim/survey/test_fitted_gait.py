@@ -1,0 +1,37 @@
+"""Numbers of a walk that fit a robot: how quickly its motors let it step."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from plantar.settings.body_scale import BodyScale
+from sim.robots import load_robot
+from sim.run.controller_settings import controller_settings
+from sim.run.scene import load_scene
+from sim.survey.fitted_gait import QUICK_DOUBLE, QUICK_SINGLE, QUICK_STEP, fit_gait
+
+SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
+
+
+@pytest.mark.parametrize("name", ["turn", "stop", "s-curve", "wander"])
+def test_scenes_at_a_velocity_ask_for_the_quick_steps_that_motors_are_measured_by(name: str) -> None:
+    scene, robot = load_scene(name), load_robot("h1")
+    timing = controller_settings(scene.for_body(SLOW), replace(robot, single_support=0.9), SLOW, {}).timing
+    step = (QUICK_SINGLE + QUICK_DOUBLE) * SLOW.pace
+    assert timing.single_support + timing.double_support == pytest.approx(step)
+    table = scene.for_body(SLOW).walk.velocities(0)
+    assert table is not None
+    speeds = [abs(c.forward) for c in table.commands if c is not None]
+    assert max(speeds) * step <= 1.01 * QUICK_STEP * SLOW.leg
+    if name != "turn":
+        assert max(speeds) > 0.0
+
+
+def test_weak_motors_make_a_pace_longer() -> None:
+    h1 = load_robot("h1")
+    strong = fit_gait(replace(h1, effort_limits=(1000.0,) * 6)).robot
+    assert strong.pace == 1.0
+    weak = fit_gait(replace(h1, effort_limits=(51.0, 90.0, 30.0, 85.0, 25.0, 71.0))).robot
+    assert weak.pace > 1.0
