@@ -27,16 +27,15 @@ from numpy.typing import NDArray
 from plantar.errors import InputError, LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
-from plantar.geometry.polygon import closest_point, convex_hull, inner_offset
-from plantar.kernels.few_points import small_hull
+from plantar.geometry.polygon import closest_point, convex_hull
 from plantar.kernels.foundation import spread_part, spread_whole
 from plantar.layouts.layout import SoleLayout
+from sim.sensing.contact_patch import half_planes_of, patch_polygon, reach_of
 
 __all__ = ["SolePressure"]
 
 _GRID = 1e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 256
-_INSIDE = 2e-3  # of a patch's size: how far inside its outermost cells a load has to act that several cells carry
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
 
 
@@ -112,7 +111,18 @@ class SolePressure:
             inside = closest_point(shape.reach, (x, y))
             assert inside is not None
             _spread_part(shape, inside, force, out)
-        return out if self._gain is None else np.asarray(out * self._gain)
+        return self.along_taxels(out)
+
+    def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Forces along the taxels' own axes of vertical ones.
+
+        Args:
+            force: Vertical force (n,) on each taxel in N.
+
+        Returns:
+            Forces (n,) in N, the larger the more a taxel leans.
+        """
+        return force if self._gain is None else np.asarray(force * self._gain)
 
     def _patch(self, points: Sequence[tuple[float, float]]) -> _Patch:
         key = tuple(sorted({(round(x / _GRID), round(y / _GRID)) for x, y in points}))
@@ -126,8 +136,8 @@ class SolePressure:
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
         import shapely
 
-        polygon = _at_least_wide(_hull(points), self.rubber)
-        measure = self._cutter.cut(_half_planes(polygon))[0]
+        polygon = patch_polygon(points, self.rubber)
+        measure = self._cutter.cut(half_planes_of(polygon))[0]
         area = measure[:, 0]
         if area.sum() > 0.5 * polygon_area(polygon):
             cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
@@ -152,7 +162,7 @@ class SolePressure:
             u,
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
             _pseudo_inverse((area * u.T) @ u, 1e-9),
-            _reach(convex_hull(u[:, 1:])),
+            reach_of(convex_hull(u[:, 1:])),
             np.zeros(len(cells), dtype=np.uint8),
         )
 
@@ -209,29 +219,6 @@ def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(pressure)
 
 
-def _reach(hull: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A hull with its edges a little further inside; one that is thinner than that, as of cells in a row, shrunk."""
-    inside = inner_offset(hull, _INSIDE)
-    if len(inside) >= 3:
-        return inside
-    middle = hull.mean(axis=0)
-    return np.asarray(middle + (1.0 - _INSIDE) * (hull - middle))
-
-
-def _hull(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.array(small_hull([(x, y) for x, y in points.tolist()]))
-
-
-def _half_planes(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Half-planes (k, 3) n . x <= h of a convex polygon's edges: outward normal of length 1, and h in m."""
-    edge = np.concatenate([polygon[1:], polygon[:1]]) - polygon
-    length = np.hypot(edge[:, 0], edge[:, 1])
-    lines = np.empty((len(polygon), 3))
-    lines[:, 0], lines[:, 1] = edge[:, 1] / length, -edge[:, 0] / length
-    lines[:, 2] = (lines[:, :2] * polygon).sum(axis=1)
-    return lines
-
-
 def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.float64]:
     """Pseudo-inverse of a symmetric matrix (n, n) without negative eigenvalues, in a fifth of `np.linalg.pinv`'s time;
     eigenvalues below a share of the largest one count as zero."""
@@ -260,21 +247,3 @@ def _solve_symmetric(m: list[float], b: list[float], share: float) -> NDArray[np
             (i02 * b[0] + i12 * b[1] + i22 * b[2]) / determinant,
         ]
     )
-
-
-def _at_least_wide(polygon: NDArray[np.float64], half_width: float) -> NDArray[np.float64]:
-    """A polygon as it is, or, where it is thinner than twice `half_width`, the rectangle around it of that width."""
-    axis = np.array([1.0, 0.0])
-    if len(polygon) >= 2:
-        lines = _half_planes(polygon)
-        depth = (lines[:, 2] - polygon @ lines[:, :2].T).max(axis=0)
-        thinnest = int(np.argmin(depth))
-        if len(polygon) > 2 and depth[thinnest] >= 2.0 * half_width:
-            return polygon
-        axis = np.array([-lines[thinnest, 1], lines[thinnest, 0]])
-    across = np.array([-axis[1], axis[0]])
-    along, side = polygon @ axis, polygon @ across
-    low, high = along.min() - half_width, along.max() + half_width
-    middle = 0.5 * (side.min() + side.max())
-    corners = np.array([[low, -1.0], [high, -1.0], [high, 1.0], [low, 1.0]])
-    return np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)

@@ -1,0 +1,75 @@
+"""The patch of a sole that contact points span, and where on it a load can act."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import inner_offset
+from plantar.kernels.few_points import small_hull
+
+__all__ = ["half_planes_of", "patch_polygon", "reach_of"]
+
+_INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
+
+
+def patch_polygon(points: NDArray[np.float64], half_width: float) -> NDArray[np.float64]:
+    """Hull of contact points, or, where it is thinner than a line presses wide, the rectangle around it.
+
+    Args:
+        points: Contact points (k, 2) in m, at least one.
+        half_width: Half the width in m that a line or a point presses on.
+
+    Returns:
+        Convex polygon (m, 2) in m, counter-clockwise.
+    """
+    polygon = np.array(small_hull([(x, y) for x, y in points.tolist()]))
+    axis = np.array([1.0, 0.0])
+    if len(polygon) >= 2:
+        lines = half_planes_of(polygon)
+        depth = (lines[:, 2] - polygon @ lines[:, :2].T).max(axis=0)
+        thinnest = int(np.argmin(depth))
+        if len(polygon) > 2 and depth[thinnest] >= 2.0 * half_width:
+            return polygon
+        axis = np.array([-lines[thinnest, 1], lines[thinnest, 0]])
+    across = np.array([-axis[1], axis[0]])
+    along, side = polygon @ axis, polygon @ across
+    low, high = along.min() - half_width, along.max() + half_width
+    middle = 0.5 * (side.min() + side.max())
+    corners = np.array([[low, -1.0], [high, -1.0], [high, 1.0], [low, 1.0]])
+    return np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)
+
+
+def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Half-planes n . x <= h of a convex polygon's edges.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m, counter-clockwise.
+
+    Returns:
+        Outward normal of length 1, and h in m, of each edge (k, 3).
+    """
+    edge = np.concatenate([polygon[1:], polygon[:1]]) - polygon
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    lines = np.empty((len(polygon), 3))
+    lines[:, 0], lines[:, 1] = edge[:, 1] / length, -edge[:, 0] / length
+    lines[:, 2] = (lines[:, :2] * polygon).sum(axis=1)
+    return lines
+
+
+def reach_of(hull: NDArray[np.float64], inside: float = _INSIDE) -> NDArray[np.float64]:
+    """Where a load can act that several cells carry: a hull with its edges a little further inside; one that is thinner
+    than that, as of cells in a row, shrunk.
+
+    Args:
+        hull: Convex hull (k, 2) of the cells' places.
+        inside: How far inside, in the unit of the hull.
+
+    Returns:
+        Polygon (m, 2) in the same unit.
+    """
+    smaller = inner_offset(hull, inside)
+    if len(smaller) >= 3:
+        return smaller
+    middle = hull.mean(axis=0)
+    return np.asarray(middle + (1.0 - _INSIDE) * (hull - middle))
