@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any, Self
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -49,8 +52,31 @@ class CellCutter:
     """
 
     def __init__(self, layout: SoleLayout) -> None:
-        self.points = np.ascontiguousarray(layout.vertices[layout.corner_vertex, :2])
-        self._start = layout.corner_start.astype(np.intp)
+        self._set(layout.vertices[layout.corner_vertex, :2], layout.corner_start)
+
+    @classmethod
+    def of_polygons(cls, polygons: Sequence[NDArray[np.float64]]) -> Self:
+        """A cutter of other cells than a layout's.
+
+        Args:
+            polygons: Corners (k, 2) of each cell in m, counter-clockwise.
+
+        Returns:
+            The cutter.
+
+        Example:
+            >>> square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
+            >>> CellCutter.of_polygons([square, square + 1.0]).cut([[1.0, 0.0, 0.5]])[0][:, 0].tolist()
+            [0.5, 0.0]
+        """
+        cutter = cls.__new__(cls)
+        cutter._set(np.concatenate(polygons), np.cumsum([0, *map(len, polygons)]))
+        return cutter
+
+    def _set(self, points: NDArray[np.float64], start: NDArray[np.integer[Any]]) -> None:
+        """Take over the corners (m, 2) of all cells and where each cell's begin (n + 1,)."""
+        self.points = np.ascontiguousarray(points)
+        self._start = start.astype(np.intp)
         self._make_room(int(np.diff(self._start).max(initial=3)) + 4)
 
     def cut(self, lines: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
