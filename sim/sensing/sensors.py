@@ -69,7 +69,7 @@ class SensorSuite:
             }
         self.skins = {
             side: SkinSensor(
-                _skin(world, side, 0.0 if plant is None else plant.rubber),
+                _skin(world, sensing, side, 0.0 if plant is None else plant.rubber),
                 SkinElectronics(sensing.skin_rate, sensing.force_noise, sensing.delay_periods, dead[side]),
                 np.random.default_rng(stream),
                 self.proximity.get(side),
@@ -149,11 +149,12 @@ def _dead_taxels(count: int, share: float, chance: np.random.Generator) -> list[
     return chance.permutation(count)[: round(share * count)].tolist()  # type: ignore[no-any-return]
 
 
-def _skin(world: World, side: Side, foam: float) -> SoleSkin:
+def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
     """The skin of one sole under so much foam in m more than its rubber, free of noise."""
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
-    return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach)
+    layer = sensing.layer + foam if sensing.taxels == "elastic" else None
+    return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach, layer=layer)
 
 
 def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:

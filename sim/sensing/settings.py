@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.settings.schema import Settings, number, share, switch, whole
+from plantar.settings.schema import Settings, choice, number, share, switch, whole
 
 __all__ = ["Sensing"]
 
@@ -14,6 +14,9 @@ class Sensing(Settings):
     IMU and an encoder are what can be bought, for every robot.
 
     Attributes:
+        taxels: How the ground's load comes to lie on the taxels: on springs side by side ("winkler", the fast default),
+            or through an elastic layer whose parts move each other ("elastic"), which no fit of the controller knows.
+        layer: Thickness of that layer in m: the H1's shoe is 12 mm thick.
         skin_rate: Sampling rate of the soles in Hz.
         force_noise: Of each taxel in N: 0.15 kg on a robot of 86 kg.
         delay_periods: Whole skin periods between sampling and delivery.
@@ -29,6 +32,8 @@ class Sensing(Settings):
         ankle_torque_noise: Of each axis of their torque in N m.
     """
 
+    taxels: str = choice("winkler", "elastic")
+    layer: float = share(0.052, "sole", 1e-3, 10)
     skin_rate: float = number(250.0, "Hz", 10, 1000)
     force_noise: float = share(0.00174, "weight", 0, 1000)
     delay_periods: int = whole(0, "periods", 0, 250)

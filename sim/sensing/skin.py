@@ -24,6 +24,7 @@ from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.reading import Reading
 from sim.model.contact_truth import REACH, ContactSet, foot_contacts
 from sim.plant.taxels import TaxelErrors
+from sim.sensing.elastic_pressure import ElasticPressure
 from sim.sensing.proximity import ProximitySensor
 from sim.sensing.sole_pressure import SolePressure
 
@@ -40,6 +41,7 @@ class SoleSkin:
         geoms: Names of the sole's collision geoms.
         rubber: Thickness in m of the sole's rubber, see `SolePressure`.
         reach: Largest gap in m between sole and ground that the rubber closes.
+        layer: Thickness in m of an elastic layer that spreads the load, see `ElasticPressure`; springs do where None.
 
     Raises:
         RobotError: If the model has no such site or geom.
@@ -55,6 +57,7 @@ class SoleSkin:
         *,
         rubber: float = 3e-3,
         reach: float = REACH,
+        layer: float | None = None,
     ) -> None:
         self.model = model
         self.layout = layout
@@ -62,7 +65,11 @@ class SoleSkin:
         self.geom_ids = frozenset(_id_of(model, mujoco.mjtObj.mjOBJ_GEOM, "geom", g) for g in geoms)
         if not self.geom_ids:
             raise RobotError("the sole has no collision geom; name at least one")
-        self.pressure = SolePressure(layout, rubber=rubber)
+        self.pressure: SolePressure | ElasticPressure = (
+            SolePressure(layout, rubber=rubber)
+            if layer is None
+            else ElasticPressure(layout, thickness=layer, rubber=rubber)
+        )
         self._reach = reach
 
     def __len__(self) -> int:

@@ -43,7 +43,8 @@ def test_flat_round_punch_has_its_pressure_at_the_edge() -> None:
     distance = np.hypot(*points.T)
     inner = distance < 0.8 * radius
     expected = force / (2.0 * math.pi * radius * np.sqrt(radius**2 - distance[inner] ** 2))
-    assert contact.settled and contact.on.all()
+    assert contact.settled
+    assert contact.on.all()
     assert contact.forces[inner] / side**2 == pytest.approx(expected, rel=0.02)
     assert contact.field[0] == pytest.approx(force / (2.0 * radius), rel=0.005)
     assert contact.forces[distance > 0.95 * radius].max() > 2.0 * contact.forces[inner].min()
@@ -96,7 +97,8 @@ def test_contact_is_complementary_and_has_the_load(place: tuple[float, float]) -
     contact = body.press(load)
     gap = body.compliance @ contact.forces - contact.field @ np.column_stack([np.ones(len(points)), points]).T
     scale = 300.0 * body.compliance.max()
-    assert contact.settled and (contact.forces >= 0.0).all()
+    assert contact.settled
+    assert contact.forces.min() >= 0.0
     assert contact.forces.sum() == pytest.approx(300.0)
     assert points.T @ contact.forces == pytest.approx(load[1:], abs=1e-4)
     assert gap[contact.on] == pytest.approx(0.0, abs=1e-5 * scale)
