@@ -33,6 +33,8 @@ from gait.estimate.estimator import (
     LegKinematics,
     SoleLoad,
 )
+from gait.estimate.gyro_bias import GyroBias
+from gait.estimate.identification import IdentificationRules
 from gait.estimate.skin_load import at_its_limit
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
@@ -98,6 +100,7 @@ class ControllerSettings(Settings):
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
         estimator: Estimator gains.
+        identification: What is identified of the robot's differences from its model; None believes the model.
         contact: How contact polygons are found from the taxels.
         foothold: When what is found moves the plan.
         feedback: False walks the plan in open loop, for comparison.
@@ -124,6 +127,7 @@ class ControllerSettings(Settings):
     alignment_time: float = share(1.21, "beat", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
+    identification: IdentificationRules | None = None
     contact: ContactSettings = field(default_factory=ContactSettings)
     foothold: FootholdRules = field(default_factory=FootholdRules)
     feedback: bool = switch(True)
@@ -198,6 +202,7 @@ class WalkingController:
             period,
             {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES},
             settings.estimator,
+            self._gyro_bias(),
         )
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -215,6 +220,12 @@ class WalkingController:
         self._ground = CoMHeight(ground, period, _FOLLOWS_GROUND / settings.body.beat)
         self.guard, self.conformity = self._for_unknown_ground(middles)
         self._proposers = self._asked(start, middles)
+
+    def _gyro_bias(self) -> GyroBias | None:
+        rules = self.settings.identification
+        if rules is None or not rules.gyro:
+            return None
+        return GyroBias(self.settings.period, rules.gyro_time, rules.gyro_largest)
 
     def _for_unknown_ground(
         self, middles: Mapping[Side, NDArray[np.float64]]

@@ -10,6 +10,7 @@ from gait.balance.wrench_balance import WrenchBalanceGains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.estimate.estimator import EstimatorGains
+from gait.estimate.identification import IdentificationRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
@@ -26,6 +27,7 @@ __all__ = ["CONTROLLER_TABLES", "check_controller_table", "controller_keys", "co
 CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "balance": (BalanceGains, WrenchBalanceGains),
     "estimator": (EstimatorGains,),
+    "identification": (IdentificationRules,),
     "landing": (Landing,),
     "contact": (ContactSettings,),
     "foothold": (FootholdRules,),

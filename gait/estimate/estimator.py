@@ -1,8 +1,9 @@
 """Floating-base state from what the robot has: joint encoders, IMU and the soles' readings.
 
-Orientation: the gyro is integrated; gravity, freed from the acceleration that the plan asks for, corrects roll and
-pitch slowly, and the heading of the loaded feet corrects yaw. (The pendulum's own estimate of the acceleration would
-not do: a wrong tilt moves the estimated CoM over the feet by just what makes it agree with the accelerometer.)
+Orientation: the gyro is integrated, less its bias where that is identified; gravity, freed from the acceleration that
+the plan asks for, corrects roll and pitch slowly, and the heading of the loaded feet corrects yaw. (The pendulum's own
+estimate of the acceleration would not do: a wrong tilt moves the estimated CoM over the feet by just what makes it
+agree with the accelerometer.)
 
 Position: the material point of each loaded sole that lies at its centre of pressure does not move, so the base moves
 by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
@@ -21,6 +22,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.estimate.gyro_bias import GyroBias
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
@@ -110,6 +112,7 @@ class FloatingBaseEstimator:
         period: Control period in s.
         feet: Known standing pose (x, y, z, yaw) of each sole at the start.
         gains: Gains.
+        gyro_bias: Identifies the gyro's bias; None takes the gyro at its word.
     """
 
     kinematics: LegKinematics
@@ -117,6 +120,7 @@ class FloatingBaseEstimator:
     period: float
     feet: Mapping[Side, tuple[float, float, float, float]]
     gains: EstimatorGains = field(default_factory=EstimatorGains)
+    gyro_bias: GyroBias | None = None
 
     def __post_init__(self) -> None:
         self._rotation: NDArray[np.float64] | None = None
@@ -128,6 +132,7 @@ class FloatingBaseEstimator:
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self._last_rotation = np.eye(3)
         self._heading: dict[Side, float | None] = {"left": None, "right": None}
+        self._astray = 0.0
 
     def update(
         self,
@@ -217,8 +222,12 @@ class FloatingBaseEstimator:
         planned_acceleration: NDArray[np.float64] | None,
     ) -> None:
         assert self._rotation is not None
+        assert self._last is not None
         rotation = self._rotation
+        weights = {side: max(0.0, loads[side] - self.gains.minimum_load) for side in SIDES}
         rate = gyro.copy()
+        if self.gyro_bias is not None:
+            rate -= self.gyro_bias.update(gyro, self._last.rotations, posture.rotations, weights)
         # Gravity: the specific force minus the body's acceleration points up.
         specific = rotation.dot(accelerometer)
         if planned_acceleration is not None:
@@ -234,26 +243,37 @@ class FloatingBaseEstimator:
             since = self.period * (self._samples + 1)
             gain = 1.0 / since if since < self.gains.averaging else self.gains.gravity
             rate += gain * rotation.T.dot(tilt)
+        rate -= (self.gains.yaw * self._heading_error(posture, weights)) * rotation[2]
+        if self.gyro_bias is not None and self.gyro_bias.rate is not None:
+            self._astray += self.period * float(rotation[2].dot(rate - self.gyro_bias.rate))
+        # Rounding would make the product of thousands of rotations shrink or shear.
+        self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
+
+    def _heading_error(self, posture: Posture, weights: Mapping[Side, float]) -> float:
+        """How far in rad the heading is ahead of that by the feet that carry.
+
+        Where the gyro's bias is identified, it is what the heading has turned more than the legs since the start, so
+        that nothing stays of what a bias turned it before it was known. Else a foot counts from when it comes to carry.
+        """
+        if self.gyro_bias is not None:
+            return self._astray
+        assert self._rotation is not None
         total = 0.0
         error = 0.0
-        for side in SIDES:
-            if loads[side] <= self.gains.minimum_load:
+        for side, weight in weights.items():
+            if weight <= 0.0:
                 self._heading[side] = None
                 continue
-            yaw = heading(rotation.dot(posture.rotations[side]))
+            yaw = heading(self._rotation.dot(posture.rotations[side]))
             held = self._heading[side]
             if held is None:
                 # The heading that the foot has when it comes to carry is held against the gyro, which drifts about the
                 # vertical.
                 self._heading[side] = held = yaw
             # Weights begin at zero, so that a foot joins and leaves without a jump.
-            weight = loads[side] - self.gains.minimum_load
-            error += weight * math.remainder(held - yaw, 2.0 * math.pi)
+            error += weight * math.remainder(yaw - held, 2.0 * math.pi)
             total += weight
-        if total > 0.0:
-            rate += (self.gains.yaw * error / total) * rotation[2]
-        # Rounding would make the product of thousands of rotations shrink or shear.
-        self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
+        return error / total if total > 0.0 else 0.0
 
     def _move(
         self,

@@ -11,6 +11,7 @@ from gait.contact.stance_contact import ContactSettings
 from gait.controller import ControllerSettings
 from gait.estimate.ankle_sensor import AnkleSensor
 from gait.estimate.estimator import EstimatorGains
+from gait.estimate.identification import IdentificationRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
@@ -84,6 +85,7 @@ def controller_settings(
         else None,
         conformity=made(ConformityGains, "conformity") if control.conform else None,
         estimator=made(EstimatorGains, "estimator", **yaw),
+        identification=made(IdentificationRules, "identification") if control.identify else None,
         contact=made(ContactSettings, "contact"),
         foothold=made(FootholdRules, "foothold"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
@@ -129,6 +131,7 @@ def _refuse_unused(scene: Scene) -> None:
         raise SceneError("control.conform is true; allowed: with pfc = true")
     runs = {
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
+        "identification": (control.identify, "control.identify = true"),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
         "conformity": (control.conform, "control.conform = true"),
         **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),

@@ -189,6 +189,7 @@ class Control(Settings):
             "force_torque" (moment at the ankle). Needs pfc.
         conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
             loaded. For bumps; needs pfc.
+        identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -200,6 +201,7 @@ class Control(Settings):
     pfc: bool = switch(False)
     feasibility: str = choice("off", "skin", "force_torque")
     conform: bool = switch(False)
+    identify: bool = switch(True)
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gait.estimate.estimator import FloatingBaseEstimator, Posture
+from gait.estimate.gyro_bias import GyroBias
 from plantar import Percept, Reading, SoleLayout, hex_layout
 from plantar.layouts.layout import Side
 
@@ -67,10 +68,12 @@ class Swaying:
         return out
 
 
-def follow(robot: Swaying, duration: float, noise: float = 0.0, bias: float = 0.0) -> tuple[float, float, float]:
+def follow(
+    robot: Swaying, duration: float, noise: float = 0.0, bias: float = 0.0, identified: GyroBias | None = None
+) -> tuple[float, float, float]:
     """Worst errors after the first second: orientation in rad, CoM in m, CoM velocity in m/s."""
     rng = np.random.default_rng(0)
-    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START)
+    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START, gyro_bias=identified)
     worst = np.zeros(3)
     for k in range(round(duration / PERIOD)):
         time = k * PERIOD
@@ -105,6 +108,16 @@ def test_noise_and_gyro_bias_stay_bounded() -> None:
     turn, com, _ = follow(Swaying(tilt=0.0, sway=0.005), 20.0, noise=2e-3, bias=1e-3)
     assert turn < 0.012  # bias / gravity gain = 5e-3 rad, plus noise
     assert com < 0.02
+
+
+def test_a_bias_that_is_identified_does_no_harm() -> None:
+    plain, _, _ = follow(Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3)
+    turn, com, _ = follow(
+        Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3, identified=GyroBias(PERIOD, 20.0, 0.05)
+    )
+    assert plain > 0.015  # towards bias / gravity gain = 0.025 rad
+    assert turn < 4e-3
+    assert com < 4e-3
 
 
 def test_a_foot_in_the_air_finds_its_zero() -> None:

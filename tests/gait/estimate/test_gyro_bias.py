@@ -1,0 +1,78 @@
+"""The gyro's bias against drawn ones, on legs that move over feet that stand, with the noise of gyro and encoders."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from gait.estimate.gyro_bias import GyroBias
+from plantar.sides import Side
+
+PERIOD, LARGEST = 0.005, 0.05
+BOTH: dict[Side, float] = {"left": 400.0, "right": 300.0}
+
+
+def sway(time: float) -> NDArray[np.float64]:
+    """Rotation of the base to the world, at times up to 3 degrees from upright."""
+    return np.asarray(Rotation.from_euler("xyz", 0.05 * np.sin([1.3 * time, 2.0 * time, 0.7 * time])).as_matrix())
+
+
+def found(
+    bias: NDArray[np.float64],
+    duration: float = 3.0,
+    seed: int = 0,
+    weights: dict[Side, float] = BOTH,
+    turning: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]:
+    """What is identified of a bias by a base that sways over its feet; a rate `turning` turns the right sole."""
+    rng = np.random.default_rng(seed)
+    identified = GyroBias(PERIOD, 20.0, LARGEST)
+
+    def soles(time: float) -> dict[Side, NDArray[np.float64]]:
+        turned = np.zeros(3) if turning is None else turning * time
+        noise = Rotation.from_rotvec(1e-4 * rng.standard_normal((2, 3))).as_matrix()  # of six encoders of 5e-5 rad
+        base = sway(time).T
+        return {"left": noise[0] @ base, "right": noise[1] @ base @ Rotation.from_rotvec(turned).as_matrix()}
+
+    before = soles(0.0)
+    for k in range(1, round(duration / PERIOD) + 1):
+        a, b = sway((k - 1) * PERIOD), sway(k * PERIOD)
+        rate = Rotation.from_matrix(a.T @ b).as_rotvec() / PERIOD
+        now = soles(k * PERIOD)
+        identified.update(rate + bias + 2e-3 * rng.standard_normal(3), before, now, weights)
+        before = now
+    return identified.value
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_recovers_a_bias_while_the_body_sways(seed: int) -> None:
+    bias = np.random.default_rng([seed, 1]).uniform(-0.01, 0.01, 3)
+    # The gyro's noise over 600 ticks has a standard deviation of 2e-3 / sqrt(600) = 8e-5 rad/s, the encoders' of 5e-5.
+    np.testing.assert_allclose(found(bias, seed=seed), bias, atol=4e-4)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_is_none_without_a_bias(seed: int) -> None:
+    assert np.abs(found(np.zeros(3), seed=seed)).max() < 4e-4
+
+
+def test_a_foot_that_does_not_carry_may_turn() -> None:
+    bias = np.array([0.004, -0.005, 0.003])
+    swinging = np.array([0.0, 0.5, 0.2])
+    np.testing.assert_allclose(found(bias, weights={"left": 700.0, "right": 0.0}, turning=swinging), bias, atol=4e-4)
+    assert np.abs(found(bias, turning=swinging) - bias).max() > 0.01  # the test can tell
+
+
+def test_holds_on_in_the_air_and_is_bounded() -> None:
+    assert not found(np.ones(3), weights={"left": 0.0, "right": 0.0}).any()
+    assert np.abs(found(np.array([1.0, -1.0, 1.0]))).max() == pytest.approx(LARGEST)
+
+
+def test_follows_a_bias_that_drifts() -> None:
+    identified = GyroBias(PERIOD, 2.0, LARGEST)
+    still: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}
+    for k in range(4000):
+        identified.update(np.array([0.0, 0.0, 0.002 if k < 2000 else 0.004]), still, still, BOTH)
+    assert identified.value[2] == pytest.approx(0.004, abs=2e-5)  # five time constants later
