@@ -1,0 +1,167 @@
+"""Count what a plant that differs from the controller's model does to walks: the tables of plant.md and plant.png.
+
+Each item of `[plant]` is drawn alone at growing levels, and all that a robot has that was built with care together at
+level 2 in every walk that is built in. `python benchmarks/plant.py MINUTES [WORD...]` runs what is missing in plant.csv
+(only cases whose name and robot hold all words), one process, a row a run; stopped, it goes on where it was. Without
+minutes it writes the tables and the figure.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from resumable import Benchmark, Case, add_row, commit, latest, origin, rows_of, show, wanted, write_table
+
+from sim.plant.draw import RANGES
+from sim.plant.settings import RANDOM, Plant
+
+FOLDER = Path(__file__).parent
+ROBOTS = ("h1", "hrp2kai")
+LEVELS = (0.2, 0.5, 1.0, 2.0, 3.0)
+FIRST = (2.0, 1.0, 3.0, 0.5, 0.2)  # the levels in the order in which they are run: the most telling first
+ALONE = {"flat": (), "beam": (), "uneven": ("steps=20",)}
+"""Walks in which each item is tried alone, with their settings."""
+TOGETHER = ("flat", "push", "beam", "beam-forward", "beam-yaw", "uneven", "tilt", "obstacle", "partial-front")
+TOGETHER += ("partial-inner", "partial-outer", "partial-rear", "partial-third", "stones", "turn", "s-curve", "stop")
+COLUMNS = ("fell", "steps_taken", "tilt_max_deg", "zmp_margin_min_m", "position_error_m", "heading_error_deg")
+COLUMNS += ("com_error_max_m",)
+CARE = tuple(n for n in Plant.items() if getattr(Plant(draw=RANDOM), n) == RANDOM)
+"""What `plant = "random"` draws."""
+
+
+def _alone(item: str, level: float, scene: str) -> str:
+    return f"{item} alone at {level:g}, {scene}"
+
+
+def _together(scene: str) -> str:
+    return f"together at 2, {scene}"
+
+
+def _cases() -> list[Case]:
+    alone = [
+        Case(_alone(item, level, scene), scene, robot, (*settings, f"{item}={RANDOM}", f"plant.level={level:g}"), 0)
+        for level in FIRST
+        for item in Plant.items()
+        for scene, settings in ALONE.items()
+        for robot in ROBOTS
+    ]
+    return alone + [
+        Case(_together(scene), scene, robot, ("plant=random",), 0) for scene in TOGETHER for robot in ROBOTS
+    ]
+
+
+def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    return {
+        **{name: out[name] for name in COLUMNS if name in out},
+        "position_error_m": out["final"]["position_error_m"],
+        "heading_error_deg": out["final"]["heading_error_deg"],
+        "com_error_max_m": max(out["estimate"]["com_error_max_m"]),
+    }
+
+
+def outcome(rows: Sequence[dict[str, str]], name: str, robot: str) -> tuple[int, int]:
+    """How many runs of a case were completed, and how many there are."""
+    mine = [r["completed"] == "True" for r in rows if r["case"] == name and r["robot"] == robot]
+    return sum(mine), len(mine)
+
+
+def limit_told(item: str) -> str:
+    """What an item is drawn from at level 2, with its unit."""
+    limit, unit, _ = RANGES[item]
+    return f"{limit:.3g} {unit}".removesuffix(" 1")
+
+
+def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
+    """Completed runs of each item alone at each level; only what was run."""
+    lines = [f"| item, its limit at level 2 | walk | robot | {' | '.join(f'level {v:g}' for v in LEVELS)} |"]
+    lines.append("|---|---|---|" + "---|" * len(LEVELS))
+    for item in Plant.items():
+        for scene in ALONE:
+            for robot in ROBOTS:
+                found = [outcome(rows, _alone(item, level, scene), robot) for level in LEVELS]
+                if any(count for _, count in found):
+                    cells = " | ".join(f"{good}/{count}" if count else "" for good, count in found)
+                    lines.append(f"| `{item}`, {limit_told(item)} | `{scene}` | {robot} | {cells} |")
+    return lines
+
+
+def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
+    """Completed runs with everything drawn together, by walk and robot; only what was run."""
+    lines = [f"| walk | {' | '.join(ROBOTS)} |", "|---|" + "---|" * len(ROBOTS)]
+    for scene in TOGETHER:
+        found = [outcome(rows, _together(scene), robot) for robot in ROBOTS]
+        if any(count for _, count in found):
+            lines.append(f"| `{scene}` | {' | '.join(f'{good}/{count}' if count else '' for good, count in found)} |")
+    return lines
+
+
+def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
+    """Draw where each item breaks: a panel for each walk and robot that was run, a row for each item."""
+    import numpy as np
+
+    from plantar.plotting import new_figure, save_figure
+
+    panels: list[tuple[str, Any]] = []
+    for robot in ROBOTS:
+        for scene in ALONE:
+            counts = [[outcome(rows, _alone(i, v, scene), robot) for v in LEVELS] for i in Plant.items()]
+            share = np.array([[good / count if count else np.nan for good, count in line] for line in counts])
+            if np.isfinite(share).any():
+                panels.append((f"{scene}, {robot}", share))
+    items = [i for k, i in enumerate(Plant.items()) if any(np.isfinite(share[k]).any() for _, share in panels)]
+    shown = [Plant.items().index(i) for i in items]
+    figure, axes = new_figure(
+        3.4 + 1.9 * len(panels), 1.4 + 0.27 * len(items), 1, len(panels), squeeze=False, sharey=True
+    )
+    image = None
+    for axis, (title, share) in zip(axes[0], panels, strict=True):
+        image = axis.imshow(share[shown], vmin=0.0, vmax=1.0, cmap="RdYlGn", aspect="auto")
+        axis.set_title(title, fontsize=9)
+        axis.set_xticks(range(len(LEVELS)), [f"{level:g}" for level in LEVELS], fontsize=8)
+        axis.set_xlabel("level [1]", fontsize=8)
+        axis.set_yticks(range(len(items)), [f"{i.replace('_', ' ')} ({limit_told(i)})" for i in items], fontsize=8)
+    axes[0][0].set_ylabel("item (its limit at level 2)", fontsize=8)
+    bar = figure.colorbar(image, ax=axes[0].tolist(), location="right", ticks=[0.0, 0.5, 1.0])
+    bar.set_label("completed runs [1], white: not run", fontsize=8)
+    save_figure(figure, path)
+
+
+def report() -> None:
+    """Write the tables between their markers in plant.md, and the figure."""
+    rows = latest(rows_of(BENCHMARK.path))
+    write_table(FOLDER / "plant.md", [*table_alone(rows), "", origin(BENCHMARK)], "alone")
+    write_table(FOLDER / "plant.md", table_together(rows), "together")
+    if any(" alone " in r["case"] for r in rows):
+        draw(rows, FOLDER / "plant.png")
+
+
+def run(minutes: float, words: Sequence[str]) -> None:
+    """Run what is missing of the cases whose name and robot hold all words, the most telling first.
+
+    Args:
+        minutes: For how long.
+        words: The words.
+    """
+    end, made = time.monotonic() + 60.0 * minutes, commit()
+    jobs = [
+        (rank, case, seed)
+        for rank, case, seed in wanted(BENCHMARK)
+        if all(word in f"{case.name} {case.robot}".split() or word in case.name for word in words)
+    ]
+    for _, case, seed in sorted(jobs, key=lambda job: job[0]):
+        if time.monotonic() > end:
+            break
+        show(add_row(BENCHMARK, case, seed, made))
+
+
+BENCHMARK = Benchmark(FOLDER / "plant.csv", COLUMNS, _cases(), figures)
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1:
+        run(float(sys.argv[1]), sys.argv[2:])
+    report()
