@@ -235,6 +235,11 @@ def sim(
     Example: plantar sim flat --robot h1 --plot out/flat
 
     Example: plantar sim push --seed 3 --set feedback=false --json
+
+    With --set plant=random the true robot, its sensors and the ground differ from what the controller takes them for,
+    by the seed; level=1 halves that (plantar list settings plant).
+
+    Example: plantar sim flat --set plant=random --set level=1
     """
     if seed < 0:
         raise InputError(f"--seed is {seed}; allowed: 0 or more")
