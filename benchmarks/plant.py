@@ -106,21 +106,27 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
 
     from plantar.plotting import new_figure, save_figure
 
-    panels: list[tuple[str, Any]] = []
+    panels: list[tuple[str, Any, list[list[tuple[int, int]]]]] = []
     for robot in ROBOTS:
         for scene in ALONE:
             counts = [[outcome(rows, _alone(i, v, scene), robot) for v in LEVELS] for i in Plant.items()]
             share = np.array([[good / count if count else np.nan for good, count in line] for line in counts])
             if np.isfinite(share).any():
-                panels.append((f"{scene}, {robot}", share))
-    items = [i for k, i in enumerate(Plant.items()) if any(np.isfinite(share[k]).any() for _, share in panels)]
+                panels.append((f"{scene}, {robot}", share, counts))
+    items = [i for k, i in enumerate(Plant.items()) if any(np.isfinite(share[k]).any() for _, share, _ in panels)]
     shown = [Plant.items().index(i) for i in items]
     figure, axes = new_figure(
         3.4 + 1.9 * len(panels), 1.4 + 0.27 * len(items), 1, len(panels), squeeze=False, sharey=True
     )
     image = None
-    for axis, (title, share) in zip(axes[0], panels, strict=True):
-        image = axis.imshow(share[shown], vmin=0.0, vmax=1.0, cmap="RdYlGn", aspect="auto")
+    for axis, (title, share, counts) in zip(axes[0], panels, strict=True):
+        image = axis.imshow(share[shown], vmin=0.0, vmax=1.0, cmap="RdYlBu", aspect="auto")
+        for row, k in enumerate(shown):
+            for column, (good, count) in enumerate(counts[k]):
+                if count:
+                    dark = good / count in (0.0, 1.0)
+                    told = f"{good}/{count}"
+                    axis.text(column, row, told, ha="center", va="center", fontsize=7, color="w" if dark else "k")
         axis.set_title(title, fontsize=9)
         axis.set_xticks(range(len(LEVELS)), [f"{level:g}" for level in LEVELS], fontsize=8)
         axis.set_xlabel("level [1]", fontsize=8)
