@@ -29,12 +29,13 @@ class Plant(Settings):
     """In what the true plant differs from the model that the controller has of it; by default in nothing.
 
     Each may be a number, or "random": then the seed draws it from a range that grows with `level`
-    (`sim.plant.draw.LIMITS`). Robot, sensors and ground are made so; the controller is told none of it.
+    (`sim.plant.draw.RANGES`). Robot, sensors and ground are made so; the controller is told none of it.
 
     Attributes:
         draw: With "random" what a robot has that was built and calibrated with care is drawn, as far as the table does
             not state it (all down to `actuation_delay`): `plant = "random"` in a scene, `--set plant=random`. With
-            "everything" all items are, those of wear and of poor ground, too.
+            "everything" all items are, those of wear and of poor ground, too. It stands for "random" at each of these,
+            and settings that are made of it say so there.
         level: How much what is drawn may differ, in proportion: 2 is a robot that was built and calibrated with
             ordinary care, 1 half of that, 3 half more; 0 is nominal.
         gyro_bias: What the gyro reads too much about each of its axes, [x, y, z] in rad/s.
@@ -94,14 +95,17 @@ class Plant(Settings):
         super().__post_init__()
         for name in _LARGEST:
             self.vector(name)
-        for name in self._drawn_as_a_whole():
+        for name in self._drawn_by(self.draw):
             if getattr(self, name) == self.__dataclass_fields__[name].default:
                 object.__setattr__(self, name, RANDOM)
+        object.__setattr__(self, "draw", "nominal")
 
-    def _drawn_as_a_whole(self) -> tuple[str, ...]:
-        """Names of what `draw` draws."""
-        last = {RANDOM: self.items().index(_LAST_OF_CARE) + 1, EVERYTHING: None}
-        return self.items()[: last[self.draw]] if self.draw in last else ()
+    @classmethod
+    def _drawn_by(cls, draw: Any) -> tuple[str, ...]:
+        """Names of what a value of `draw` draws."""
+        if draw == EVERYTHING:
+            return cls.items()
+        return cls.items()[: cls.items().index(_LAST_OF_CARE) + 1] if draw == RANDOM else ()
 
     @classmethod
     def items(cls) -> tuple[str, ...]:
@@ -124,13 +128,9 @@ class Plant(Settings):
         Raises:
             PlantarError: Of the class `error`: a key is unknown or a value not allowed; the message names it.
         """
-        found = super().from_table(table, where, error, note)
-        if isinstance(table, Mapping) and found.draw != "nominal":
-            stated = super().from_table({**table, "draw": "nominal"}, where, error, note)
-            for name in cls.items():
-                if name in table:
-                    object.__setattr__(found, name, getattr(stated, name))
-        return found
+        if isinstance(table, Mapping) and (drawn := cls._drawn_by(table.get("draw"))):
+            table = {**dict.fromkeys(drawn, RANDOM), **table, "draw": "nominal"}
+        return super().from_table(table, where, error, note)
 
     def vector(self, name: str) -> tuple[float, ...]:
         """A list of three numbers in SI for the body that the settings count for.

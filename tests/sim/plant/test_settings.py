@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -27,6 +28,8 @@ def test_nothing_differs_by_default_and_everything_by_one_word() -> None:
 def test_what_is_stated_is_not_drawn_even_where_it_is_nominal() -> None:
     plant = load_scene("flat", ["plant=random", "mass_ratio=1", "com_offset=[]", "softness=0.02"]).plant
     assert (plant.mass_ratio, plant.com_offset, plant.softness) == (1.0, (), 0.02)
+    assert replace(plant, level=1.0) == replace(plant.for_body(SMALL), level=1.0)
+    assert replace(plant, level=1.0).mass_ratio == 1.0
     assert plant.crosstalk == plant.gyro_bias == RANDOM
 
 
@@ -55,6 +58,7 @@ def test_a_list_is_in_metres_or_in_shares_of_the_body() -> None:
     ("setting", "allowed"),
     [
         ("plant=yes", "nominal, random, everything"),
+        ("plant=[1]", "nominal, random, everything"),
         ("level=4", "a number 0 to 3"),
         ("mass_ratio=0.4", 'a number 0.5 to 2 or "random"'),
         ("stiffness_ratio=soft", 'a number 0.05 to 5 or "random"'),
