@@ -88,6 +88,7 @@ class ControllerSettings(Settings):
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
+        load_ahead: How far in m ahead of its frame's origin, which is below the ankle, a whole sole is loaded at most.
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
         touchdown: Loads of a foot that lands with compliance.
@@ -115,6 +116,7 @@ class ControllerSettings(Settings):
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
+    load_ahead: float = number(1.0, "m", -1.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)
@@ -190,7 +192,7 @@ class WalkingController:
         self.omega = pendulum_frequency(settings.com_height)
         self.replans = 0
         feet, period = start.feet, settings.period
-        middles = {side: middle_of_sole(layouts[side]) for side in SIDES}
+        middles = {side: middle_of_sole(layouts[side], settings.load_ahead) for side in SIDES}
         self.plan = WalkPlan(feet, start.steps, settings.timing, middles, self.omega, start.time)
         self.balance = balance_law(settings.gains, self.omega, settings.mass, period)
         self._open_loop = OpenLoop(settings.mass)
@@ -209,7 +211,7 @@ class WalkingController:
         if gains is not None:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
-        self.contacts = FootContacts(settings.contact, layouts)
+        self.contacts = FootContacts(settings.contact, layouts, settings.load_ahead)
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
         self._frame = CommandFrame(feet["left"].position, period, settings.alignment_time)
@@ -365,7 +367,8 @@ class WalkingController:
         if self.settings.compliance is not None:
             senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
-        self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press())
+        heights = {s: state.positions_sole[s].item(2) for s in SIDES}
+        self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press(), heights)
         feet, slope = self.motion.view, self.settings.slope
         if feet.lift_off and feet.side is not None:
             self._compensation.start()

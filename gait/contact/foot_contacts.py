@@ -26,11 +26,19 @@ from plantar.sides import SIDES, Side
 __all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
 
 
-def middle_of_sole(layout: SoleLayout) -> NDArray[np.float64]:
-    """Centroid (2,) of a sole's outline in the sole frame in m: where the VRP lies over a whole foothold."""
+def middle_of_sole(layout: SoleLayout, ahead: float = math.inf) -> NDArray[np.float64]:
+    """Where the VRP lies over a whole foothold: the centroid of the sole's outline, or nearer to the ankle.
+
+    Args:
+        layout: The sole.
+        ahead: How far in m ahead of the sole frame's origin it may lie at most.
+
+    Returns:
+        Its place (2,) in the sole frame in m.
+    """
     middle = centroid(layout.outline)
     assert middle is not None  # a layout's outline has an area
-    return middle
+    return middle if middle[0] <= ahead else np.array([ahead, middle[1]])
 
 
 @dataclass(frozen=True)
@@ -88,11 +96,12 @@ class FootContacts:
     Args:
         settings: How the contact polygon is found from the taxels.
         layouts: Sole layout of each side.
+        ahead: How far in m ahead of its ankle a whole sole is loaded at most.
     """
 
-    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout]) -> None:
+    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout], ahead: float = math.inf) -> None:
         self._settings = settings
-        self._middle = {side: middle_of_sole(layouts[side]) for side in SIDES}
+        self._middle = {side: middle_of_sole(layouts[side], ahead) for side in SIDES}
         self._outline = {side: layouts[side].outline for side in SIDES}
         self._feet = {side: _Foot(StanceContact(layouts[side], settings), self._middle[side]) for side in SIDES}
         self._foreseen = -1

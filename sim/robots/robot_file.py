@@ -49,6 +49,8 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "single_support",
         "double_support",
         "pace",
+        "load_ahead",
+        "rocks",
     ),
     "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
 }
@@ -253,7 +255,7 @@ class _RobotFile(RobotTables):
             )
         return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
 
-    def _gait(self) -> dict[str, float]:
+    def _gait(self) -> dict[str, Any]:
         crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.15)
         return {
             "com_height": self.number("com_height", "gait", 0.05, 5.0),
@@ -264,6 +266,8 @@ class _RobotFile(RobotTables):
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
             "single_support": self._duration("single_support", 0.2),
             "double_support": self._duration("double_support", 0.02),
+            "load_ahead": self.number("load_ahead", "gait", -1.0, 1.0, 1.0),
+            "rocks": self.switch("rocks", "gait"),
             "pace": self.number("pace", "gait", 0.5, 5.0, 1.0),
         }
 

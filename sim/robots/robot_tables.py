@@ -52,6 +52,21 @@ class RobotTables:
             raise RobotError(f"{self.place(*tables)}: '{field}' is missing or not a text")
         return value
 
+    def switch(self, field: str, table: str) -> bool:
+        """A value of a table that is true or false, and false where it is left out.
+
+        Args:
+            field: Its name.
+            table: Name of the table that holds it.
+
+        Returns:
+            The value.
+        """
+        value = self.table(table).get(field, False)
+        if not isinstance(value, bool):
+            raise RobotError(f"{self.place(table)}: '{field}' is {value!r}; allowed: true, false")
+        return value
+
     def number(self, field: str, table: str, low: float, high: float, default: float | None = None) -> float:
         """A number of a table within limits.
 

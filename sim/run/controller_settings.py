@@ -26,7 +26,7 @@ from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
 from sim.run.scene import Control, Scene, Walk
 
-__all__ = ["CONTROL_PERIOD", "controller_settings"]
+__all__ = ["CONTROL_PERIOD", "controller_settings", "walk_timing"]
 
 CONTROL_PERIOD = Control().period
 """Control period in s of a scene that does not say."""
@@ -37,6 +37,9 @@ little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 
 
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 """Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+
+_LEAST_START = 0.2
+"""Least time in s of the first shift of the weight."""
 
 T = TypeVar("T", bound=Settings)
 
@@ -73,8 +76,9 @@ def controller_settings(
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),
-        timing=_timing(walk, robot, body),
+        timing=walk_timing(walk, robot, body),
         swing_height=walk.swing_height,
+        load_ahead=robot.load_ahead,
         landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
         touchdown=made(TouchdownGains, "touchdown"),
@@ -111,15 +115,24 @@ def _period(control: Control) -> float:
     return control.period
 
 
-def _timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
-    """Durations of the phases: the scene's, else the robot's, else the same number of beats for every robot."""
-    return Timing(
-        walk.single_support or robot.single_support or _SINGLE_SUPPORT * body.beat,
-        walk.double_support or robot.double_support or _DOUBLE_SUPPORT * body.beat,
-        walk.start,
-        walk.end,
-        walk.settle,
-    )
+def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
+    """Durations of a walk's phases: the scene's, else the robot's, else the same number of beats for every robot.
+
+    A robot that rocks from foot to foot has its own, and begins and ends as quickly.
+
+    Args:
+        walk: Gait of a scene, for the same body.
+        robot: The robot.
+        body: How large it is.
+
+    Returns:
+        The durations.
+    """
+    stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
+    single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
+    double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
+    start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
+    return Timing(single, double, start, end, walk.settle)
 
 
 def _refuse_unused(scene: Scene) -> None:

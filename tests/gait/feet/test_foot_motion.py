@@ -14,7 +14,7 @@ from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.swing_compliance import SwingCompliance
 from gait.plan.footsteps import Footstep, straight_plan
-from gait.plan.phases import Phase, Timing, WalkSchedule
+from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from plantar import Percept, Reading, hex_layout
 from plantar.layouts.layout import Side
 
@@ -63,6 +63,46 @@ def test_a_late_contact_is_reached_slowly() -> None:
     heights = np.array([z for t, z in track if t >= 2.1])
     assert heights[-1] < -0.006
     assert np.diff(heights).min() >= -LANDING.speed * PERIOD - 1e-12
+
+
+@pytest.mark.parametrize(("leveling", "stays"), [(0.0, True), (0.2, False)])
+def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(leveling: float, stays: bool) -> None:
+    feet, steps = straight_plan(1)
+    timing = Timing()
+    schedule = WalkSchedule.of([step.side for step in steps], timing)
+    motion = FootMotion(feet, PERIOD, 0.05, replace(LANDING, leveling=leveling))
+    frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+    loads: dict[Side, float] = {"left": 0.0, "right": 800.0}
+    heights: dict[Side, float] = {"left": 1.001, "right": 1.0}
+    walking = timing.start + timing.single_support + timing.end
+    pressed = 0.0
+    for k in range(round((walking + 2.0) / PERIOD)):
+        time = k * PERIOD
+        phase = schedule.at(time)
+        motion.update(phase, time, taken(steps, phase), loads, frame, heights=heights)
+        if phase.kind != PhaseKind.STANDING:
+            pressed = motion.footholds["left"][0][2]
+        else:
+            loads = {"left": 400.0, "right": 400.0}
+    assert pressed < -0.01
+    assert motion.footholds["left"][0][2] == pytest.approx(pressed if stays else 0.001, abs=1e-3)
+
+
+def test_the_next_ground_is_expected_where_the_last_was_as_far_as_it_is_trusted() -> None:
+    for trust in (0.0, 0.3, 1.0):
+        feet, steps = straight_plan(2)
+        schedule = WalkSchedule.of([step.side for step in steps], Timing())
+        motion = FootMotion(feet, PERIOD, 0.05, replace(LANDING, ground_share=trust))
+        frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
+        lowest = 1.0
+        for k in range(round(3.3 / PERIOD)):
+            phase = schedule.at(k * PERIOD)
+            depth = 0.02 - motion.footholds["left"][0][2]
+            load = max(0.0, 2e5 * depth) if phase.step == 0 else 800.0
+            motion.update(phase, k * PERIOD, taken(steps, phase), {"left": load, "right": 0.0}, frame)
+            if phase.step == 1 and phase.swing == "right" and phase.end - k * PERIOD < 2.0 * PERIOD:
+                lowest = min(lowest, float(motion.footholds["right"][0][2]))
+        assert lowest == pytest.approx(trust * motion.footholds["left"][0][2], abs=2e-3)
 
 
 def test_no_ground_is_not_followed_for_ever() -> None:
