@@ -179,17 +179,27 @@ class _Checked:
             told += (
                 f"; allowed: {math.degrees(_SPARE):.1f} or more: another com_height or stance_width, or a wider range"
             )
-        roll, level = math.degrees(reach.roll), reach.roll <= ROLL_MOST or not holds
+        most = self._roll_most()
+        roll, level = math.degrees(reach.roll), reach.roll <= most or not holds
         said = f"a sole that carries alone is off level by {roll:.1f} degrees"
         if not level:
-            said += (
-                f"; allowed: {math.degrees(ROLL_MOST):g}; legs with an ankle that rolls work, or a scene that stands"
-            )
+            said += f"; allowed: {math.degrees(most):.3g}; legs with an ankle that rolls work, or a scene that stands"
         return [
-            Finding("level soles", round(roll, 2), math.degrees(ROLL_MOST), "degrees", level, said),
+            Finding("level soles", round(roll, 2), round(math.degrees(most), 2), "degrees", level, said),
             Finding("reach", round(bend, 2), math.degrees(_BENT), "degrees", holds, text),
             Finding("joint range", round(math.degrees(spare), 2), math.degrees(_SPARE), "degrees", held, told),
         ]
+
+    def _roll_most(self) -> float:
+        """How far in rad a sole that carries alone may be off level.
+
+        The legs of a robot that rocks lean with their soles, which carry on their outer edge then: up to where the CoM
+        comes over the middle of the sole, it swings back.
+        """
+        if not self.robot.rocks:
+            return ROLL_MOST
+        feet = self.walked.feet
+        return math.atan(0.5 * (feet["left"].y - feet["right"].y) / self.walked.com_height)
 
     def _working_height(self) -> float | None:
         """The greatest height in m at which the knees stay bent by twice what is needed; None where none is found."""

@@ -12,19 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.plan.footsteps import straight_plan
-from gait.plan.phases import Timing
 from plantar.errors import RobotError
 from plantar.gravity import GRAVITY
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
-from sim.model.body import body_of, pitching_joints
+from sim.model.body import body_of, pitching_joints, stood
 from sim.model.leg_model import LegModel
 from sim.model.world import build_leg_model
 from sim.robots.robot import Robot
-from sim.run.controller_settings import CONTROL_PERIOD
+from sim.run.controller_settings import CONTROL_PERIOD, walk_timing
 from sim.run.scene import Walk
 from sim.survey.joint_inertia import JointInertia, joint_inertia
 from sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
+from sim.survey.rocking_gait import has_ankle_roll, load_ahead, rocking
 from sim.survey.servo_gains import servo_gains
 
 __all__ = [
@@ -114,15 +114,8 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
         The walk.
     """
     feet, plan = straight_plan(steps, length=STEP_SHARE * body.leg, width=robot.stance_width)
-    timing = _timing(body, robot.single_support, robot.double_support)
+    timing = walk_timing(Walk().for_body(body), robot, body)
     return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height)
-
-
-def _timing(body: BodyScale, single_support: float, double_support: float) -> Timing:
-    """Phases of a walk from single and double support in s, with the first and last shift of the weight that scenes
-    have."""
-    walk = Walk().for_body(body)
-    return Timing(single_support=single_support, double_support=double_support, start=walk.start, end=walk.end)
 
 
 def fit_gait(draft: Robot) -> FittedGait:
@@ -142,13 +135,18 @@ def fit_gait(draft: Robot) -> FittedGait:
     body = body_of(robot, legs.model)
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
+    ankle = _ankle(robot, legs)
+    ahead = load_ahead(robot, body.weight, ankle)
+    if ahead is not None:
+        robot = replace(robot, load_ahead=ahead)
     seed = _seed_height(robot, legs)
+    robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
     robot, body, reach = _stepping(robot, legs, body, seed, notes)
     height = robot.com_height
-    if reach.roll > ROLL_MOST:
+    if robot.rocks:
         notes.append(
-            f"without ankle roll a sole that carries alone is off level by {math.degrees(reach.roll):.0f} degrees, on "
-            "its edge: such a robot stands, but does not walk yet"
+            f"without ankle roll soles come off level by up to {math.degrees(reach.roll):.0f} degrees: the robot rocks "
+            "from foot to foot in short quick steps, and cannot wait on one of them"
         )
     settled(robot, legs, standing_feet(robot.stance_width), height)
     configuration = legs.configuration
@@ -157,7 +155,7 @@ def fit_gait(draft: Robot) -> FittedGait:
     stiffness, damping = servo_gains(inertia, legs.mass, height, body.beat, CONTROL_PERIOD)
     crouch = _crouch(robot, legs, body)
     pace = _pace(robot, legs, body)
-    own = _paced(robot, robot.com_height, pace) if pace > 1.0 else robot
+    own = _paced(robot, robot.com_height, pace) if pace > 1.0 and not robot.rocks else robot
     robot = replace(
         robot,
         stiffness=tuple(stiffness.tolist()),
@@ -229,7 +227,12 @@ def _seed_height(robot: Robot, legs: LegModel) -> float:
 
 
 def _paced(robot: Robot, height: float, slower: float) -> Robot:
-    """The robot with the pace of a pendulum of its height in m: h1's, in the time sqrt(h / g), or slower."""
+    """The robot with the pace of a pendulum of its height in m: h1's, in the time sqrt(h / g), or slower.
+
+    One that rocks has its own.
+    """
+    if robot.rocks:
+        return rocking(robot, height)
     unit = slower * math.sqrt(height / GRAVITY)
     return replace(
         robot, single_support=max(0.2, round(_SINGLE * unit, 2)), double_support=max(0.05, round(_DOUBLE * unit, 2))
@@ -240,17 +243,15 @@ def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
     """The robot with a height and pace, and the leg that its steps are shares of: the whole one where joints let it."""
-    for share in _SHORTER:
+    for share in _SHORTER[-1:] if robot.rocks else _SHORTER:
         length = math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg
         shorter = replace(body, leg=length)
         found = _fitted(robot, legs, shorter, seed, notes)
         if found is None:
             continue
         if share < 1.0:
-            notes.append(
-                f"joint limits leave no steps of a third of the leg with soles that stay flat: steps are shares of "
-                f"leg_length = {length:g} m, not of {body.leg:g} m"
-            )
+            why = "quick steps are short" if robot.rocks else "joint limits leave no steps of a third of the leg"
+            notes.append(f"{why}: steps are shares of leg_length = {length:g} m, not of {body.leg:g} m")
             return replace(found[0], leg_length=length), shorter, found[1]
         return found[0], body, found[1]
     raise RobotError(
@@ -269,7 +270,7 @@ def _fitted(
     """
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     found: list[tuple[float, Robot, PlanReach]] = []
-    for slower, bend in product(_SLOWER, _BENDS):
+    for slower, bend in product(*((_SLOWER[:1], _BENDS[1:]) if robot.rocks else (_SLOWER, _BENDS))):
         paced = _paced(robot, seed, slower)
         height, reach = _height(paced, legs, body, seed, bend)
         if reach is None:
@@ -317,16 +318,26 @@ def _height(robot: Robot, legs: LegModel, body: BodyScale, seed: float, bend: fl
 
 def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
     """The least number of beats a pace at which quick steps leave the motors something to balance with; the largest one
-    that is tried where none does."""
+    that is tried where none does. One that rocks steps in its own time."""
+    if robot.rocks:
+        step = robot.single_support + robot.double_support
+        return float(f"{step / ((QUICK_SINGLE + QUICK_DOUBLE) * body.beat):.3g}")
     limits = np.array(robot.effort_limits) if robot.effort_limits else np.inf
     feet, plan = straight_plan(_QUICK_STEPS, length=QUICK_STEP * body.leg, width=robot.stance_width)
     for beats in _PACES:
         pace = beats * body.beat
-        timing = _timing(body, QUICK_SINGLE * pace, QUICK_DOUBLE * pace)
+        quick = replace(robot, single_support=QUICK_SINGLE * pace, double_support=QUICK_DOUBLE * pace)
+        timing = walk_timing(Walk().for_body(body), quick, body)
         asked = plan_reach(robot, legs, Walked(feet, plan, timing, SWING_SHARE * body.leg, robot.com_height))
         if not bool((asked.torque > QUICK_HELD * limits).any()):
             return beats
     return _PACES[-1]
+
+
+def _ankle(robot: Robot, legs: LegModel) -> int:
+    """Which joint of a leg pitches the foot."""
+    pitching = pitching_joints(robot, "left", legs.model, stood(robot, legs.model))
+    return [legs.model.joint(name).id for name in robot.legs["left"].joints].index(pitching[-1])
 
 
 def _angles(robot: Robot, legs: LegModel, configuration: Array) -> dict[Side, tuple[float, ...]]:

@@ -15,6 +15,7 @@ from plantar.sides import SIDES, Side
 from sim.robots.robot import Robot
 from sim.run.controller_settings import CONTROL_PERIOD
 from sim.survey.fitted_gait import KNEE_LEAST, QUICK_HELD, STEP_SHARE, FittedGait
+from sim.survey.rocking_gait import LEAN_MOST
 from sim.survey.servo_gains import SAMPLED, STIFFNESS
 from sim.survey.survey import Survey
 
@@ -74,6 +75,7 @@ def robot_text(survey: Survey, fitted: FittedGait, shoe_notes: Sequence[str], we
         _servo(survey, fitted),
         _balance(fitted),
         _landing(),
+        *([_rocking()] if fitted.robot.rocks else []),
     ):
         lines += ["", *part]
     return "\n".join(lines) + "\n"
@@ -179,12 +181,28 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"largest_crouch = {robot.largest_crouch:g}  # m",
         f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
         f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
+        *_loaded(robot),
         *_told(f"This pace is {pace:.2f} sqrt(com_height / g); that of h1 is 3.15, more spares the motors."),
         f"single_support = {robot.single_support:g}  # s",
         f"double_support = {robot.double_support:g}  # s, a third of it",
         *_told(f"Beats of a pace, so that quick steps take {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."),
         f"pace = {robot.pace:g}",
     ]
+
+
+def _loaded(robot: Robot) -> list[str]:
+    """Where soles are loaded, and whether the robot rocks, where that is not as usual."""
+    lines = []
+    if robot.load_ahead < 1.0:
+        lines += _told("The ankles bear the weight on a part of the sole; ahead of them its middle is loaded at most:")
+        lines.append(f"load_ahead = {robot.load_ahead:g}  # m")
+    if robot.rocks:
+        lines += _told(
+            f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "
+            f"by {math.degrees(LEAN_MOST):g} degrees."
+        )
+        lines.append("rocks = true")
+    return lines
 
 
 def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
@@ -232,6 +250,15 @@ def _balance(fitted: FittedGait) -> list[str]:
     ]
 
 
+def _rocking() -> list[str]:
+    """How the heading of a robot that rocks is estimated; see `gait.estimate.estimator`."""
+    return [
+        "[estimator]",
+        *_told("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
+        "yaw = 0.1  # 1/s",
+    ]
+
+
 def _landing() -> list[str]:
     """How a foot lands; see `gait.feet.foot_motion`."""
     return [
@@ -246,4 +273,6 @@ def _landing() -> list[str]:
             "the one before. Expected where the last one was, and not at their average, the ground is not hit hard."
         ),
         "ground_share = 1.0",
+        *_told("What a foot was pressed too far, or not far enough, is given back once the robot stands."),
+        'leveling = "2 beat"',
     ]
