@@ -251,11 +251,15 @@ def _balance(fitted: FittedGait) -> list[str]:
 
 
 def _rocking() -> list[str]:
-    """How the heading of a robot that rocks is estimated; see `gait.estimate.estimator`."""
+    """How the attitude of a robot that rocks is estimated; see `gait.estimate.estimator`."""
     return [
         "[estimator]",
         *_told("Feet that come down on an edge turn, which only the gyro shows: they correct the heading slowly."),
         "yaw = 0.1  # 1/s",
+        "",
+        "[identification]",
+        *_told("Soles that carry turn as the robot rocks: the gyro's bias is not to be told from that."),
+        "gyro = false",
     ]
 
 
