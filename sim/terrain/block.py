@@ -28,6 +28,8 @@ class Block(Terrain):
         roll: Slope in degrees across the foot; positive rises to the left.
         shape: "box", or "spheres": three spheres in a triangle of that length and width.
         at: What `along` and `across` are measured from: the sole's "center" or the "ankle".
+        clear: Room in m that a box keeps along the foot to where the same foot stands before and after, by being
+            shorter: for robots whose soles are long for their steps; 0 lays it as long as it is.
         slide: Distance in m from outside, from which it slides in during the swing; 0 lies there from the start.
         height_range: The seed adds up to this much in m to `top`, either way.
     """
@@ -42,6 +44,7 @@ class Block(Terrain):
     roll: float = number(0.0, "deg", -30, 30)
     shape: str = choice("box", "spheres")
     at: str = choice("center", "ankle")
+    clear: float = number(0.0, "m", 0, 1)
     slide: float = number(0.0, "m", 0, 2)
     height_range: float = number(0.0, "m", 0, 0.1)
 
@@ -50,7 +53,8 @@ class Block(Terrain):
             raise SceneError(f"terrain.step is {self.step}; allowed: 0 to {len(feet.steps) - 1}, the steps of the walk")
         foot = feet.steps[self.step]
         top = max(0.001, self.top + float(rng.uniform(-1.0, 1.0)) * self.height_range)
-        solids = self._spheres(foot, top) if self.shape == "spheres" else (self._box(foot, top),)
+        box = self.shape == "box"
+        solids = (self._box(foot, top, self._room(foot, feet)),) if box else self._spheres(foot, top)
         return Ground(solids, self.height, self.friction, {"block_top_m": round(top, 5)})
 
     def _middle(self, foot: Footprint) -> np.ndarray:
@@ -58,13 +62,23 @@ class Block(Terrain):
         place = foot.place(self.along, outward * self.across)
         return place + (foot.ankle - foot.center if self.at == "ankle" else 0.0)
 
-    def _box(self, foot: Footprint, top: float) -> Solid:
+    def _room(self, foot: Footprint, feet: PlannedFeet) -> float:
+        """Length in m of a box that keeps clear of where the same foot stands before and after."""
+        if self.clear == 0.0:
+            return self.length
+        forward = np.array([math.cos(foot.yaw), math.sin(foot.yaw)])
+        middle = self._middle(foot)
+        others = (feet.standing[foot.side], *(f for f in feet.steps if f.side == foot.side))
+        gaps = [abs(float((f.center - middle) @ forward)) - f.half[0] - self.clear for f in others]
+        return min([self.length, *(2.0 * gap for gap in gaps if gap > 0.0)])  # those at its own place have none
+
+    def _box(self, foot: Footprint, top: float, length: float) -> Solid:
         rotation = rotation_from_angles(foot.yaw, math.radians(self.pitch), math.radians(self.roll))
         # Thick enough to reach the floor at its lowest corner, whatever the slope.
-        half = 0.5 * (top + 0.5 * self.length * abs(rotation[2, 0]) + 0.5 * self.width * abs(rotation[2, 1])) + 0.01
+        half = 0.5 * (top + 0.5 * length * abs(rotation[2, 0]) + 0.5 * self.width * abs(rotation[2, 1])) + 0.01
         upper = np.array([*self._middle(foot), self.height + top])
         position = upper - half * rotation[:, 2]
-        return self._sliding(Solid("box", (0.5 * self.length, 0.5 * self.width, half), position, rotation), foot)
+        return self._sliding(Solid("box", (0.5 * length, 0.5 * self.width, half), position, rotation), foot)
 
     def _spheres(self, foot: Footprint, top: float) -> tuple[Solid, ...]:
         middle = self._middle(foot)

@@ -147,6 +147,17 @@ def test_no_slope_and_no_bump_reaches_under_a_level_footprint() -> None:
     assert all(share(height, foot) < 0.5 for foot in planned.steps[1:-3])
 
 
+@pytest.mark.parametrize(("length", "step"), [(0.35, 0.2), (0.35, 0.15), (0.35, 0.0)])
+def test_a_block_keeps_clear_of_where_the_same_foot_stands_before_and_after(length: float, step: float) -> None:
+    planned = feet(length=step)
+    block = Block(step=2, length=length, width=0.1, top=0.03, clear=0.01)
+    (solid,) = block.ground(planned, np.random.default_rng(0)).solids
+    room = 2.0 * step - HALF[0] - 0.01
+    assert 2.0 * solid.size[0] == pytest.approx(min(length, 2.0 * room) if room > 0.0 else length)
+    (whole,) = Block(step=2, length=length, width=0.1, top=0.03).ground(planned, np.random.default_rng(0)).solids
+    assert 2.0 * whole.size[0] == pytest.approx(length)
+
+
 def test_a_sliding_block_comes_during_the_swing() -> None:
     planned = feet()
     ground = Block(step=2, slide=0.4).ground(planned, np.random.default_rng(0))
