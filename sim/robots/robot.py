@@ -85,8 +85,8 @@ class Robot:
             the leg as for every robot (`sim.run.controller_settings`).
         double_support: t_ds likewise.
         load_ahead: How far in m ahead of its frame's origin, which is below the ankle, a whole sole is loaded at most.
-        rocks: Whether it takes its steps in its own time, whatever a scene asks for: legs without ankle roll rock from
-            foot to foot and cannot wait on one of them.
+        rocks: Whether it takes its steps in its own time and without a slow approach, whatever a scene asks for: legs
+            without ankle roll rock from foot to foot and cannot wait on one of them.
         pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
             (`plantar.settings.body_scale`).
         stiffness: Servo position gain of each leg joint in N m/rad, the same for both legs.

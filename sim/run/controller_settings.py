@@ -65,6 +65,7 @@ def controller_settings(
     _refuse_unused(scene)
     partial = control.footholds != "off" or control.conform
     crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
+    approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
     yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
 
     def made(kind: type[T], name: str, **given: Any) -> T:
@@ -79,7 +80,7 @@ def controller_settings(
         timing=walk_timing(walk, robot, body),
         swing_height=walk.swing_height,
         load_ahead=robot.load_ahead,
-        landing=made(Landing, "landing", approach_height=walk.approach_height, approach_speed=walk.approach_speed),
+        landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
         touchdown=made(TouchdownGains, "touchdown"),
         ground_map=made(GroundMapSettings, "ground_map", sensing_range=scene.sensing.proximity_range),

@@ -1,5 +1,6 @@
 """The built-in robots against the published figures (ROBOTS facts), and what a robot file may leave out."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from plantar.settings.body_scale import BodyScale
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from sim.model.world import robot_spec
 from sim.robots import load_robot
 from sim.run.controller_settings import controller_settings
@@ -84,3 +85,16 @@ def test_the_pace_of_a_robot_is_its_own_or_the_default(tmp_path: Path) -> None:
     file.write_text(text.replace("single_support = 1.4", "single_support = 0"))
     with pytest.raises(RobotError, match="single_support"):
         load_robot(file)
+
+
+def test_a_robot_that_rocks_keeps_its_own_time_and_lands_without_a_slow_approach() -> None:
+    h1 = load_robot("h1")
+    scene = load_scene("uneven", ["t_ss=0.9", "t_ds=0.3"]).for_body(REFERENCE_BODY)
+    rocks = replace(h1, rocks=True, single_support=0.27, double_support=0.16)
+    own = controller_settings(scene, rocks, REFERENCE_BODY, {})
+    assert (own.timing.single_support, own.timing.double_support) == (0.27, 0.16)
+    assert (own.timing.start, own.timing.end) == (pytest.approx(0.2), pytest.approx(0.43))
+    assert own.landing.approach_height == 0.0
+    usual = controller_settings(scene, h1, REFERENCE_BODY, {})
+    assert (usual.timing.single_support, usual.timing.double_support) == (0.9, 0.3)
+    assert usual.landing.approach_height == scene.walk.approach_height > 0.0
