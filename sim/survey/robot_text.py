@@ -182,10 +182,16 @@ def _gait(fitted: FittedGait) -> list[str]:
         f"largest_crouch_partial = {robot.largest_crouch_partial:g}  # m",
         f"trunk_lean = {robot.trunk_lean:g}  # rad/m, 0.48 in leg lengths as h1",
         *_loaded(robot),
-        *_told(f"This pace is {pace:.2f} sqrt(com_height / g); that of h1 is 3.15, more spares the motors."),
+        *_told(
+            f"This pace is {pace:.2f} sqrt(com_height / g)"
+            + ("." if robot.rocks else "; that of h1 is 3.15, more spares the motors.")
+        ),
         f"single_support = {robot.single_support:g}  # s",
-        f"double_support = {robot.double_support:g}  # s, a third of it",
-        *_told(f"Beats of a pace, so that quick steps take {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."),
+        f"double_support = {robot.double_support:g}  # s, {robot.double_support / robot.single_support:.2f} of it",
+        *_told(
+            "Beats of a pace, so that quick steps take "
+            + ("its own time." if robot.rocks else f"{100.0 * QUICK_HELD:.0f} % of the motors' torque at most.")
+        ),
         f"pace = {robot.pace:g}",
     ]
 
