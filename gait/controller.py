@@ -36,6 +36,7 @@ from gait.estimate.estimator import (
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.identification import IdentificationRules
 from gait.estimate.skin_load import at_its_limit
+from gait.estimate.sole_slope import SoleSlope
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.ground_conformity import ConformityGains, GroundConformity
@@ -44,7 +45,7 @@ from gait.feet.posture_compensation import PostureCompensation
 from gait.feet.swing_compliance import SwingCompliance
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
-from gait.plan.phases import Phase, Timing, WalkSchedule
+from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.plan.plan_change import AppliedChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.decide import decide
@@ -214,6 +215,8 @@ class WalkingController:
         self.contacts = FootContacts(settings.contact, layouts, settings.load_ahead)
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
+        blind = settings.footholds == "force" and settings.compliance is None
+        self._slope = SoleSlope(settings.estimator.minimum_load) if blind else None
         self._frame = CommandFrame(feet["left"].position, period, settings.alignment_time)
         self._ticks = 0
         self._rotations_sole: Mapping[str, NDArray[np.float64]] = {s: feet[s].rotation_sole_to_world for s in SIDES}
@@ -403,16 +406,26 @@ class WalkingController:
             readings={side: percept.reading for side, percept in percepts.items()},
             loads=state.loads,
             moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
-            found=self.contacts.find(phase, time, feet, state, percepts) if looks else (),
+            found=self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else (),
             seen=self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None,
             inward=inward,
         )
 
+    def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
+        """Turn a foot that comes down blindly, or has just landed, parallel to the one that stands."""
+        standing = phase.kind == PhaseKind.STANDING and phase.step == 0
+        slope.update(state.rotations_sole, state.loads, standing)
+        side = self.motion.last_side
+        if side is not None and self.motion.comes_down:
+            self._damping[side].level(state.loads[side], slope.slope(side), self.settings.landing.levelling)
+
     def _damp(self, phase: Phase, sensed: _Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
         """Foot damping of feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment
-        on the best of ground."""
+        on the best of ground. One that does not see the ground comes down level instead."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
-        if looks:
+        if looks and self._slope is not None:
+            self._level(self._slope, phase, state)
+        if looks and (self._slope is None or not self.settings.landing.levelling):
             coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
             damped = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
         if self.guard is not None and self.guard.probing and phase.swing is not None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.contact.stance_contact import ContactSettings, StanceContact
+from gait.estimate.sole_slope import SoleSlope
 from gait.plan.feet_view import FeetView
 from gait.plan.phases import Phase, PhaseKind
 from plantar.geometry.polygon import centroid, inner_offset
@@ -192,7 +193,13 @@ class FootContacts:
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
-        self, phase: Phase, time: float, feet: FeetView, state: BaseState, soles: Mapping[Side, Percept]
+        self,
+        phase: Phase,
+        time: float,
+        feet: FeetView,
+        state: BaseState,
+        soles: Mapping[Side, Percept],
+        slope: SoleSlope | None = None,
     ) -> tuple[FootholdFound, ...]:
         """What the feet that come to carry stand on; told when it is found, and when it becomes another.
 
@@ -202,13 +209,15 @@ class FootContacts:
             feet: Where the feet are.
             state: Estimated state.
             soles: What each sole senses.
+            slope: How each sole is turned against the ground, where that is followed.
 
         Returns:
             The footholds.
         """
         found = []
         for side in self.coming_to_carry(phase, time, feet):
-            if self._feet[side].contact.update(soles[side].reading, state.loads[side]):
+            rises = None if slope is None else slope.slope(side)
+            if self._feet[side].contact.update(soles[side].reading, state.loads[side], rises):
                 found.append(self._taken(side, state))
         return tuple(found)
 

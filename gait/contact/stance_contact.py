@@ -22,6 +22,8 @@ from plantar.settings.schema import Settings, number, share, switch, whole
 
 __all__ = ["ContactSettings", "StanceContact"]
 
+_BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
+
 
 class ContactSettings(Settings):
     """How the contact polygon of a foot is found from the taxels.
@@ -40,6 +42,8 @@ class ContactSettings(Settings):
         least_seen: Number of taxels that have to see ground.
         least_margin: Distance in m of the load from the believed polygon's edge, from which silence tells.
         least_wrong: Share of the load that silent taxels should carry, from which the belief is wrong.
+        level: Slope in rad of the sole against the ground from which the silence of taxels on the side that rises tells
+            nothing: what its noise is.
         least_force: Running mean in N from which a taxel has carried.
         model_error: Share of the largest force that a taxel's force may differ from the fit's.
         full_ratio: Share of the sole from which on the contact polygon counts as the whole sole.
@@ -65,6 +69,7 @@ class ContactSettings(Settings):
     least_seen: int = whole(4, "taxels", 1, 10000)
     least_margin: float = share(0.13, "sole", 0, 0.2)
     least_wrong: float = number(0.1, "1", 0, 1)
+    level: float = number(1.5e-4, "rad", 0, 0.5)
     least_force: float = share(0.00415, "weight", 0, 10000)
     model_error: float = number(0.1, "1", 0, 1)
     full_ratio: float = number(0.93, "1", 0.1, 1)
@@ -109,6 +114,7 @@ class StanceContact:
         self._looks = 0
         self._believed: NDArray[np.float64] | None = None
         self._time = -1.0
+        self._slope = np.zeros(2)
         self._fit.reset()
 
     @property
@@ -123,12 +129,13 @@ class StanceContact:
         assert found is not None
         return found
 
-    def update(self, reading: Reading, load: float) -> bool:
+    def update(self, reading: Reading, load: float, slope: NDArray[np.float64] | None = None) -> bool:
         """Take the latest reading in.
 
         Args:
             reading: The sole's latest reading.
             load: Vertical force on the foot in N.
+            slope: How the sole rises (2,) along its x and y axes against the ground in m/m; level where None.
 
         Returns:
             Whether the contact polygon has just settled or become another.
@@ -137,6 +144,8 @@ class StanceContact:
         if reading.time <= self._time or load < s.minimum_load:
             return False
         self._time = reading.time
+        if slope is not None:
+            self._slope = self._slope + (s.smoothing if self._count else 1.0) * (slope - self._slope)
         # A dead taxel is a taxel without load, not a fault of the foothold.
         force = np.where(np.isfinite(reading.force), reading.force, 0.0)
         self._count += 1
@@ -268,6 +277,16 @@ class StanceContact:
             return None
         expected = self._fit.expected(load, cop, lines)
         silent = (expected > s.least_expected) & (mean < s.least_share * expected) & ~self._carried
+        silent &= ~self._risen(cop)
         # Three at least: a dead taxel is silent, too.
         wrong = int(silent.sum()) >= 3 and float(expected[silent].sum()) > s.least_wrong * load
         return silent if wrong else None
+
+    def _risen(self, cop: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Taxels (n,) that a turned sole, which rests on an edge at a point (2,), has lifted off the ground: their
+        silence tells nothing."""
+        s, places, cell = self.settings, self.layout.positions[:, :2], math.sqrt(self.layout.cell_area)
+        steep = float(np.hypot(self._slope[0], self._slope[1]))
+        if steep <= s.level:
+            return np.zeros(len(places), dtype=bool)
+        return np.asarray((places - cop) @ self._slope > _BESIDE * cell * steep)

@@ -58,6 +58,8 @@ class Landing(Settings):
             at the height at which it is estimated to stand; 0 leaves it where it was pressed to.
         ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
             high as the last one, less averages over more footholds of uneven ground.
+        levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
+            forces tell what it stands on; 0 leaves it as it comes.
         approach_height: Height in m above the expected ground from which a swing goes down slowly (see
             `SwingTrajectory`); 0 comes down in one move.
         approach_speed: Speed of that in m/s.
@@ -71,6 +73,7 @@ class Landing(Settings):
     reach: float = share(0.05, "leg", 0, 0.2)
     leveling: float = number(0.0, "s", 0, 100)
     ground_share: float = number(0.3, "1", 0, 1)
+    levelling: float = share(10.0, "1/beat", 0, 200)
     approach_height: float = number(0.0, "m", 0, 0.2)
     approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
 

@@ -73,10 +73,27 @@ class LandingCompliance:
         dx, dy = (center_of_pressure - target).tolist()
         gain = g.admittance * force
         # A moment about x lies along y: the turn is the lever rotated by a quarter.
-        rate = np.array([gain * dy, -gain * dx])
+        self._turn(np.array([gain * dy, -gain * dx]))
+
+    def level(self, force: float, slope: NDArray[np.float64], gain: float) -> None:
+        """One control tick of a foot that comes down, or has just landed: turn it parallel to the ground expected.
+
+        Args:
+            force: Vertical force on it in N.
+            slope: How the sole rises against that ground (2,) along its x and y axes in m/m.
+            gain: Rate of the turn for a slope of 1 in 1/s.
+        """
+        if force > self.gains.largest_force:
+            return
+        # A turn about x raises what lies along y, one about y lowers what lies along x.
+        self._turn(gain * np.array([-slope[1], slope[0]]))
+
+    def _turn(self, rate: NDArray[np.float64]) -> None:
+        """Turn at a rate (2,) in rad/s within limits of rate and turn."""
+        g = self.gains
         size = math.hypot(*rate.tolist())
         if size > g.largest_rate:
-            rate *= g.largest_rate / size
+            rate = rate * (g.largest_rate / size)
         turn = self.turn + self.period * rate
         size = math.hypot(*turn.tolist())
         self.turn = turn if size <= g.largest_turn else turn * (g.largest_turn / size)

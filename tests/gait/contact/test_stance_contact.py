@@ -149,3 +149,24 @@ def test_a_foothold_is_foreseen_where_the_sole_will_land() -> None:
     whole = Foot(WHOLE)
     whole.descend()
     assert whole.contact.foresee(np.zeros(2)) is None
+
+
+def on_its_edge(foot: Foot, rise: float, readings: int = 40) -> None:
+    """A sole that rests on the edge of the rear ground, whose rows beside it carry nothing; it rises by a slope along
+    -x, towards that ground."""
+    row = np.abs(SOLE.positions[:, 0] + 0.01) < 0.012
+    for _ in range(readings):
+        foot.time += 0.004
+        forces = np.where(row, 300.0 / row.sum(), 0.0) + foot.rng.normal(0.0, 1.47, len(SOLE))
+        slope = np.array([-rise, 0.0])
+        foot.contact.update(Reading(foot.time, np.clip(forces, 0.0, None)), 300.0, slope)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_sole_on_its_edge_has_its_ground_where_it_rises(seed: int) -> None:
+    turned, level = Foot(REAR, seed), Foot(REAR, seed)
+    on_its_edge(turned, 0.0025)
+    on_its_edge(level, 0.0)
+    assert level.contact.area_ratio < 0.3  # a level sole would carry on both sides of the row, and does not
+    assert 0.35 < turned.contact.area_ratio < 0.65
+    assert turned.contact.center_in_sole[0] < -0.04

@@ -1,0 +1,67 @@
+"""How one sole is turned against the other: by the legs' angles alone, and so more finely than attitude is known.
+
+A sole that lands a few milliradians off level rests on the edge of what is under it, and stays there: the stiffness of
+the leg holds its centre of pressure at that edge, and its taxels tell of one row of cells, on either side of which the
+ground may be. So a foot that comes down blindly turns parallel to the one that stands; and where it rests on an edge
+all the same, the ground is on the side to which it rises. Attitude in the world is estimated to half a milliradian, one
+sole against the other to 0.15 milliradians on a beam. Ground that is level under both feet is expected, as a blind foot
+expects it at one height.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sides import SIDES, Side, other_side
+
+__all__ = ["SoleSlope"]
+
+
+class SoleSlope:
+    """Rise of each sole against the ground that the other one stands on.
+
+    Encoders that are zeroed a little off show flat soles turned; what they show of that in the opening stand is taken
+    off. While the other foot is in the air, a sole's slope follows its attitude in the world.
+
+    Args:
+        least_load: Vertical force in N from which a foot stands and shows the ground.
+        smoothing: Share of a new tick in the mean over the opening stand.
+    """
+
+    def __init__(self, least_load: float, smoothing: float = 0.02) -> None:
+        self._least_load = least_load
+        self._smoothing = smoothing
+        self._standing: NDArray[np.float64] | None = None
+        self._slopes: dict[Side, NDArray[np.float64]] = {side: np.zeros(2) for side in SIDES}
+        self._known: dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]] = {}
+
+    def update(
+        self, rotations: Mapping[str, NDArray[np.float64]], loads: Mapping[str, float], standing: bool = False
+    ) -> None:
+        """Take in a tick.
+
+        Args:
+            rotations: Rotation (3, 3) from each sole to the world.
+            loads: Vertical force on each foot in N.
+            standing: Whether this is the opening stand, in which both soles are flat.
+        """
+        between = rotations["right"].T @ rotations["left"]
+        if standing:
+            if self._standing is None:
+                self._standing = between[2, :2]
+            self._standing = self._standing + self._smoothing * (between[2, :2] - self._standing)
+        zero = np.zeros(2) if self._standing is None else self._standing
+        against = {"left": between[2, :2] - zero, "right": between[:2, 2] + zero}
+        for side in SIDES:
+            world = rotations[side][2, :2]
+            if loads[other_side(side)] > self._least_load or side not in self._known:
+                self._known[side] = (against[side], world)
+            slope, then = self._known[side]
+            self._slopes[side] = slope + (world - then)
+
+    def slope(self, side: Side) -> NDArray[np.float64]:
+        """How a sole rises (2,) along its x and y axes in m/m; level before the first tick."""
+        return self._slopes[side]
