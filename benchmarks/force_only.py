@@ -1,0 +1,97 @@
+"""Count walks by the forces of taxels alone: `python benchmarks/force_only.py [MINUTES]`, then `... report`.
+
+Nothing sees the ground (`footholds=force`), and the taxels are an elastic layer, which the fit of edges does not know
+(`sensing.taxels=elastic`). Rows go to force_only.csv, one a run; stopped, it goes on where it was. Fresh seeds only,
+1000 to 1019, which nothing was tuned on; ablations get the first four of them.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from resumable import FEW, Benchmark, Case, add_row, commit, latest, rows_of, show, write_table
+
+FOLDER = Path(__file__).parent
+COLUMNS = ("steps_taken", "sim_time_s", "tilt_max_deg", "replans", "foothold_error_median_m", "foothold_error_p95_m")
+SEEDS = range(1000, 1020)
+FORCE = ("footholds=force", "sensing.taxels=elastic")
+ERRORS = ("plant.taxel_gain=0.15", "plant.crosstalk=0.1")
+# name, scene, settings: the shortest walk first, which is counted first
+WALKS: list[tuple[str, str, tuple[str, ...]]] = [
+    ("`partial-rear`", "partial-rear", ()),
+    ("`beam` 12 cm, +-80 mm", "beam", ("terrain.width=0.52 sole", "offset_range=0.347 sole")),
+    ("`beam` 8 cm, +-60 mm", "beam", ("terrain.width=0.348 sole", "offset_range=0.26 sole")),
+    ("`beam` 6 cm, +-40 mm", "beam", ("terrain.width=0.26 sole", "offset_range=0.174 sole")),
+]
+VARIANTS: list[tuple[str, tuple[str, ...], bool]] = [
+    ("", FORCE, False),
+    (", taxel errors", (*FORCE, *ERRORS), False),
+    (", not levelled", (*FORCE, "landing.levelling=0"), True),
+    (", on springs", ("footholds=force",), True),
+    (", on a half-space", (*FORCE, "sensing.layer=10"), True),
+]
+ROBOTS = ("h1", "hrp2kai")
+CASES = [
+    Case(f"{name}{what}", scene, robot, (*settings, *more), 0, aside)
+    for name, scene, settings in WALKS
+    for what, more, aside in VARIANTS
+    for robot in ROBOTS
+]
+
+
+def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    error = out.get("footholds", {}).get("centroid_error_m", {})
+    return {
+        **{name: out[name] for name in COLUMNS if name in out},
+        "foothold_error_median_m": error.get("median", ""),
+        "foothold_error_p95_m": error.get("p95", ""),
+    }
+
+
+BENCHMARK = Benchmark(FOLDER / "force_only.csv", COLUMNS, CASES, figures)
+
+
+def missing() -> Iterator[tuple[tuple[int, int], Case, int]]:
+    """Runs that are missing, each with its rank: seed by seed over all walks, comparisons behind them."""
+    done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(BENCHMARK.path)}
+    for place, case in enumerate(CASES):
+        for i, seed in enumerate(SEEDS):
+            if (case.name, case.robot, seed) not in done and not (case.aside and i >= FEW):
+                yield (i + (len(SEEDS) if case.aside else 0), place), case, seed
+
+
+def report() -> None:
+    """Write the table between its markers in force_only.md."""
+    rows = latest(rows_of(BENCHMARK.path))
+    lines = [
+        "| walk | robot | completed | steps of those that were not | centroid error, median of a run [mm] |",
+        "|---|---|---|---|---|",
+    ]
+    for case in CASES:
+        mine = [r for r in rows if r["case"] == case.name and r["robot"] == case.robot]
+        if not mine:
+            continue
+        good = sum(r["completed"] == "True" for r in mine)
+        short = ", ".join(sorted((r["steps_taken"] for r in mine if r["completed"] != "True"), key=int))
+        errors = [1e3 * float(r["foothold_error_median_m"]) for r in mine if r["foothold_error_median_m"]]
+        middle = f"{median(errors):.1f}" if errors else "-"
+        lines.append(f"| {case.name} | {case.robot} | {good}/{len(mine)} | {short or '-'} | {middle} |")
+    left = sum(not case.aside for _, case, _ in missing())
+    made = ", ".join(sorted({r["commit"] for r in rows}))
+    write_table(FOLDER / "force_only.md", [*lines, "", f"Runs of {made}. Still to be run: {left}, and comparisons."])
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] != ["report"]:
+        end, made = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6), commit()
+        for _, case, seed in sorted(missing(), key=lambda job: job[0]):
+            if time.monotonic() > end:
+                break
+            show(add_row(BENCHMARK, case, seed, made))
+    report()
