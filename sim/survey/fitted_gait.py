@@ -80,6 +80,7 @@ _BENDS = tuple(math.radians(a) for a in (20.0, 30.0, 40.0, 50.0))
 _QUICK_STEPS = 4  # two of each foot
 _GAP = 0.25  # of the sole's width between two soles that stand side by side: h1 has 0.3
 _SINGLE, _DOUBLE = 3.15, 1.05  # t_ss and t_ds of h1 over sqrt(h / g) of its height
+_H1_STEP = 4.85  # beats of a step of h1
 _LEAN = 0.48  # rad of trunk lean per leg length of lateral motion, as h1
 
 Array = NDArray[np.float64]
@@ -243,7 +244,7 @@ def _stepping(
     robot: Robot, legs: LegModel, body: BodyScale, seed: float, notes: list[str]
 ) -> tuple[Robot, BodyScale, PlanReach]:
     """The robot with a height and pace, and the leg that its steps are shares of: the whole one where joints let it."""
-    for share in _SHORTER[-1:] if robot.rocks else _SHORTER:
+    for share in (_rocking_share(robot, body, seed),) if robot.rocks else _SHORTER:
         length = math.floor(1e4 * share * body.leg) / 1e4 if share < 1.0 else body.leg
         shorter = replace(body, leg=length)
         found = _fitted(robot, legs, shorter, seed, notes)
@@ -255,9 +256,16 @@ def _stepping(
             return replace(found[0], leg_length=length), shorter, found[1]
         return found[0], body, found[1]
     raise RobotError(
-        f"robot '{robot.name}': no height of its CoM lets it take steps of {_SHORTER[-1] * STEP_SHARE * body.leg:.3f} "
+        f"robot '{robot.name}': no height of its CoM lets it take steps of {share * STEP_SHARE * body.leg:.3f} "
         "m with bent knees and within its joints' limits; are these the legs, and their limits right?"
     )
+
+
+def _rocking_share(robot: Robot, body: BodyScale, height: float) -> float:
+    """Share of the leg that the steps of a robot that rocks are shares of: they are as short as they are quick, so that
+    it walks as fast as h1 in legs a beat."""
+    rocks = rocking(robot, height)
+    return min(1.0, (rocks.single_support + rocks.double_support) / (_H1_STEP * body.beat))
 
 
 def _fitted(
