@@ -1,0 +1,79 @@
+"""Means of what is sensed while the robot holds still at the start, before it is balanced or walks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.sides import SIDES, Side
+
+__all__ = ["OpeningStand", "Stood"]
+
+
+class _Sole(Protocol):
+    @property
+    def wrench_in_sole(self) -> NDArray[np.float64]: ...
+
+
+class Stood(NamedTuple):
+    """What the sensors said of a robot that stands still, on average.
+
+    Attributes:
+        joint_positions: Encoder readings (k,) in rad.
+        up: Unit vector (3,) against gravity in the base frame, by the accelerometer.
+        wrenches: Wrench (6,) on each sole in its own frame in N and N m.
+    """
+
+    joint_positions: NDArray[np.float64]
+    up: NDArray[np.float64]
+    wrenches: Mapping[Side, NDArray[np.float64]]
+
+
+class OpeningStand:
+    """Averages encoders, accelerometer and soles.
+
+    Example:
+        >>> class Sole:
+        ...     wrench_in_sole = np.array([0.0, 0.0, 400.0, 0.0, 0.0, 0.0])
+        >>> stand = OpeningStand()
+        >>> for angle in (0.1, 0.3):
+        ...     stand.update(np.array([angle]), np.array([0.0, 0.0, 9.81]), {"left": Sole(), "right": Sole()})
+        >>> stand.mean().joint_positions.tolist(), stand.mean().up.tolist()
+        ([0.2], [0.0, 0.0, 1.0])
+    """
+
+    def __init__(self) -> None:
+        self._count = 0
+        self._joints = np.zeros(0)
+        self._specific = np.zeros(3)
+        self._wrenches: dict[Side, NDArray[np.float64]] = {side: np.zeros(6) for side in SIDES}
+
+    def update(
+        self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, _Sole]
+    ) -> None:
+        """Take in a control tick.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
+            soles: What each sole carries.
+        """
+        self._count += 1
+        self._joints = joint_positions.copy() if self._count == 1 else self._joints + joint_positions
+        self._specific = self._specific + accelerometer
+        for side in SIDES:
+            self._wrenches[side] = self._wrenches[side] + soles[side].wrench_in_sole
+
+    def mean(self) -> Stood | None:
+        """The means so far; None of nothing."""
+        if self._count == 0:
+            return None
+        n = self._count
+        return Stood(
+            self._joints / n,
+            self._specific / float(np.linalg.norm(self._specific)),
+            {side: self._wrenches[side] / n for side in SIDES},
+        )
