@@ -65,7 +65,8 @@ class Command:
     """What the controller asks of the body, for inverse kinematics and servos.
 
     Attributes:
-        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in.
+        com: CoM reference (3,) in m in the frame of the commanded footholds, which joints are solved in: where the
+            model's CoM shall be.
         rotation_torso: Rotation (3, 3) from the torso to the same frame.
         feet: Target of each sole, same frame.
         phase: Phase of the walk.
@@ -77,6 +78,7 @@ class Command:
         ankle_loads: What each ankle's force-torque sensor says that its sole carries; empty without such sensors.
         footholds: What feet have been found to stand on at this tick.
         moved_steps: Footsteps that were planned anew at another place at this tick.
+        joint_offsets: What joint set-points have to be higher by (k,) in rad, as encoders err; None for nothing.
     """
 
     com: NDArray[np.float64]
@@ -91,3 +93,4 @@ class Command:
     ankle_loads: Mapping[Side, SoleWrench] = field(default_factory=dict)
     footholds: tuple[FootholdFound, ...] = ()
     moved_steps: tuple[MovedStep, ...] = ()
+    joint_offsets: NDArray[np.float64] | None = None

@@ -35,6 +35,7 @@ from gait.estimate.estimator import (
 )
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.identification import IdentificationRules
+from gait.estimate.identified_body import IdentifiedBody
 from gait.estimate.skin_load import at_its_limit
 from gait.estimate.sole_slope import SoleSlope
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
@@ -61,7 +62,7 @@ from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
-from plantar.mechanics.lip import divergent_component, pendulum_frequency
+from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
@@ -98,6 +99,8 @@ class ControllerSettings(Settings):
         feasibility: Rules of step feasibility, which need compliance; None steps on everything.
         conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
+        spare_lean: The same where the robot is found to load its hips by a tenth more than its model does; in
+            proportion where by less.
         lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
@@ -126,6 +129,7 @@ class ControllerSettings(Settings):
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
+    spare_lean: float = number(0.0, "rad/m", 0.0, 10.0)
     lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
     alignment_time: float = share(1.21, "beat", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
@@ -199,11 +203,18 @@ class WalkingController:
         self._open_loop = OpenLoop(settings.mass)
         self._rectangle_of: dict[Side, tuple[NDArray[np.float64], Rectangle]] = {}
         self._contact_of: dict[Side, tuple[NDArray[np.float64], tuple[object, ...], Contact]] = {}
+        stands: Mapping[Side, tuple[float, float, float, float]] = {
+            s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES
+        }
+        self.body: IdentifiedBody | None = None
+        if settings.identification is not None:
+            weight = settings.mass * GRAVITY
+            self.body = IdentifiedBody(kinematics, weight, stands, settings.identification, period)
         self.estimator = FloatingBaseEstimator(
-            kinematics,
+            kinematics if self.body is None else self.body,
             self.omega,
             period,
-            {s: (feet[s].x, feet[s].y, feet[s].z, feet[s].yaw) for s in SIDES},
+            stands,
             settings.estimator,
             self._gyro_bias(),
         )
@@ -225,6 +236,12 @@ class WalkingController:
         self._ground = CoMHeight(ground, period, _FOLLOWS_GROUND / settings.body.beat)
         self.guard, self.conformity = self._for_unknown_ground(middles)
         self._proposers = self._asked(start, middles)
+
+    def identified(self) -> dict[str, object]:
+        """What was identified of the robot's differences from its model, for a run's summary."""
+        bias = self.estimator.gyro_bias
+        found: dict[str, object] = {} if bias is None else {"gyro_bias_rad_s": bias.value.round(6).tolist()}
+        return found if self.body is None else {**found, **self.body.summary()}
 
     def _gyro_bias(self) -> GyroBias | None:
         rules = self.settings.identification
@@ -291,9 +308,12 @@ class WalkingController:
         """One control tick: sensors in, command out."""
         time = sensors.time
         sensed = self._sense(sensors)
-        state = self._estimate(sensors, sensed)
         self._ticks += 1
-        feedback = self.settings.feedback and self._ticks * self.settings.period > self.settings.estimator.averaging
+        stands = self._ticks * self.settings.period <= self.settings.estimator.averaging
+        if self.body is not None:
+            self._identify(self.body, stands, sensors, sensed)
+        state = self._estimate(sensors, sensed)
+        feedback = self.settings.feedback and not stands
         if feedback:
             self._align(state)
         feet, inward = self._swing(sensed, state)
@@ -315,7 +335,7 @@ class WalkingController:
         if feedback:
             self._compensate(targets, phase, com, torso, posture, state)
         return Command(
-            com=com,
+            com=com if self.body is None else com - posture.dot(self.body.com_shift),
             rotation_torso=posture,
             feet=targets,
             phase=phase,
@@ -327,7 +347,18 @@ class WalkingController:
             ankle_loads=sensed.ankles,
             footholds=tick.found,
             moved_steps=() if applied is None else applied.moved,
+            joint_offsets=None if self.body is None else self.body.joint_offsets,
         )
+
+    def _identify(self, body: IdentifiedBody, stands: bool, sensors: Sensors, sensed: _Sensed) -> None:
+        """Find out in the opening stand how the robot differs from its model, and go by that afterwards."""
+        if stands:
+            body.stand(sensors.joint_positions, sensors.accelerometer, sensed.soles)
+        elif body.known:
+            body.advance()
+        else:
+            body.conclude()
+            self.estimator.stand_again(sensors.joint_positions)
 
     def _sense(self, sensors: Sensors) -> _Sensed:
         """What soles and ankles say, with each taxel's force clipped at its limit."""
@@ -541,7 +572,8 @@ class WalkingController:
         c, d = math.cos(torso), math.sin(torso)
         dx, dy, _ = (com - middle).tolist()
         left = -d * dx + c * dy
-        roll = -s.trunk_lean * min(s.lean_reach, max(-s.lean_reach, left))
+        lean = s.trunk_lean if self.body is None else max(s.trunk_lean, self.body.lean * s.spare_lean)
+        roll = -lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])
 

@@ -22,11 +22,12 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.estimate.encoder_offsets import standing_base
 from gait.estimate.gyro_bias import GyroBias
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
-from plantar.mechanics.rotation import heading, level_rotation, orthonormalised, rotation_from_vector
+from plantar.mechanics.rotation import heading, orthonormalised, rotation_from_vector
 from plantar.mechanics.zmp import zmp_of_feet
 from plantar.settings.schema import Settings, share
 from plantar.sides import SIDES
@@ -196,19 +197,25 @@ class FloatingBaseEstimator:
     def _start(self, posture: Posture, accelerometer: NDArray[np.float64]) -> None:
         """Level the base by gravity, head it along the feet, and stand on the known footholds."""
         # The robot stands still at the start, so the specific force is gravity alone.
-        up = accelerometer / float(np.linalg.norm(accelerometer))
-        forward = np.array([1.0, 0.0, 0.0]) - up[0] * up
-        forward /= float(np.linalg.norm(forward))
-        level = np.vstack([forward, np.cross(up, forward), up])
-        # Mean of two headings as a mean of unit vectors: that of the angles is wrong across +-pi.
-        turn = math.atan2(
-            sum(math.sin(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
-            sum(math.cos(self.feet[s][3] - heading(level @ posture.rotations[s])) for s in SIDES),
-        )
-        self._rotation = level_rotation(turn) @ level
-        self._position = np.mean(
-            [np.array(self.feet[s][:3]) - self._rotation @ posture.positions[s] for s in SIDES], axis=0
-        )
+        self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
+
+    def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
+        """Take the robot to stand on the known footholds again: it has not moved, but its kinematics are known better.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+        """
+        if self._rotation is None:
+            return
+        self._last = self.kinematics.posture(joint_positions)
+        self._stand(self._last, self._rotation[2])
+        self._last_rotation = self._rotation
+        self._velocity = np.zeros(3)
+        self._astray = 0.0
+
+    def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
+        """Stand on the known footholds, with a unit vector (3,) against gravity in the base frame."""
+        self._rotation, self._position = standing_base(posture, up, self.feet)
         self._com = self._position + self._rotation @ posture.com
         for side in SIDES:
             self._heading[side] = self.feet[side][3]

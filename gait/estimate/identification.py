@@ -14,8 +14,26 @@ class IdentificationRules(Settings):
         gyro: Whether the gyro's bias is identified, by feet that carry: they do not turn.
         gyro_time: Time constant in s with which it is followed once as much time has been averaged.
         gyro_largest: Largest bias in rad/s of an axis that is believed.
+        encoders: Whether the encoders' zeros are identified, by the feet of the opening stand.
+        encoder_error: Standard deviation of a joint's zero that is expected, in rad: 3e-3 are 0.17 degrees.
+        encoder_largest: Largest offset of a joint in rad that is believed.
+        com: Whether the CoM's offset is identified, by the ZMP of the opening stand.
+        com_largest: Largest offset in m that is believed.
+        lean: Whether the torso leans over the stance foot as far as mass and CoM load the hips more than in the model.
+        place_error: How well it is known where the feet stand at the start, as a standard deviation in m.
+        turn_error: How well soles are known to lie flat, and the accelerometer to show gravity on average, in rad.
+        fade: Time in s in which what is commanded follows what was found in the opening stand.
     """
 
     gyro: bool = switch(True)
     gyro_time: float = share(80.0, "beat", 1.0, 3600.0)
     gyro_largest: float = number(0.05, "rad/s", 0.0, 1.0)
+    encoders: bool = switch(True)
+    encoder_error: float = number(3e-3, "rad", 1e-6, 0.1)
+    encoder_largest: float = number(0.03, "rad", 0.0, 0.2)
+    com: bool = switch(True)
+    com_largest: float = share(1 / 12, "leg", 0.0, 0.5)
+    lean: bool = switch(True)
+    place_error: float = share(1e-3, "leg", 1e-6, 0.1)
+    turn_error: float = number(1e-3, "rad", 1e-6, 0.1)
+    fade: float = share(1.6, "beat", 0.01, 10.0)

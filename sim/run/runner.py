@@ -351,6 +351,9 @@ class Simulation:
             found["plant"] = self.plant.summary()
         if self.speeds is not None:
             found["velocity"] = self.speeds.summary(landings)
+        identified = self.controller.identified()
+        if identified:
+            found["identified"] = identified
         footholds = self.foothold_truth.summary()
         if footholds:
             found["footholds"] = dict(footholds)

@@ -96,6 +96,8 @@ class LegServos:
             # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
             torques = torques + self._friction * np.tanh(velocity / self._slow)
         self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness
+        if command.joint_offsets is not None:
+            self._setpoint += command.joint_offsets
         self._rate = velocity * w.period
         self._last = joints
         return joints

@@ -1,0 +1,149 @@
+"""The robot as it is found to be: kinematics of its model, less what encoders err, with the CoM where it shows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.estimate.com_offset import com_offset
+from gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
+from gait.estimate.estimator import LegKinematics, Posture, SoleLoad
+from gait.estimate.identification import IdentificationRules
+from gait.estimate.opening_stand import OpeningStand
+from plantar.sides import Side
+
+__all__ = ["IdentifiedBody"]
+
+_FULL_LEAN = 0.1
+"""Share by which a hip carries more than in the model from which on the torso leans all it can: motors have about that
+to spare, h1's at the hip's roll a sixth."""
+
+_MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; beyond, taxels are broken
+
+
+class IdentifiedBody:
+    """Identifies encoder offsets and CoM in the opening stand, and corrects kinematics by them from then on.
+
+    What is measured is corrected at once; what is commanded follows gradually (`joint_offsets`, `com_shift`), as joints
+    that jump by 0.3 degrees would jerk at the ground.
+
+    Attributes:
+        encoder_offsets: What each encoder reads too much (k,) in rad; empty until it is known, and without a stand.
+        com_offset: By how much the CoM is elsewhere than in the model (3,), in the base frame in m.
+        mass_ratio: Mass by the ground's forces over the model's; of many taxels the gains' errors cancel for the most.
+        known: Whether the stand is over and these are known.
+
+    Args:
+        kinematics: Kinematics of the model.
+        weight: Weight of the model in N.
+        feet: Where each sole stands at the start: x, y, z in m and heading in rad.
+        rules: What is identified.
+        period: Control period in s.
+    """
+
+    def __init__(
+        self,
+        kinematics: LegKinematics,
+        weight: float,
+        feet: Mapping[Side, tuple[float, float, float, float]],
+        rules: IdentificationRules,
+        period: float,
+    ) -> None:
+        self.encoder_offsets = np.zeros(0)
+        self.com_offset = np.zeros(3)
+        self.mass_ratio = 1.0
+        self.known = False
+        self._weight = weight
+        self._kinematics = kinematics
+        self._feet = feet
+        self._rules = rules
+        self._stand = OpeningStand()
+        self._share = 0.0
+        self._step = period / rules.fade
+
+    def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """Forward kinematics of encoder readings (k,) in rad (see `LegKinematics`), as far as is known."""
+        if not self.known:
+            return self._kinematics.posture(joint_positions)
+        read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
+        posture = self._kinematics.posture(read)
+        return posture._replace(com=posture.com + self.com_offset)
+
+    def stand(
+        self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
+    ) -> None:
+        """A tick in which the robot stands still.
+
+        Args:
+            joint_positions: Encoder readings (k,) in rad.
+            accelerometer: Specific force (3,) of the base in the base frame in m/s^2.
+            soles: What each sole carries.
+        """
+        self._stand.update(joint_positions, accelerometer, soles)
+
+    def conclude(self) -> None:
+        """The stand is over: identify by it."""
+        stood, rules = self._stand.mean(), self._rules
+        self.known = True
+        if stood is None:
+            return
+        self.encoder_offsets = np.zeros(len(stood.joint_positions))
+        if rules.encoders:
+            tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
+            found = encoder_offsets(self._kinematics.posture, stood.joint_positions, stood.up, self._feet, tolerances)
+            self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
+        carried = sum(float(wrench[2]) for wrench in stood.wrenches.values())
+        self.mass_ratio = min(_MASS_RATIOS[1], max(_MASS_RATIOS[0], carried / self._weight))
+        if rules.com:
+            posture = self._kinematics.posture(stood.joint_positions - self.encoder_offsets)
+            rotation, _ = standing_base(posture, stood.up, self._feet)
+            beside = com_offset(posture, rotation, self._feet, stood.wrenches)
+            self.com_offset = _limited(beside, float(np.linalg.norm(beside)), rules.com_largest)
+
+    def advance(self) -> None:
+        """A tick after the stand: what is commanded follows what is known."""
+        self._share = min(1.0, self._share + self._step)
+
+    @property
+    def joint_offsets(self) -> NDArray[np.float64] | None:
+        """What joint set-points have to be higher by (k,) in rad, as servos go by the encoders; None for nothing."""
+        return self._faded * self.encoder_offsets if len(self.encoder_offsets) else None
+
+    @property
+    def com_shift(self) -> NDArray[np.float64]:
+        """How far (3,) in m in the base frame the model's CoM has to be from where the CoM shall be, less of it."""
+        return self._faded * self.com_offset
+
+    @property
+    def lean(self) -> float:
+        """Share, 0 to 1, of the lean that it can that the torso shall lean over the stance foot.
+
+        The torque at the hip that carries goes with the weight and with the distance to the CoM from it, half the
+        distance of the feet in the model.
+        """
+        if not self._rules.lean:
+            return 0.0
+        lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
+        more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
+        return self._faded * min(1.0, max(0.0, more / _FULL_LEAN))
+
+    @property
+    def _faded(self) -> float:
+        s = self._share
+        return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed
+
+    def summary(self) -> dict[str, Any]:
+        """What was identified in the stand, for a run's summary."""
+        return {
+            "encoder_offsets_deg": np.round(np.degrees(self.encoder_offsets), 4).tolist(),
+            "com_offset_m": np.round(self.com_offset, 5).tolist(),
+            "mass_ratio": round(self.mass_ratio, 4),
+        }
+
+
+def _limited(vector: NDArray[np.float64], size: float, largest: float) -> NDArray[np.float64]:
+    return vector if size <= largest else vector * (largest / size)
