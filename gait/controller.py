@@ -99,8 +99,6 @@ class ControllerSettings(Settings):
         feasibility: Rules of step feasibility, which need compliance; None steps on everything.
         conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
         trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
-        spare_lean: The same where the robot is found to load its hips by a tenth more than its model does; in
-            proportion where by less.
         lean_reach: Distance in m from which on the torso leans no further.
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
@@ -129,7 +127,6 @@ class ControllerSettings(Settings):
     feasibility: FeasibilityRules | None = None
     conformity: ConformityGains | None = None
     trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
-    spare_lean: float = number(0.0, "rad/m", 0.0, 10.0)
     lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
     alignment_time: float = share(1.21, "beat", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
@@ -572,7 +569,7 @@ class WalkingController:
         c, d = math.cos(torso), math.sin(torso)
         dx, dy, _ = (com - middle).tolist()
         left = -d * dx + c * dy
-        lean = s.trunk_lean if self.body is None else max(s.trunk_lean, self.body.lean * s.spare_lean)
+        lean = s.trunk_lean if self.body is None else max(s.trunk_lean, self.body.lean)
         roll = -lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])

@@ -19,7 +19,8 @@ class IdentificationRules(Settings):
         encoder_largest: Largest offset of a joint in rad that is believed.
         com: Whether the CoM's offset is identified, by the ZMP of the opening stand.
         com_largest: Largest offset in m that is believed.
-        lean: Whether the torso leans over the stance foot as far as mass and CoM load the hips more than in the model.
+        lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet for each tenth
+            that mass and CoM load the hips more than in the model, up to two tenths; 0 leans as the walk says.
         place_error: How well it is known where the feet stand at the start, as a standard deviation in m.
         turn_error: How well soles are known to lie flat, and the accelerometer to show gravity on average, in rad.
         fade: Time in s in which what is commanded follows what was found in the opening stand.
@@ -33,7 +34,7 @@ class IdentificationRules(Settings):
     encoder_largest: float = number(0.03, "rad", 0.0, 0.2)
     com: bool = switch(True)
     com_largest: float = share(1 / 12, "leg", 0.0, 0.5)
-    lean: bool = switch(True)
+    lean: float = share(0.48, "rad/leg", 0.0, 10.0)
     place_error: float = share(1e-3, "leg", 1e-6, 0.1)
     turn_error: float = number(1e-3, "rad", 1e-6, 0.1)
     fade: float = share(1.6, "beat", 0.01, 10.0)

@@ -18,9 +18,7 @@ from plantar.sides import Side
 
 __all__ = ["IdentifiedBody"]
 
-_FULL_LEAN = 0.1
-"""Share by which a hip carries more than in the model from which on the torso leans all it can: motors have about that
-to spare, h1's at the hip's roll a sixth."""
+_TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
 
 _MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; beyond, taxels are broken
 
@@ -120,16 +118,14 @@ class IdentifiedBody:
 
     @property
     def lean(self) -> float:
-        """Share, 0 to 1, of the lean that it can that the torso shall lean over the stance foot.
+        """Roll of the torso over the stance foot in rad per metre of the CoM's distance from the middle of the feet.
 
         The torque at the hip that carries goes with the weight and with the distance to the CoM from it, half the
-        distance of the feet in the model.
+        distance of the feet in the model. Motors have a tenth to spare, h1's at the hip's roll a sixth.
         """
-        if not self._rules.lean:
-            return 0.0
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
-        return self._faded * min(1.0, max(0.0, more / _FULL_LEAN))
+        return self._faded * self._rules.lean * min(_TENTHS_MOST, max(0.0, 10.0 * more))
 
     @property
     def _faded(self) -> float:

@@ -76,7 +76,6 @@ def controller_settings(
         com_height=robot.com_height - min(walk.crouch, crouch),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
-        spare_lean=robot.trunk_lean,
         period=_period(control),
         timing=walk_timing(walk, robot, body),
         swing_height=walk.swing_height,

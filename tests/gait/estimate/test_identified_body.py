@@ -69,7 +69,7 @@ def test_is_the_model_where_robot_and_model_agree() -> None:
 
 
 def test_what_is_not_asked_for_stays_nominal() -> None:
-    rules = replace(RULES, encoders=False, com=False, lean=False)
+    rules = replace(RULES, encoders=False, com=False, lean=0.0)
     body = stood(rules, np.array([0.004, 0.0, 0.0, 0.0]), soles(1.2 * WEIGHT, x=0.02))
     body.advance()
     assert not body.encoder_offsets.any()
@@ -106,7 +106,7 @@ def test_commands_follow_without_a_jump() -> None:
     np.testing.assert_allclose(before, body.encoder_offsets)
     np.testing.assert_allclose(body.com_shift, body.com_offset)
     assert leans == sorted(leans)
-    assert leans[-1] == pytest.approx(1.0)  # 15 mm of 100 mm, times 1.05
+    assert leans[-1] == pytest.approx(2.0 * RULES.lean)  # 15 mm of 100 mm, times 1.05: more than two tenths
 
 
 def test_an_estimator_stands_where_it_stood() -> None:
