@@ -16,8 +16,11 @@ class IdentificationRules(Settings):
         gyro_largest: Largest bias in rad/s of an axis that is believed.
         encoders: Whether the encoders' zeros are identified, by the feet of the opening stand.
         encoder_error: Standard deviation of a joint's zero that is expected, in rad: 3e-3 are 0.17 degrees.
+        encoder_least: Root mean square in rad of the joints' offsets up to which they count as none: noise of the
+            accelerometer alone makes half of that.
         encoder_largest: Largest offset of a joint in rad that is believed.
         com: Whether the CoM's offset is identified, by the ZMP of the opening stand.
+        com_least: Offset in m up to which it counts as none.
         com_largest: Largest offset in m that is believed.
         lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet for each tenth
             that mass and CoM load the hips more than in the model, up to two tenths; 0 leans as the walk says.
@@ -31,8 +34,10 @@ class IdentificationRules(Settings):
     gyro_largest: float = number(0.05, "rad/s", 0.0, 1.0)
     encoders: bool = switch(True)
     encoder_error: float = number(3e-3, "rad", 1e-6, 0.1)
+    encoder_least: float = number(1e-3, "rad", 0.0, 0.1)
     encoder_largest: float = number(0.03, "rad", 0.0, 0.2)
     com: bool = switch(True)
+    com_least: float = share(0.005, "leg", 0.0, 0.1)
     com_largest: float = share(1 / 12, "leg", 0.0, 0.5)
     lean: float = share(0.48, "rad/leg", 0.0, 10.0)
     place_error: float = share(1e-3, "leg", 1e-6, 0.1)

@@ -20,6 +20,7 @@ __all__ = ["IdentifiedBody"]
 
 _TENTHS_MOST = 2.0  # that the torso leans for: h1 then by 5 degrees, which brings its CoM 3 cm nearer to the hip
 
+_EVEN = 0.03  # share that hips carry more up to which the torso does not lean: what taxels' gains leave uncertain
 _MASS_RATIOS = (0.7, 1.4)  # that are believed of the mass over the model's; beyond, taxels are broken
 
 
@@ -93,14 +94,18 @@ class IdentifiedBody:
         if rules.encoders:
             tolerances = StandingTolerances(rules.encoder_error, rules.place_error, rules.turn_error)
             found = encoder_offsets(self._kinematics.posture, stood.joint_positions, stood.up, self._feet, tolerances)
-            self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
+            # What noise explains stays out: it would turn the soles of a robot that is as its model says, for good.
+            if float(np.sqrt(np.mean(found**2))) > rules.encoder_least:
+                self.encoder_offsets = _limited(found, float(np.abs(found).max()), rules.encoder_largest)
         carried = sum(float(wrench[2]) for wrench in stood.wrenches.values())
         self.mass_ratio = min(_MASS_RATIOS[1], max(_MASS_RATIOS[0], carried / self._weight))
         if rules.com:
             posture = self._kinematics.posture(stood.joint_positions - self.encoder_offsets)
             rotation, _ = standing_base(posture, stood.up, self._feet)
             beside = com_offset(posture, rotation, self._feet, stood.wrenches)
-            self.com_offset = _limited(beside, float(np.linalg.norm(beside)), rules.com_largest)
+            size = float(np.linalg.norm(beside))
+            if size > rules.com_least:
+                self.com_offset = _limited(beside, size, rules.com_largest)
 
     def advance(self) -> None:
         """A tick after the stand: what is commanded follows what is known."""
@@ -125,7 +130,7 @@ class IdentifiedBody:
         """
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
-        return self._faded * self._rules.lean * min(_TENTHS_MOST, max(0.0, 10.0 * more))
+        return self._faded * self._rules.lean * min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
 
     @property
     def _faded(self) -> float:

@@ -68,6 +68,15 @@ def test_is_the_model_where_robot_and_model_agree() -> None:
     assert body.lean == 0.0
 
 
+def test_noise_changes_nothing() -> None:
+    body = stood(RULES, np.array([5e-4, 0.0, -5e-4, 0.0]), soles(1.01 * WEIGHT, x=0.001, y=-0.001))
+    for _ in range(100):
+        body.advance()
+    assert not body.encoder_offsets.any()
+    assert not body.com_offset.any()
+    assert body.lean == 0.0
+
+
 def test_what_is_not_asked_for_stays_nominal() -> None:
     rules = replace(RULES, encoders=False, com=False, lean=0.0)
     body = stood(rules, np.array([0.004, 0.0, 0.0, 0.0]), soles(1.2 * WEIGHT, x=0.02))
