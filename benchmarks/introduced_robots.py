@@ -103,12 +103,14 @@ def report() -> None:
         good = sum(r["completed"] == "True" for r in mine)
         upright = [r for r in mine if r["fell"] == "False"]
 
-        def most(column: str, of: list[dict[str, str]] = upright) -> float:
-            return max((float(r[column]) for r in of), default=float("nan"))
+        tilt = f"{max(float(r['tilt_final_deg']) for r in upright):.2f} deg" if upright else "all fell"
+
+        def most(column: str, of: list[dict[str, str]] = mine) -> float:
+            return max(float(r[column]) for r in of)
 
         lines.append(
-            f"| {name} | `{scene}` | {good}/{len(mine)} | {most('tilt_final_deg'):.2f} deg | "
-            f"{median(float(r['impact_median']) for r in mine):.2f}, {most('impact_max', mine):.2f} | "
+            f"| {name} | `{scene}` | {good}/{len(mine)} | {tilt} | "
+            f"{median(float(r['impact_median']) for r in mine):.2f}, {most('impact_max'):.2f} | "
             f"{100.0 * most('torque_limit_share', mine):.1f} % |"
         )
     made = ", ".join(sorted({r["commit"] for r in rows}))
