@@ -57,13 +57,13 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
 BENCHMARK = Benchmark(FOLDER / "force_only.csv", COLUMNS, CASES, figures)
 
 
-def missing() -> Iterator[tuple[tuple[int, int], Case, int]]:
-    """Runs that are missing, each with its rank: seed by seed over all walks, comparisons behind them."""
+def missing() -> Iterator[tuple[tuple[bool, bool, int, int], Case, int]]:
+    """Runs that are missing, each with its rank: short walks first, seed by seed over all walks, comparisons last."""
     done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(BENCHMARK.path)}
     for place, case in enumerate(CASES):
         for i, seed in enumerate(SEEDS):
             if (case.name, case.robot, seed) not in done and not (case.aside and i >= FEW):
-                yield (i + (len(SEEDS) if case.aside else 0), place), case, seed
+                yield (case.aside, case.scene == "beam", i, place), case, seed
 
 
 def report() -> None:
