@@ -264,8 +264,10 @@ def _rocking() -> list[str]:
         "yaw = 0.1  # 1/s",
         "",
         "[identification]",
-        *_told("Soles that carry turn as the robot rocks: the gyro's bias is not to be told from that."),
+        *_told("Soles that carry turn as the robot rocks: no bias and no offset is to be told from that."),
         "gyro = false",
+        "encoders = false",
+        "com = false",
     ]
 
 
