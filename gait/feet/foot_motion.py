@@ -54,8 +54,8 @@ class Landing(Settings):
         speed: Speed in m/s at which a foot that met no ground yet goes on downwards.
         acceleration: Its acceleration in m/s^2.
         reach: Distance in m that it goes down at most.
-        leveling: Time constant in s with which, once the robot stands, the foot that landed last comes to be commanded
-            at the height at which it is estimated to stand; 0 leaves it where it was pressed to.
+        relax_time: Time constant in s with which, once the robot stands, the foot that landed last comes to be
+            commanded at the height at which it is estimated to stand; 0 leaves it where it was pressed to.
         ground_share: Share of a new foothold's height in the height at which the next one is expected: 1 expects it as
             high as the last one, less averages over more footholds of uneven ground.
         levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
@@ -71,7 +71,7 @@ class Landing(Settings):
     speed: float = share(0.0124, "leg/beat", 0.0001, 1)
     acceleration: float = share(0.102, "leg/beat^2", 0.01, 100)
     reach: float = share(0.05, "leg", 0, 0.2)
-    leveling: float = number(0.0, "s", 0, 100)
+    relax_time: float = number(0.0, "s", 0, 100)
     ground_share: float = number(0.3, "1", 0, 1)
     levelling: float = share(10.0, "1/beat", 0, 200)
     approach_height: float = number(0.0, "m", 0, 0.2)
@@ -213,7 +213,7 @@ class FootMotion:
             frame: Frame that the footholds are commanded in.
             senses: What the soles sense, for preemptive compliance.
             press: Force in N that a foot that sees the ground holds in single support; its gains' own where None.
-            heights: Estimated height of each sole in the world in m, for feet that are leveled.
+            heights: Estimated height of each sole in the world in m, for feet that relax.
         """
         if self._compliance is not None and senses is not None:
             for side, compliance in self._compliance.items():
@@ -231,11 +231,11 @@ class FootMotion:
             self._comply(self._compliance[side], side, phase, time, loads[side], senses[side], frame, press)
         else:
             self._advance(phase, time, loads[self._side])
-        if heights is not None and phase.kind == PhaseKind.STANDING and self._landing.leveling > 0.0:
-            self._level(heights)
+        if heights is not None and phase.kind == PhaseKind.STANDING and self._landing.relax_time > 0.0:
+            self._relax(heights)
         self._touchdown = self.landed and not before
 
-    def _level(self, heights: Mapping[Side, float]) -> None:
+    def _relax(self, heights: Mapping[Side, float]) -> None:
         """Command the foot that landed last as much above the other one as it is estimated to stand.
 
         What it was pressed down too much or too little would stay in the legs, and the body lean by it. (While the
@@ -244,7 +244,7 @@ class FootMotion:
         side, other = self._side, other_side(self._side)
         position, yaw = self.footholds[side]
         stands = self.footholds[other][0].item(2) + heights[side] - heights[other]
-        share = min(1.0, self._period / self._landing.leveling)
+        share = min(1.0, self._period / self._landing.relax_time)
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
     def _advance(self, phase: Phase, time: float, load: float) -> None:

@@ -286,5 +286,5 @@ def _landing() -> list[str]:
         ),
         "ground_share = 1.0",
         *_told("What a foot was pressed too far, or not far enough, is given back once the robot stands."),
-        'leveling = "2 beat"',
+        'relax_time = "2 beat"',
     ]

@@ -65,12 +65,12 @@ def test_a_late_contact_is_reached_slowly() -> None:
     assert np.diff(heights).min() >= -LANDING.speed * PERIOD - 1e-12
 
 
-@pytest.mark.parametrize(("leveling", "stays"), [(0.0, True), (0.2, False)])
-def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(leveling: float, stays: bool) -> None:
+@pytest.mark.parametrize(("relax_time", "stays"), [(0.0, True), (0.2, False)])
+def test_what_a_foot_was_pressed_too_far_is_given_back_when_the_robot_stands(relax_time: float, stays: bool) -> None:
     feet, steps = straight_plan(1)
     timing = Timing()
     schedule = WalkSchedule.of([step.side for step in steps], timing)
-    motion = FootMotion(feet, PERIOD, 0.05, replace(LANDING, leveling=leveling))
+    motion = FootMotion(feet, PERIOD, 0.05, replace(LANDING, relax_time=relax_time))
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     loads: dict[Side, float] = {"left": 0.0, "right": 800.0}
     heights: dict[Side, float] = {"left": 1.001, "right": 1.0}
