@@ -273,6 +273,8 @@ class StanceContact:
         lines = np.empty((0, 3)) if self._fit.edges is None else self._fit.edges.lines
         polygon = self._fit.polygon(lines)
         around = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
+        if around <= 0.0:
+            return None  # the lines of a noisy fit leave nothing: no ground that silence could deny
         if signed_margin(polygon, cop) < min(s.least_margin, 0.8 * area(polygon) / around):
             return None
         expected = self._fit.expected(load, cop, lines)
