@@ -71,7 +71,7 @@ def controller_keys(table: str) -> tuple[str, ...]:
         The names in order, without those that a scene gives elsewhere.
 
     Example:
-        >>> controller_keys("landing")
+        >>> controller_keys("landing")[:6]
         ('contact_force', 'press_force', 'depth', 'speed', 'acceleration', 'reach')
     """
     names = dict.fromkeys(name for kind in CONTROLLER_TABLES[table] for name in kind.names())

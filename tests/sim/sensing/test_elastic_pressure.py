@@ -88,14 +88,16 @@ def test_impossible_layers_are_refused() -> None:
         ElasticPressure(LAYOUT, thickness=0.01, poisson=0.5)
 
 
-def test_a_reading_of_a_swaying_load_takes_less_than_a_millisecond() -> None:
-    """A centre of pressure that sways slowly over the sole and its edges, as one of a walk does."""
+def test_a_reading_of_a_swaying_load_costs_little_beside_a_new_layer() -> None:
+    """A centre of pressure that sways slowly over the sole and its edges, as one of a walk does: 2 to 3 % here."""
     sway = [(0.1 * math.sin(0.02 * k), 0.06 * math.sin(0.013 * k)) for k in range(500)]
-    LAYER.spread(WHOLE, 800.0, sway[0])
-    begin = time.process_time()
+    begin = time.thread_time()
+    ElasticPressure(LAYOUT, thickness=0.012).spread(WHOLE, 800.0, sway[0])
+    new = time.thread_time() - begin
+    begin = time.thread_time()
     for load in sway:
         LAYER.spread(WHOLE, 800.0, load)
-    assert (time.process_time() - begin) / len(sway) < 1e-3
+    assert (time.thread_time() - begin) / len(sway) < 0.2 * new
 
 
 def test_a_scene_chooses_the_model() -> None:
