@@ -24,6 +24,11 @@ if "MUJOCO_GL" not in os.environ:
     del os.environ["MUJOCO_GL"]
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The wheel's tests first: they compile for minutes on one worker, and at the end the others would wait for it."""
+    items.sort(key=lambda item: item.path.name != "test_wheel.py")
+
+
 @pytest.fixture(autouse=True)
 def _same_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     """Commands that run in this process say for it how MuJoCo draws; what later tests start must not inherit that."""
