@@ -2,15 +2,51 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Generic, TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.geometry.polygon import inner_offset
 from plantar.kernels.few_points import small_hull
 
-__all__ = ["half_planes_of", "patch_polygon", "reach_of"]
+__all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
+
+T = TypeVar("T")
 
 _INSIDE = 2e-3  # of a patch's half extent: how far inside its outermost cells a load acts, so that several carry it
+
+
+class Patches(Generic[T]):
+    """What was made of the latest patches, so that it is made once a patch.
+
+    Args:
+        make: Makes it of a patch's contact points (k, 2) in m.
+        grid: Distance in m within which patches that agree are the same patch.
+        most: How many are kept.
+    """
+
+    def __init__(self, make: Callable[[NDArray[np.float64]], T], grid: float, most: int) -> None:
+        self._make, self._grid, self._most = make, grid, most
+        self._made: dict[tuple[tuple[int, int], ...], T] = {}
+
+    def of(self, points: Sequence[tuple[float, float]]) -> T:
+        """What is made of a patch; the patch that was made first is forgotten where there are too many.
+
+        Args:
+            points: Contact points (x, y) in m, in any order.
+
+        Returns:
+            It.
+        """
+        grid = self._grid
+        key = tuple(sorted({(round(x / grid), round(y / grid)) for x, y in points}))
+        if key not in self._made:
+            if len(self._made) >= self._most:
+                self._made.pop(next(iter(self._made)))
+            self._made[key] = self._make(np.array(key) * grid)
+        return self._made[key]
 
 
 def patch_polygon(points: NDArray[np.float64], half_width: float) -> NDArray[np.float64]:

@@ -25,15 +25,15 @@ from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import closest_point, convex_hull
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import half_planes_of, patch_polygon, reach_of
+from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon, reach_of
 from sim.sensing.elastic_layer import LayerContact, influence
 from sim.sensing.sole_pressure import SolePressure
 
 __all__ = ["ElasticPressure"]
 
-_FINENESS = 0.4  # of a taxel's size: side of a square
 _GRID = 2.5e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 64
+_FINENESS = 0.4  # of a taxel's size: side of a square
 _INSIDE = 0.1  # of a square: how far inside the outermost squares a load acts, so that three at least carry it
 _STAYS = 1e-4  # of the load: the same squares touch while none pulls, or is penetrated, by more
 _LEAST_SHARE = 0.02  # of a square: less cover than this carries nothing
@@ -124,7 +124,7 @@ class ElasticPressure:
         self.rubber = rubber
         self.poisson = poisson
         self._squares = self._grid()
-        self._patches: dict[tuple[tuple[int, int], ...], _Patch | None] = {}
+        self._patches = Patches(self._make_patch, _GRID, _MOST_PATCHES)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
@@ -142,7 +142,7 @@ class ElasticPressure:
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
-        shape = self._patch(patch)
+        shape = self._patches.of(patch)
         if shape is None:
             return self._springs.spread(patch, force, center_of_pressure)
         inside = closest_point(shape.reach, center_of_pressure)
@@ -165,7 +165,7 @@ class ElasticPressure:
             Centroid (k, 2) of the covered part of each square in m, and its force (k,) in N; nothing where the load
             rests on the bare rim beside the taxels.
         """
-        shape = self._patch(patch)
+        shape = self._patches.of(patch)
         if shape is None:
             return np.empty((0, 2)), np.empty(0)
         inside = closest_point(shape.reach, center_of_pressure)
@@ -193,14 +193,6 @@ class ElasticPressure:
         centers = centers[used]
         compliance = influence(centers, np.full(len(centers), side), self.thickness, self.poisson)
         return _Squares(CellCutter.of_polygons(rings), square, taxel[kept], side, centers, compliance)
-
-    def _patch(self, points: Sequence[tuple[float, float]]) -> _Patch | None:
-        key = tuple(sorted({(round(x / _GRID), round(y / _GRID)) for x, y in points}))
-        if key not in self._patches:
-            if len(self._patches) >= _MOST_PATCHES:
-                self._patches.pop(next(iter(self._patches)))
-            self._patches[key] = self._make_patch(np.array(key) * _GRID)
-        return self._patches[key]
 
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch | None:
         """The squares that a patch covers; None where it lies on the bare rim."""

@@ -30,7 +30,7 @@ from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import closest_point, convex_hull
 from plantar.kernels.foundation import spread_part, spread_whole
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import half_planes_of, patch_polygon, reach_of
+from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon, reach_of
 
 __all__ = ["SolePressure"]
 
@@ -86,7 +86,7 @@ class SolePressure:
         self._area = shapely.area(self._cells)
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
-        self._patches: dict[tuple[tuple[int, int], ...], _Patch] = {}
+        self._patches = Patches(self._make_patch, _GRID, _MOST_PATCHES)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
@@ -104,7 +104,7 @@ class SolePressure:
         out = np.zeros(len(self.layout))
         if not (0.0 < force < math.inf) or not len(patch):
             return out
-        shape = self._patch(patch)
+        shape = self._patches.of(patch)
         x = (center_of_pressure[0] - shape.centre[0]) / shape.scale
         y = (center_of_pressure[1] - shape.centre[1]) / shape.scale
         if not spread_whole(shape.u, shape.area, shape.inverse, x, y, force, shape.cells, out):
@@ -123,15 +123,6 @@ class SolePressure:
             Forces (n,) in N, the larger the more a taxel leans.
         """
         return force if self._gain is None else np.asarray(force * self._gain)
-
-    def _patch(self, points: Sequence[tuple[float, float]]) -> _Patch:
-        key = tuple(sorted({(round(x / _GRID), round(y / _GRID)) for x, y in points}))
-        found = self._patches.get(key)
-        if found is None:
-            if len(self._patches) >= _MOST_PATCHES:
-                self._patches.pop(next(iter(self._patches)))
-            found = self._patches[key] = self._make_patch(np.array(key) * _GRID)
-        return found
 
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
         import shapely
