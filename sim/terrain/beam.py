@@ -13,6 +13,7 @@ from sim.terrain.ground import Ground, PlannedFeet, Solid, Terrain
 __all__ = ["Beam"]
 
 _THICK = 0.1  # m, half height of beam and platforms
+_CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 
 
 class Beam(Terrain):
@@ -21,7 +22,8 @@ class Beam(Terrain):
     Attributes:
         width: Width of the beam in m.
         length: Distance in m between the platforms.
-        start: Distance in m from the middle of the standing feet to the beam.
+        start: Distance in m from the middle of the standing feet to the beam; where a foot would stand on the beam from
+            the start on, as of a robot whose steps are shares of a short leg, the beam begins where that foot ends.
         offset: Distance in m of the beam's middle line from the soles' centres, across the walk: positive to the left
             of the walking direction, which in side steps to the left is backward.
         offset_range: The seed adds an offset of up to this much in m, either way.
@@ -47,7 +49,8 @@ class Beam(Terrain):
         offset = self.offset + float(rng.uniform(-1.0, 1.0)) * self.offset_range
         turned = heading + math.radians(self.yaw)
         line = np.array([math.cos(turned), math.sin(turned)])
-        near = begin + self.start * along + offset * across
+        start = max(self.start, _foremost(feet, begin, along))
+        near = begin + start * along + offset * across
         z = self.height - _THICK
         reach = self.length / math.cos(turned - heading)  # the platforms' edges stand across the walk
 
@@ -60,11 +63,17 @@ class Beam(Terrain):
         half = 0.5 * reach + 0.05
         return Ground(
             (
-                platform(self.start - 1.2, self.start),
-                platform(self.start + self.length, max(self.start + self.length, distance) + 1.0),
+                platform(start - 1.2, start),
+                platform(start + self.length, max(start + self.length, distance) + 1.0),
                 Solid("box", (half, 0.5 * self.width, _THICK), np.array([*beam_middle, z]), level_rotation(turned)),
             ),
             self.height - self.depth,
             self.friction,
             {"beam_offset_m": round(offset, 5)},
         )
+
+
+def _foremost(feet: PlannedFeet, begin: np.ndarray, along: np.ndarray) -> float:
+    """How far in m the standing soles reach from a point (2,) along a direction (2,)."""
+    corners = [foot.place(a * foot.half[0], b * foot.half[1]) for foot in feet.standing.values() for a, b in _CORNERS]
+    return float(max((corner - begin) @ along for corner in corners))

@@ -78,6 +78,15 @@ def test_a_beam_lies_between_platforms_at_its_offset_and_angle() -> None:
     assert height(middle + np.array([0.3, 1.0])) == pytest.approx(-0.3, abs=1e-3)
 
 
+def test_no_foot_stands_on_a_beam_from_the_start_on() -> None:
+    planned = feet(40, length=0.0, sideways=0.08)
+    outer = float(max(foot.place(0.0, HALF[1])[1] for foot in planned.standing.values()))
+    height = height_of(Beam(width=0.12, length=1.3, start=0.1), planned)
+    middle = planned.middle()
+    assert height(np.array([middle[0] + 0.2, outer - 0.005])) == pytest.approx(0.0, abs=1e-3)
+    assert height(np.array([middle[0] + 0.2, outer + 0.005])) < -0.1
+
+
 def test_the_seed_chooses_the_beams_offset_within_its_range() -> None:
     planned = feet(40, length=0.0, sideways=0.08)
     offsets = [
