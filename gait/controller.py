@@ -90,7 +90,8 @@ class ControllerSettings(Settings):
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
-        load_ahead: How far in m ahead of its frame's origin, which is below the ankle, a whole sole is loaded at most.
+        ankle_reach: How far in m from its frame's origin, which is below the ankle, along the sole, an ankle bears the
+            robot; nothing farther off is loaded.
         landing: How a foot lands.
         compliance: Preemptive foot compliance; None lands blindly.
         touchdown: Loads of a foot that lands with compliance.
@@ -118,7 +119,7 @@ class ControllerSettings(Settings):
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
-    load_ahead: float = number(1.0, "m", -1.0, 1.0)
+    ankle_reach: float = number(1.0, "m", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
     touchdown: TouchdownGains = field(default_factory=TouchdownGains)
@@ -194,7 +195,7 @@ class WalkingController:
         self.omega = pendulum_frequency(settings.com_height)
         self.replans = 0
         feet, period = start.feet, settings.period
-        middles = {side: middle_of_sole(layouts[side], settings.load_ahead) for side in SIDES}
+        middles = {side: middle_of_sole(layouts[side], settings.ankle_reach) for side in SIDES}
         self.plan = WalkPlan(feet, start.steps, settings.timing, middles, self.omega, start.time)
         self.balance = balance_law(settings.gains, self.omega, settings.mass, period)
         self._open_loop = OpenLoop(settings.mass)
@@ -220,7 +221,7 @@ class WalkingController:
         if gains is not None:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
-        self.contacts = FootContacts(settings.contact, layouts, settings.load_ahead)
+        self.contacts = FootContacts(settings.contact, layouts, settings.ankle_reach)
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
         blind = settings.footholds == "force" and settings.compliance is None
@@ -270,11 +271,11 @@ class WalkingController:
         length = float(np.hypot(*way))
         forward = np.array([math.cos(start.feet["left"].yaw), math.sin(start.feet["left"].yaw)])
         strip = SupportStrip.for_body(body, begin, way / length if length > _NO_WAY * body.leg else forward)
-        rules = self.settings.foothold
+        rules, outlines = self.settings.foothold, {side: self.layouts[side].outline for side in SIDES}
         on_ground: list[Proposer] = [
             SlopeInside(),
             FootholdSeenAhead(rules),
-            FootholdCarries(rules, middles, strip),
+            FootholdCarries(rules, middles, outlines, strip, self.settings.ankle_reach),
         ]
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.contact.ankle_reach import borne_part, loaded_middle
 from gait.contact.stance_contact import ContactSettings, StanceContact
 from gait.estimate.sole_slope import SoleSlope
 from gait.plan.feet_view import FeetView
 from gait.plan.phases import Phase, PhaseKind
-from plantar.geometry.polygon import centroid, inner_offset
+from plantar.geometry.polygon import inner_offset
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.rotation import level_rotation
@@ -27,19 +28,17 @@ from plantar.sides import SIDES, Side
 __all__ = ["FootContacts", "FootholdFound", "FootholdSeen", "middle_of_sole"]
 
 
-def middle_of_sole(layout: SoleLayout, ahead: float = math.inf) -> NDArray[np.float64]:
-    """Where the VRP lies over a whole foothold: the centroid of the sole's outline, or nearer to the ankle.
+def middle_of_sole(layout: SoleLayout, reach: float = math.inf) -> NDArray[np.float64]:
+    """Where the VRP lies over a whole foothold: see `gait.contact.ankle_reach.loaded_middle`.
 
     Args:
         layout: The sole.
-        ahead: How far in m ahead of the sole frame's origin it may lie at most.
+        reach: How far in m from the sole frame's origin, along the sole, the ankle bears the robot.
 
     Returns:
         Its place (2,) in the sole frame in m.
     """
-    middle = centroid(layout.outline)
-    assert middle is not None  # a layout's outline has an area
-    return middle if middle[0] <= ahead else np.array([ahead, middle[1]])
+    return loaded_middle(layout.outline, reach)
 
 
 @dataclass(frozen=True)
@@ -52,6 +51,7 @@ class FootholdFound:
         polygon: Support polygon (k, 2) in the world in m, counter-clockwise.
         area_ratio: Its share of the sole's cells.
         vrp: VRP (2,) over it in the world in m.
+        middle: Its centroid (2,) in the world in m, which is the VRP unless the ankle bears the robot on a part of it.
         whole: Whether it carries the whole sole.
         as_planned: Whether it carries the whole sole, and nothing else was found before.
     """
@@ -61,6 +61,7 @@ class FootholdFound:
     polygon: NDArray[np.float64]
     area_ratio: float
     vrp: NDArray[np.float64]
+    middle: NDArray[np.float64]
     whole: bool = False
     as_planned: bool = False
 
@@ -82,11 +83,12 @@ class FootholdSeen:
 
 @dataclass
 class _Foot:
-    """One foot of the walk: its taxels' view, the middle (2,) of its foothold in the sole, the foothold (k, 2) in the
-    world where it is known, and the step that put it down."""
+    """One foot of the walk: its taxels' view, where its foothold is loaded (2,) and on what (k, 2) its ankle bears the
+    robot, both in the sole, the same in the world where the foothold is known, and the step that put it down."""
 
     contact: StanceContact
     center: NDArray[np.float64]
+    borne: NDArray[np.float64]
     support: NDArray[np.float64] | None = None
     step: int | None = None
 
@@ -97,26 +99,29 @@ class FootContacts:
     Args:
         settings: How the contact polygon is found from the taxels.
         layouts: Sole layout of each side.
-        ahead: How far in m ahead of its ankle a whole sole is loaded at most.
+        reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
     """
 
-    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout], ahead: float = math.inf) -> None:
+    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout], reach: float = math.inf) -> None:
         self._settings = settings
-        self._middle = {side: middle_of_sole(layouts[side], ahead) for side in SIDES}
-        self._outline = {side: layouts[side].outline for side in SIDES}
-        self._feet = {side: _Foot(StanceContact(layouts[side], settings), self._middle[side]) for side in SIDES}
+        self._reach = reach
+        self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
+        self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
+        self._feet = {
+            side: _Foot(StanceContact(layouts[side], settings), self._middle[side], self._borne[side]) for side in SIDES
+        }
         self._foreseen = -1
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
 
     def center(self, side: Side) -> NDArray[np.float64]:
-        """Middle (2,) of a foot's contact polygon in its sole frame in m; of the sole while it is not known."""
+        """Where (2,) a foot's foothold is loaded in its sole frame in m; the whole sole while it is not known."""
         return self._feet[side].center
 
     def polygon(self, side: Side) -> NDArray[np.float64]:
-        """Contact polygon (k, 2) of a foot in its sole frame in m; the sole's outline while it is not known."""
-        foot = self._feet[side]
-        return self._outline[side] if foot.support is None else foot.contact.polygon_in_sole
+        """What (k, 2) of a foot's foothold its ankle bears the robot on, in its sole frame in m; of the whole sole
+        while it is not known."""
+        return self._feet[side].borne
 
     def lift_off(self, side: Side, step: int) -> None:
         """A swing begins: what its foot stood on no longer counts, where it will stand is not known.
@@ -128,7 +133,7 @@ class FootContacts:
         foot = self._feet[side]
         foot.contact.lift()
         foot.support = None
-        foot.center = self._middle[side]
+        foot.center, foot.borne = self._middle[side], self._borne[side]
         foot.step = step
 
     def bear_inside(self, side: Side, distance: float) -> None:
@@ -186,10 +191,11 @@ class FootContacts:
         if phase.end - time < rules.foresee_least:
             return None
         turn = state.rotations_sole[side][:2, :2]
-        center = contact.foresee(turn.T @ feet.ahead)
-        if center is None:
+        ground = contact.foresee(turn.T @ feet.ahead)
+        if ground is None:
             return None
         self._foreseen = phase.step
+        center = loaded_middle(ground, self._reach)
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
@@ -228,12 +234,14 @@ class FootContacts:
         known = foot.support is not None
         position, rotation = state.positions_sole[side], state.rotations_sole[side]
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
-        point = (position + rotation[:, :2] @ contact.center_in_sole)[:2]
+        center = loaded_middle(contact.polygon_in_sole, self._reach)
+        vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
         as_planned = contact.whole and not known
         if not as_planned:
-            foot.support = polygon
-            foot.center = contact.center_in_sole
-        return FootholdFound(foot.step, side, polygon, contact.area_ratio, point, contact.whole, as_planned)
+            foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
+            whole = foot.borne is contact.polygon_in_sole
+            foot.support = polygon if whole else polygon_in_world(foot.borne, rotation, position)
+        return FootholdFound(foot.step, side, polygon, contact.area_ratio, vrp, middle, contact.whole, as_planned)
 
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: NDArray[np.float64], margin: float
@@ -265,7 +273,7 @@ class FootContacts:
                 if support is None:
                     position, yaw = feet.footholds[side]
                     support = polygon_in_world(
-                        self._outline[side],
+                        self._borne[side],
                         level_rotation(yaw),
                         np.array([position[0], position[1], 0.0]) + frame_offset,
                     )

@@ -186,14 +186,14 @@ class StanceContact:
         self._depth = np.where(sound, before + share * (depth - before), np.nan)
 
     def foresee(self, ahead: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Centroid of the ground that will carry a foot which comes down, from what its taxels see.
+        """The ground that will carry a foot which comes down, from what its taxels see.
 
         Args:
             ahead: How far (2,) in m the sole still moves in its own plane before it lands.
 
         Returns:
-            Centroid (2,) in the sole frame as it will land in m; None where too little is seen, or where the ground is
-            whole.
+            Convex polygon (k, 2) in the sole frame as it will land in m, counter-clockwise; None where too little is
+            seen, or where the ground is whole.
         """
         if self._looks < self.settings.foresee_readings:
             return None
@@ -206,7 +206,7 @@ class StanceContact:
         polygon = self._fit.polygon(lines)
         if len(polygon) < 3 or area(polygon) > self.settings.full_ratio * self._whole_area:
             return None
-        return centroid(polygon)
+        return polygon
 
     def _from_sight(self) -> NDArray[np.float64] | None:
         """Edges (m, 3) of the ground as the taxels saw it before they touched; None where they did not."""

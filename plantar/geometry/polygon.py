@@ -15,9 +15,12 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number
 from plantar.kernels import convex as _kernel
 from plantar.kernels import hull as _hull
+from plantar.kernels.clean import clean_ring, extent, turning
 from plantar.plane_points import plane_point, plane_points
 
-__all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "signed_margin"]
+__all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "part_inside", "signed_margin"]
+
+_NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 
 
 def convex_hull(points: ArrayLike) -> NDArray[np.float64]:
@@ -170,3 +173,34 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         return np.asarray(ring.mean(axis=0, keepdims=True))
     smaller: NDArray[np.float64] = _kernel.inner_offset(ring, distance)
     return smaller
+
+
+def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
+    """What of a convex polygon lies where n . x <= h, without near-duplicates where the line meets a corner.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m, counter-clockwise.
+        nx: The line's normal n, along x.
+        ny: The same along y.
+        h: Distance in m of the line from the origin, along the normal.
+
+    Returns:
+        Convex polygon (k, 2) in m, counter-clockwise; empty where nothing is left.
+
+    Example:
+        >>> part_inside(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 1.0, 0.0, 0.5).tolist()
+        [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]]
+    """
+    kept: list[tuple[float, float]] = []
+    points = polygon.tolist()
+    for k, (ax, ay) in enumerate(points):
+        bx, by = points[k + 1 - len(points)]
+        a, b = nx * ax + ny * ay - h, nx * bx + ny * by - h
+        if a <= 0.0:
+            kept.append((ax, ay))
+        if (a < 0.0 < b) or (b < 0.0 < a):
+            share = a / (a - b)
+            kept.append((ax + share * (bx - ax), ay + share * (by - ay)))
+    left = np.array(kept).reshape(-1, 2)
+    near = _NOISE * extent(polygon)
+    return left if turning(left, 0.0, 0.0, near) > 0 else np.asarray(clean_ring(left, 0.0, 0.0, near))

@@ -23,8 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import LARGEST, number
 from plantar.arrays import array
 from plantar.geometry.cell_cutting import CellCutter, half_planes
-from plantar.geometry.polygon import closest_point, convex_hull, inner_offset
-from plantar.kernels.clean import clean_ring, extent, turning
+from plantar.geometry.polygon import closest_point, convex_hull, inner_offset, part_inside
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask, taxel_values
 from plantar.sensing.proximity import cells_polygon
@@ -32,7 +31,6 @@ from plantar.sensing.proximity import cells_polygon
 __all__ = ["GroundEdges", "PartialContact"]
 
 _MOST_EDGES = 4
-_NOISE = 1e-15  # of a polygon's extent: corners that a cut leaves nearer to each other are one
 _WEAK = 0.4  # of the strongest neighbour's pressure: a cell with less is cut by an edge
 _RANGE = 0.38  # of a cell's size, prior spread of an edge about where the cells' corners put it
 _TURNS = np.linspace(-0.5, 0.5, 41)  # rad, turns that are tried of a line between cells
@@ -253,7 +251,7 @@ class PartialContact:
         """
         left = self._hull
         for nx, ny, h in half_planes(lines).tolist():
-            left = _clipped(left, nx, ny, h)
+            left = part_inside(left, nx, ny, h)
         return left
 
     def _step(
@@ -313,20 +311,3 @@ class PartialContact:
         height = (new * (place + move[:, None] * lines[:, :2])).sum(axis=1)
         deviation = np.sqrt(np.diag(inverse)[3 : 3 + m])
         return np.column_stack([new, height]), deviation, float(np.sqrt(np.mean(residual**2)))
-
-
-def _clipped(polygon: NDArray[np.float64], nx: float, ny: float, h: float) -> NDArray[np.float64]:
-    """What of a convex polygon (k, 2) lies where n . x <= h, without near-duplicates where the line meets a corner."""
-    kept: list[tuple[float, float]] = []
-    points = polygon.tolist()
-    for k, (ax, ay) in enumerate(points):
-        bx, by = points[k + 1 - len(points)]
-        a, b = nx * ax + ny * ay - h, nx * bx + ny * by - h
-        if a <= 0.0:
-            kept.append((ax, ay))
-        if (a < 0.0 < b) or (b < 0.0 < a):
-            share = a / (a - b)
-            kept.append((ax + share * (bx - ax), ay + share * (by - ay)))
-    left = np.array(kept).reshape(-1, 2)
-    near = _NOISE * extent(polygon)
-    return left if turning(left, 0.0, 0.0, near) > 0 else np.asarray(clean_ring(left, 0.0, 0.0, near))

@@ -84,7 +84,8 @@ class Robot:
         single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
             the leg as for every robot (`sim.run.controller_settings`).
         double_support: t_ds likewise.
-        load_ahead: How far in m ahead of its frame's origin, which is below the ankle, a whole sole is loaded at most.
+        ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
+            motor bears the robot; nothing farther off is loaded.
         rocks: Whether it takes its steps in its own time and without a slow approach, whatever a scene asks for: legs
             without ankle roll rock from foot to foot and cannot wait on one of them.
         pace: Beats of the leg that a pace lasts, the unit of time of scenes that ask for quick steps
@@ -121,7 +122,7 @@ class Robot:
     trunk_lean: float
     single_support: float
     double_support: float
-    load_ahead: float
+    ankle_reach: float
     rocks: bool
     pace: float
     stiffness: tuple[float, ...]

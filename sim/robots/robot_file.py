@@ -49,7 +49,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "single_support",
         "double_support",
         "pace",
-        "load_ahead",
+        "ankle_reach",
         "rocks",
     ),
     "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
@@ -266,7 +266,7 @@ class _RobotFile(RobotTables):
             "trunk_lean": self.number("trunk_lean", "gait", 0.0, 5.0, 0.0),
             "single_support": self._duration("single_support", 0.2),
             "double_support": self._duration("double_support", 0.02),
-            "load_ahead": self.number("load_ahead", "gait", -1.0, 1.0, 1.0),
+            "ankle_reach": self.number("ankle_reach", "gait", 0.0, 1.0, 1.0),
             "rocks": self.switch("rocks", "gait"),
             "pace": self.number("pace", "gait", 0.5, 5.0, 1.0),
         }

@@ -79,7 +79,7 @@ def controller_settings(
         period=_period(control),
         timing=walk_timing(walk, robot, body),
         swing_height=walk.swing_height,
-        load_ahead=robot.load_ahead,
+        ankle_reach=robot.ankle_reach,
         landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
         touchdown=made(TouchdownGains, "touchdown"),

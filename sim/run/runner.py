@@ -119,10 +119,10 @@ class Simulation:
             self.zmps = ZmpComparison(robot.layouts, scene.sensing.force_noise, self.settings.period)
         centers = {}
         for side in SIDES:
-            centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side], robot.load_ahead))
+            centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side], robot.ankle_reach))
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
         self.foothold_truth = FootholdTruth(self.world, ground)
-        self._centers = {side: middle_of_sole(robot.layouts[side], robot.load_ahead) for side in SIDES}
+        self._centers = {side: middle_of_sole(robot.layouts[side], robot.ankle_reach) for side in SIDES}
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)

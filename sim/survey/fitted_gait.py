@@ -24,7 +24,7 @@ from sim.run.controller_settings import CONTROL_PERIOD, walk_timing
 from sim.run.scene import Walk
 from sim.survey.joint_inertia import JointInertia, joint_inertia
 from sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
-from sim.survey.rocking_gait import has_ankle_roll, load_ahead, rocking
+from sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking
 from sim.survey.servo_gains import servo_gains
 
 __all__ = [
@@ -137,9 +137,9 @@ def fit_gait(draft: Robot) -> FittedGait:
     notes: list[str] = []
     robot = replace(robot, stance_width=stance_width(robot, legs), trunk_lean=float(f"{_LEAN / body.leg:.2g}"))
     ankle = _ankle(robot, legs)
-    ahead = load_ahead(robot, body.weight, ankle)
-    if ahead is not None:
-        robot = replace(robot, load_ahead=ahead)
+    bears = ankle_reach(robot, body.weight, ankle)
+    if bears is not None:
+        robot = replace(robot, ankle_reach=bears)
     seed = _seed_height(robot, legs)
     robot = robot if has_ankle_roll(robot, legs) else replace(robot, rocks=True)
     robot, body, reach = _stepping(robot, legs, body, seed, notes)

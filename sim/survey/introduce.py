@@ -204,7 +204,7 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         single_support=0.9,
         double_support=0.3,
         pace=1.0,
-        load_ahead=1.0,
+        ankle_reach=1.0,
         rocks=False,
         stiffness=(1000.0,) * len(joints["left"]),
         damping=(10.0,) * len(joints["left"]),

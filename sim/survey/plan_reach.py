@@ -96,7 +96,7 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     Returns:
         The error in m or rad that is left.
     """
-    middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.load_ahead)) for s in SIDES], axis=0)
+    middle = np.mean([vrp_of_step(feet[s], middle_of_sole(robot.layouts[s], robot.ankle_reach)) for s in SIDES], axis=0)
     com = np.array([middle[0], middle[1], feet["left"].z + com_height])
     posture = np.array([*robot.posture["left"], *robot.posture["right"]])
     legs.set_configuration(com, np.array([1.0, 0.0, 0.0, 0.0]), posture)
@@ -122,7 +122,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
     Returns:
         What it asks of them.
     """
-    middles = {s: middle_of_sole(robot.layouts[s], robot.load_ahead) for s in SIDES}
+    middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
     begin = 0.5
     plan = WalkPlan(
         walked.feet, walked.steps, walked.timing, middles, pendulum_frequency(walked.com_height), begin=begin

@@ -199,9 +199,9 @@ def _gait(fitted: FittedGait) -> list[str]:
 def _loaded(robot: Robot) -> list[str]:
     """Where soles are loaded, and whether the robot rocks, where that is not as usual."""
     lines = []
-    if robot.load_ahead < 1.0:
-        lines += _told("The ankles bear the weight on a part of the sole; ahead of them its middle is loaded at most:")
-        lines.append(f"load_ahead = {robot.load_ahead:g}  # m")
+    if robot.ankle_reach < 1.0:
+        lines += _told("The ankles cannot bear the weight on the toes; no farther from them is the sole loaded:")
+        lines.append(f"ankle_reach = {robot.ankle_reach:g}  # m")
     if robot.rocks:
         lines += _told(
             f"Without ankle roll it rocks from foot to foot, whatever a scene asks for, so quickly that its legs lean "

@@ -23,7 +23,7 @@ from sim.model.body import stood
 from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
 
-__all__ = ["LEAN_MOST", "has_ankle_roll", "load_ahead", "rocking"]
+__all__ = ["LEAN_MOST", "ankle_reach", "has_ankle_roll", "rocking"]
 
 LEAN_MOST = math.radians(2.5)
 """Lean of a leg in the orbit. What a sole that stands flat does not lean, the body does."""
@@ -75,8 +75,8 @@ def rocking(robot: Robot, com_height: float) -> Robot:
     )
 
 
-def load_ahead(robot: Robot, weight: float, ankle: int) -> float | None:
-    """How far ahead of the ankle a sole is best loaded whose ankle is too weak to bear the robot on the toes.
+def ankle_reach(robot: Robot, weight: float, ankle: int) -> float | None:
+    """How far from itself, along the sole, an ankle bears the robot that is too weak to bear it on the toes.
 
     Args:
         robot: The robot.
@@ -84,11 +84,10 @@ def load_ahead(robot: Robot, weight: float, ankle: int) -> float | None:
         ankle: Which joint of a leg pitches the foot.
 
     Returns:
-        The middle in m of what the ankle can bear the weight on, in the sole frame; None where that is the whole sole.
+        The distance in m; None where it bears the robot on the toes.
     """
     if not robot.effort_limits:
         return None
-    outline = robot.layouts["left"].outline[:, 0]
-    rear, toe = float(outline.min()), float(outline.max())
+    toe = float(robot.layouts["left"].outline[:, 0].max())
     reach = robot.effort_limits[ankle] / weight
-    return None if reach >= toe else round(0.5 * (max(rear, -reach) + reach), 4)
+    return None if reach >= toe else math.floor(1e4 * reach) / 1e4

@@ -54,7 +54,7 @@ INNER: frozenset[str] = frozenset(
         *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
         *("wrench_distribution.Program", "wrench_distribution.WrenchShare"),
         *("base_state.BaseState", "cell_edges.cells_overlap", "taxel_values.without_dead"),
-        "cell_cutting.CellCutter.of_polygons",
+        *("cell_cutting.CellCutter.of_polygons", "polygon.part_inside"),
         # What functions return; nobody else makes them.
         *("batch.GroundPlanes", "batch.Loads", "batch.SupportPolygons", "partial_contact.GroundEdges"),
         *(

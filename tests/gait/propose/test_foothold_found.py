@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,18 +18,22 @@ from gait.propose.foothold_seen import FootholdSeenAhead
 from gait.propose.proposer import Tick
 from plantar.sides import SIDES, Side
 
-NOWHERE = np.empty((0, 2))
 RULES = FootholdRules()
+NOWHERE = np.empty((0, 2))
 MIDDLES = {side: np.array([0.02, 0.0]) for side in SIDES}
+SQUARE = np.array([[-0.08, -0.08], [0.08, -0.08], [0.08, 0.08], [-0.08, 0.08]])
+OUTLINES = {side: MIDDLES[side] + SQUARE for side in SIDES}
 
 
 def found(plan: WalkPlan, step: int, off: tuple[float, float], whole: bool = False) -> FootholdFound:
     side = plan.view.foothold(step).side
-    return FootholdFound(step, side, NOWHERE, 1.0 if whole else 0.5, plan.view.vrp(step) + off, whole, whole)
+    middle = plan.view.vrp(step) + off
+    ground = middle + (SQUARE if whole else np.array([1.0, 0.5]) * SQUARE)
+    return FootholdFound(step, side, ground, 1.0 if whole else 0.5, middle, middle, whole, whole)
 
 
 def proposer() -> FootholdCarries:
-    return FootholdCarries(RULES, MIDDLES, SupportStrip(np.zeros(2), np.array([1.0, 0.0])))
+    return FootholdCarries(RULES, MIDDLES, OUTLINES, SupportStrip(np.zeros(2), np.array([1.0, 0.0])))
 
 
 def double_support(plan: WalkPlan, after: int) -> float:
@@ -105,6 +110,41 @@ def test_two_partial_footholds_on_one_side_are_a_strip_that_the_steps_come_onto(
     moved = plan.record[-1].moved
     assert [m.step for m in moved] == [3, 4, 5]
     assert {m.reason for m in moved} == {"onto the strip that carries"}
+
+
+def test_ground_that_ends_along_the_walk_is_no_strip(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan, asked = plan_of(), proposer()
+    for step in (1, 2):
+        time = double_support(plan, step)
+        here = found(plan, step, (0.0, 0.05 - float(plan.view.vrp(step)[1])))
+        ends = replace(here, polygon=here.middle + np.array([0.5, 1.0]) * SQUARE)
+        change = asked.propose(tick_at(plan, time, found=(ends,)))
+        assert change is not None
+        assert change.shift == (0.0, 0.0)
+        plan.apply(change, time, NOWHERE)
+
+
+@pytest.mark.parametrize("ahead", [0.03, 0.055, 0.07])
+def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(
+    ahead: float, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan, time = plan_of(), 0.0
+    asked = FootholdCarries(RULES, MIDDLES, OUTLINES, SupportStrip(np.zeros(2), np.array([0.0, 1.0])), 0.1)
+    time = double_support(plan, 2)
+    ankle = plan.view.foothold(2).position[:2]
+    here = replace(found(plan, 2, (0.0, 0.0)), vrp=ankle + np.array([ahead, 0.0]))
+    change = asked.propose(tick_at(plan, time, found=(here,)))
+    far = ahead > 0.05  # half of what the ankle bears
+    least = min(RULES.largest_shift, ahead - 0.02)
+    assert change is not None
+    assert change.shift == pytest.approx((least if far else 0.0, 0.0))
+    plan.apply(change, time, NOWHERE)
+    again = replace(here, vrp=here.vrp + np.array([0.01, 0.0]))
+    change = asked.propose(tick_at(plan, time + 1.5 * RULES.replan_pause, found=(again,)))
+    assert change is not None
+    assert change.shift == (0.0, 0.0)
 
 
 def test_where_nothing_is_to_be_done_no_footstep_creeps(

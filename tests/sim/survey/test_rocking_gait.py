@@ -12,7 +12,7 @@ from plantar.gravity import GRAVITY
 from plantar.sides import SIDES
 from sim.model.world import build_leg_model
 from sim.robots import builtin_robots, load_robot
-from sim.survey.rocking_gait import LEAN_MOST, has_ankle_roll, load_ahead, rocking
+from sim.survey.rocking_gait import LEAN_MOST, ankle_reach, has_ankle_roll, rocking
 
 
 @pytest.mark.parametrize(("height", "width"), [(0.97, 0.41), (0.97, 0.55), (0.6, 0.15)])
@@ -45,15 +45,11 @@ def test_the_built_in_robots_have_ankles_that_roll(name: str) -> None:
     assert not has_ankle_roll(replace(robot, legs=names, posture=posture), legs)
 
 
-def test_weak_ankles_load_the_middle_of_what_they_bear() -> None:
+def test_weak_ankles_bear_the_robot_as_far_as_their_torque_goes() -> None:
     robot = load_robot("h1")
-    outline = robot.layouts["left"].outline[:, 0]
     weight = 800.0
     limits = np.full(6, 1000.0)
-    assert load_ahead(robot, weight, 4) is None
-    assert load_ahead(replace(robot, effort_limits=tuple(limits)), weight, 4) is None
+    assert ankle_reach(robot, weight, 4) is None
+    assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) is None
     limits[4] = 0.05 * weight
-    assert load_ahead(replace(robot, effort_limits=tuple(limits)), weight, 4) == pytest.approx(0.0, abs=1e-4)
-    limits[4] = 0.1 * weight
-    ahead = load_ahead(replace(robot, effort_limits=tuple(limits)), weight, 4)
-    assert ahead == pytest.approx(0.5 * (0.1 + max(-0.1, float(outline.min()))), abs=1e-4)
+    assert ankle_reach(replace(robot, effort_limits=tuple(limits)), weight, 4) == pytest.approx(0.05, abs=1e-4)

@@ -1,0 +1,56 @@
+"""Where on its ground an ankle bears the robot: a centre of pressure x ahead of the ankle takes the torque m g x of it.
+
+A motor of torque tau bears the whole weight as far as tau / (m g) from the ankle, to the front and to the rear. Ground
+farther off carries less than the robot, however well the foot stands on it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.geometry.polygon import area, centroid, closest_point, part_inside
+
+__all__ = ["borne_part", "loaded_middle"]
+
+
+def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+    """What of a foothold the ankle bears the robot on.
+
+    Args:
+        polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
+        reach: How far in m from the ankle, along the sole, it bears the robot.
+
+    Returns:
+        That part of it (k, 2); the point (1, 2) that is nearest to the ankle where it is all too far off.
+
+    Example:
+        >>> borne_part(np.array([[-0.1, -0.04], [0.2, -0.04], [0.2, 0.04], [-0.1, 0.04]]), 0.08)[:, 0].round(3).tolist()
+        [-0.08, 0.08, 0.08, -0.08]
+    """
+    if bool((np.abs(polygon[:, 0]) <= reach).all()):
+        return polygon
+    part = part_inside(part_inside(polygon, 1.0, 0.0, reach), -1.0, 0.0, reach)
+    if len(part) >= 3 and area(part) > 0.0:
+        return part
+    nearest = closest_point(polygon, (float(np.clip(polygon[:, 0].mean(), -reach, reach)), 0.0))
+    assert nearest is not None  # a foothold has points
+    return nearest[None, :]
+
+
+def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+    """Where a foothold is best loaded: at its centroid, or midway between the ends of what the ankle bears.
+
+    Args:
+        polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
+        reach: How far in m from the ankle, along the sole, it bears the robot.
+
+    Returns:
+        The place (2,) in the sole frame in m.
+    """
+    middle = centroid(polygon)
+    assert middle is not None  # a foothold has an area
+    part = borne_part(polygon, reach)
+    if part is polygon:
+        return middle
+    return np.array([0.5 * float(part[:, 0].min() + part[:, 0].max()), middle[1] if len(part) > 2 else part[0, 1]])

@@ -1,0 +1,35 @@
+"""What of a foothold an ankle bears the robot on, and where it is loaded."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gait.contact.ankle_reach import borne_part, loaded_middle
+
+SOLE = np.array([[-0.07, -0.04], [0.18, -0.04], [0.18, 0.04], [-0.07, 0.04]])
+
+
+def ground(rear: float, front: float) -> np.ndarray:
+    """A foothold on ground from x = `rear` to `front` in m."""
+    return np.array([[rear, -0.04], [front, -0.04], [front, 0.04], [rear, 0.04]])
+
+
+@pytest.mark.parametrize(
+    ("rear", "front", "part"),
+    [
+        (-0.07, 0.18, (-0.07, 0.08)),
+        (-0.02, 0.05, (-0.02, 0.05)),
+        (0.06, 0.18, (0.06, 0.08)),
+        (-0.2, -0.1, (-0.1, -0.1)),
+    ],
+)
+def test_a_weak_ankle_bears_the_robot_on_a_part(rear: float, front: float, part: tuple[float, float]) -> None:
+    borne = borne_part(ground(rear, front), 0.08)
+    assert (borne[:, 0].min(), borne[:, 0].max()) == pytest.approx(part)
+    assert loaded_middle(ground(rear, front), 0.08) == pytest.approx([0.5 * sum(part), 0.0])
+
+
+def test_a_strong_ankle_bears_it_everywhere() -> None:
+    assert borne_part(SOLE, 0.2) is SOLE
+    assert loaded_middle(SOLE, float("inf")) == pytest.approx([0.055, 0.0])
