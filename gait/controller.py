@@ -38,6 +38,7 @@ from gait.estimate.identification import IdentificationRules
 from gait.estimate.identified_body import IdentifiedBody
 from gait.estimate.skin_load import at_its_limit
 from gait.estimate.sole_slope import SoleSlope
+from gait.estimate.steady_load import SteadyLoad
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.ground_conformity import ConformityGains, GroundConformity
@@ -214,7 +215,7 @@ class WalkingController:
             period,
             stands,
             settings.estimator,
-            self._gyro_bias(),
+            *self._gyro_bias(),
         )
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -241,11 +242,13 @@ class WalkingController:
         found: dict[str, object] = {} if bias is None else {"gyro_bias_rad_s": bias.value.round(6).tolist()}
         return found if self.body is None else {**found, **self.body.summary()}
 
-    def _gyro_bias(self) -> GyroBias | None:
-        rules = self.settings.identification
+    def _gyro_bias(self) -> tuple[GyroBias | None, SteadyLoad | None]:
+        """What identifies the gyro's bias, and which feet it goes by, where the settings want it."""
+        rules, period = self.settings.identification, self.settings.period
         if rules is None or not rules.gyro:
-            return None
-        return GyroBias(self.settings.period, rules.gyro_time, rules.gyro_largest)
+            return None, None
+        bias = GyroBias(period, rules.gyro_time, rules.gyro_largest, rules.gyro_piece, rules.gyro_slip)
+        return bias, SteadyLoad(period, rules.steady_share, rules.steady_time, rules.steady_band)
 
     def _for_unknown_ground(
         self, middles: Mapping[Side, NDArray[np.float64]]

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from gait.estimate.encoder_offsets import standing_base
 from gait.estimate.gyro_bias import GyroBias
+from gait.estimate.steady_load import SteadyLoad
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
@@ -114,6 +115,7 @@ class FloatingBaseEstimator:
         feet: Known standing pose (x, y, z, yaw) of each sole at the start.
         gains: Gains.
         gyro_bias: Identifies the gyro's bias; None takes the gyro at its word.
+        steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
     """
 
     kinematics: LegKinematics
@@ -122,6 +124,7 @@ class FloatingBaseEstimator:
     feet: Mapping[Side, tuple[float, float, float, float]]
     gains: EstimatorGains = field(default_factory=EstimatorGains)
     gyro_bias: GyroBias | None = None
+    steady: SteadyLoad | None = None
 
     def __post_init__(self) -> None:
         self._rotation: NDArray[np.float64] | None = None
@@ -234,7 +237,8 @@ class FloatingBaseEstimator:
         weights = {side: max(0.0, loads[side] - self.gains.minimum_load) for side in SIDES}
         rate = gyro.copy()
         if self.gyro_bias is not None:
-            rate -= self.gyro_bias.update(gyro, self._last.rotations, posture.rotations, weights)
+            still = weights if self.steady is None else self.steady.update(weights)
+            rate -= self.gyro_bias.update(gyro, self._last.rotations, posture.rotations, still)
         # Gravity: the specific force minus the body's acceleration points up.
         specific = rotation.dot(accelerometer)
         if planned_acceleration is not None:
@@ -250,21 +254,25 @@ class FloatingBaseEstimator:
             since = self.period * (self._samples + 1)
             gain = 1.0 / since if since < self.gains.averaging else self.gains.gravity
             rate += gain * rotation.T.dot(tilt)
-        rate -= (self.gains.yaw * self._heading_error(posture, weights)) * rotation[2]
-        if self.gyro_bias is not None and self.gyro_bias.rate is not None:
-            self._astray += self.period * float(rotation[2].dot(rate - self.gyro_bias.rate))
+        error = self._heading_error(posture, weights)
+        rate -= (self.gains.yaw * error) * rotation[2]
+        if self.gyro_bias is not None:
+            self._astray -= self.period * self.gains.yaw * error
         # Rounding would make the product of thousands of rotations shrink or shear.
         self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
 
     def _heading_error(self, posture: Posture, weights: Mapping[Side, float]) -> float:
         """How far in rad the heading is ahead of that by the feet that carry.
 
-        Where the gyro's bias is identified, it is what the heading has turned more than the legs since the start, so
-        that nothing stays of what a bias turned it before it was known. Else a foot counts from when it comes to carry.
+        Where the gyro's bias is identified, it is what the heading has turned more than the legs since the start while
+        feet stood still, so that nothing stays of what a bias turned it before it was known; in between it goes by the
+        gyro less its bias. Else a foot counts from when it comes to carry.
         """
-        if self.gyro_bias is not None:
-            return self._astray
         assert self._rotation is not None
+        if self.gyro_bias is not None:
+            if self.gyro_bias.missed is not None:
+                self._astray -= float(self._rotation[2].dot(self.gyro_bias.missed))
+            return self._astray
         total = 0.0
         error = 0.0
         for side, weight in weights.items():

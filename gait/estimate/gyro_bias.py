@@ -5,10 +5,14 @@ seen in its own frame. What the gyro says beyond that is bias and noise. A singl
 of the encoders is differentiated (5e-5 rad in 5 ms: 14 mrad/s), but in a mean over time that telescopes: after T
 seconds an angle of 0.1 mrad over T is left of it. No accelerometer is needed, so all three axes are found, the vertical
 one too.
+
+Soles do turn: one that slips turns by milliradians within a tenth of a second. Both are therefore compared piece by
+piece, each short enough for a slip to stand out of what noise leaves.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -20,35 +24,57 @@ from plantar.sides import SIDES, Side
 __all__ = ["GyroBias"]
 
 
+_ONE_FOOT = 0.1
+"""What a tick counts in which one foot carries, of one in which both do: in a second of single support a foot turns by
+0.3 mrad by chance, while in one of standing the gyro's noise of 2 mrad/s leaves 0.1 mrad."""
+
+_FIRST_PIECES = 2
+"""Pieces of standing before a slip can be told from a bias."""
+
+
 class GyroBias:
     """Mean of what the gyro measures beyond the turn of the legs: of all that came so far, then over a time constant.
 
-    A foot weighs in with its load, so what turns while it lands or lifts off counts little. Slow turns of a sole that
-    carries, on soft ground or an edge, are not told from a bias; over steps they cancel, or come to 0.3 mrad/s.
+    A foot weighs in with its load. A tick in which both feet carry counts ten times as much as one in which one does:
+    the robot stands, while a sole that carries it in a step may turn, on soft ground or an edge, which is not told from
+    a bias; over steps that comes to 0.1 mrad/s. A piece in which both are further apart about the base's z axis than
+    noise explains counts as one in which they are as far apart as it may be.
 
     Attributes:
         value: The bias (3,) in the base frame in rad/s.
-        rate: Angular velocity (3,) of the base in its own frame in rad/s by the legs; None while no foot carries.
+        missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro says, less its bias, in
+            the piece that has just ended and in which no sole slipped; None while none has.
 
     Args:
         period: Control period in s.
         time_constant: Time constant in s of the mean.
         largest: Largest bias of an axis in rad/s; what would be beyond it is something else.
+        piece: Duration in s of a piece.
+        slip: Angle in rad that noise leaves at most in a piece.
 
     Example:
-        >>> bias = GyroBias(0.005, 20.0, 0.05)
+        >>> bias = GyroBias(0.005, 20.0, 0.05, 0.005, 6e-4)
         >>> still = {"left": np.eye(3), "right": np.eye(3)}
         >>> bias.update(np.array([0.0, 0.0, 0.004]), still, still, {"left": 400.0, "right": 400.0}).tolist()
         [0.0, 0.0, 0.004]
     """
 
-    def __init__(self, period: float, time_constant: float, largest: float) -> None:
+    def __init__(self, period: float, time_constant: float, largest: float, piece: float, slip: float) -> None:
         self.value = np.zeros(3)
-        self.rate: NDArray[np.float64] | None = None
+        self.missed: NDArray[np.float64] | None = None
         self._period = period
+        self._least = period / time_constant
         self._largest = largest
-        self._samples = 0
-        self._most = max(1, round(time_constant / period))
+        self._most_ticks = max(1, round(piece / period))
+        self._slip = slip
+        self._gathered = 0.0
+        self._begin()
+
+    def _begin(self) -> None:
+        """A piece begins."""
+        self._beyond = np.zeros(3)
+        self._ticks = 0
+        self._worth = 0.0
 
     def update(
         self,
@@ -63,24 +89,39 @@ class GyroBias:
             gyro: Angular velocity (3,) of the base in its own frame in rad/s, as measured.
             before: Rotation (3, 3) from each sole to the base frame a tick ago.
             now: The same rotations now.
-            weights: How much each foot carries, in any unit; 0 for one that does not count as loaded.
+            weights: How much each foot carries, in any unit; 0 for one that does not stand still.
 
         Returns:
-            The bias (3,) in rad/s; the last one while no foot carries.
+            The bias (3,) in rad/s; the last one while no foot stands still.
         """
+        self.missed = None
         turn = np.zeros(3)
         total = 0.0
+        worth = 1.0
         for side in SIDES:
             weight = weights[side]
             if weight <= 0.0:
+                worth = _ONE_FOOT
                 continue
             turn += weight * sine_vector(before[side].dot(now[side].T))
             total += weight
-        if total <= 0.0:
-            self.rate = None
-            return self.value
-        self.rate = turn / (total * self._period)
-        self._samples = min(self._samples + 1, self._most)
-        moved = self.value + (gyro - self.rate - self.value) / self._samples
-        self.value = np.minimum(np.maximum(moved, -self._largest), self._largest)
+        if total > 0.0:
+            self._beyond += self._period * (gyro - self.value) - turn / total
+            self._ticks += 1
+            self._worth += worth
+        if self._ticks and (total <= 0.0 or self._ticks >= self._most_ticks):
+            self._conclude()
         return self.value
+
+    def _conclude(self) -> None:
+        """A piece has ended: take it in."""
+        beyond, duration = self._beyond, self._ticks * self._period
+        allowed = np.array([math.inf, math.inf, self._slip])  # flat soles slip about the vertical
+        if self._gathered < _FIRST_PIECES * self._most_ticks:
+            allowed = np.maximum(allowed, np.abs(beyond))  # what is beyond is the bias, which is not known yet
+        self._gathered += self._worth
+        share = min(1.0, max(self._ticks * self._least, self._worth / self._gathered))
+        moved = self.value + share / duration * np.minimum(np.maximum(beyond, -allowed), allowed)
+        self.value = np.minimum(np.maximum(moved, -self._largest), self._largest)
+        self.missed = np.where(np.abs(beyond) <= allowed, -beyond, 0.0)
+        self._begin()

@@ -113,7 +113,7 @@ def test_noise_and_gyro_bias_stay_bounded() -> None:
 def test_a_bias_that_is_identified_does_no_harm() -> None:
     plain, _, _ = follow(Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3)
     turn, com, _ = follow(
-        Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3, identified=GyroBias(PERIOD, 20.0, 0.05)
+        Swaying(tilt=0.02, sway=0.005), 10.0, noise=2e-3, bias=5e-3, identified=GyroBias(PERIOD, 20.0, 0.05, 0.25, 6e-4)
     )
     assert plain > 0.015  # towards bias / gravity gain = 0.025 rad
     assert turn < 4e-3

@@ -28,7 +28,7 @@ def found(
 ) -> NDArray[np.float64]:
     """What is identified of a bias by a base that sways over its feet; a rate `turning` turns the right sole."""
     rng = np.random.default_rng(seed)
-    identified = GyroBias(PERIOD, 20.0, LARGEST)
+    identified = GyroBias(PERIOD, 20.0, LARGEST, 0.25, 6e-4)
 
     def soles(time: float) -> dict[Side, NDArray[np.float64]]:
         turned = np.zeros(3) if turning is None else turning * time
@@ -71,8 +71,24 @@ def test_holds_on_in_the_air_and_is_bounded() -> None:
 
 
 def test_follows_a_bias_that_drifts() -> None:
-    identified = GyroBias(PERIOD, 2.0, LARGEST)
+    identified = GyroBias(PERIOD, 2.0, LARGEST, 0.25, 6e-4)
     still: dict[Side, NDArray[np.float64]] = {"left": np.eye(3), "right": np.eye(3)}
     for k in range(4000):
         identified.update(np.array([0.0, 0.0, 0.002 if k < 2000 else 0.004]), still, still, BOTH)
     assert identified.value[2] == pytest.approx(0.004, abs=2e-5)  # five time constants later
+
+
+def test_a_slip_is_no_bias_and_no_turn_of_the_base() -> None:
+    """A sole turns by 5 mrad within 0.1 s while the base does not."""
+    identified, slipping = GyroBias(PERIOD, 20.0, LARGEST, 0.25, 6e-4), range(1010, 1030)
+    before, missed = np.eye(3), np.zeros(3)
+    for k in range(2000):
+        turned = 0.005 * min(max(k - slipping.start, 0), len(slipping)) / len(slipping)
+        now = Rotation.from_rotvec([0.0, 0.0, turned]).as_matrix()
+        soles: list[dict[Side, NDArray[np.float64]]] = [{"left": m, "right": m} for m in (before, now)]
+        identified.update(np.array([0.0, 0.0, 0.002]), *soles, BOTH)
+        if identified.missed is not None:
+            missed += identified.missed
+        before = now
+    assert identified.value[2] == pytest.approx(0.002, abs=1e-4)  # without the limit 5e-4
+    assert abs(missed[2]) < 6e-4
