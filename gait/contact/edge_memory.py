@@ -1,0 +1,139 @@
+"""Edges of the ground that go on from foothold to foothold, such as those of a beam.
+
+A sole that lands on one edge of what carries it tells nothing of the other edge: cells beside the row that rests are
+silent, with ground under them or without. The foothold before showed both. A line that was found there, and that runs
+on through the sole which lands now, is what that sole may be presumed to stand on, until its own taxels say otherwise.
+
+Each foothold gives of an edge a point p, in the middle of what the edge cuts off, and a direction. Their normals are
+known to some 50 milliradians, so that a line carried on by a foot's width goes wrong by a centimetre; the points of
+several footholds tell its direction far better. With s along the line found last and d across it, an edge is
+
+    d = h + m s,    least squares of (d_i - h - m s_i) / spread and (m - m_i) / turn over the footholds i.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
+
+__all__ = ["EdgeMemory"]
+
+_SPREAD = 0.013  # of a sole's length, standard deviation of an edge's place: 3 mm of a sole of 231 mm
+_TURN = 0.05  # rad, that of its direction
+_PARALLEL = 0.2  # rad within which two lines may be the same edge
+_AGREEMENT = 0.1  # of a sole's length from each other, at which they are not
+
+
+class _Edge(NamedTuple):
+    """An edge under one foothold, in the world: a point (2,) in m and the outward normal (2,)."""
+
+    point: NDArray[np.float64]
+    normal: NDArray[np.float64]
+
+
+@dataclass
+class _Foothold:
+    """Edges that one step's foot was found to stand between."""
+
+    step: int
+    edges: list[_Edge]
+
+
+class EdgeMemory:
+    """Edges under the footholds of the last steps.
+
+    Args:
+        body: How large the robot is.
+        memory: Number of footholds that count.
+    """
+
+    def __init__(self, body: BodyScale = REFERENCE_BODY, memory: int = 5) -> None:
+        self._spread = _SPREAD * body.sole
+        self._agreement = _AGREEMENT * body.sole
+        self._footholds: deque[_Foothold] = deque(maxlen=memory)
+
+    def update(
+        self,
+        step: int,
+        lines: NDArray[np.float64],
+        middle: NDArray[np.float64],
+        position: NDArray[np.float64],
+        rotation: NDArray[np.float64],
+    ) -> None:
+        """Take in the edges of a foothold; none where it is whole.
+
+        Args:
+            step: The step that put the foot down; one that is there already is replaced.
+            lines: Edges (m, 3) n . x <= h in the sole frame.
+            middle: Middle (2,) of what carries in the sole frame in m.
+            position: Where the sole frame's origin is (3,) in the world in m.
+            rotation: Rotation (3, 3) from the sole to the world.
+        """
+        if self._footholds and self._footholds[-1].step >= step:
+            self._footholds.pop()
+        if self._footholds and self._footholds[-1].step != step - 1:
+            self._footholds.clear()
+        turn, place = rotation[:2, :2], position[:2]
+        edges = []
+        for line in lines:
+            normal, height = line[:2], float(line[2])
+            point = middle + (height - float(normal @ middle)) * normal
+            edges.append(_Edge(place + turn @ point, turn @ normal))
+        self._footholds.append(_Foothold(step, edges))
+
+    def expected(self, step: int, position: NDArray[np.float64], rotation: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Edges of the foothold before, as they run on under a sole that lands.
+
+        Args:
+            step: The step that puts it down.
+            position: Where its frame's origin is (3,) in the world in m.
+            rotation: Rotation (3, 3) from it to the world.
+
+        Returns:
+            Lines (m, 3) n . x <= h in its frame, whether or not they run through it; none where the step before found
+            none.
+        """
+        if not self._footholds or self._footholds[-1].step != step - 1:
+            return np.empty((0, 3))
+        turn, place = rotation[:2, :2], position[:2]
+        lines = []
+        for edge in self._footholds[-1].edges:
+            point, normal = self._fitted(edge)
+            normal = turn.T @ normal
+            lines.append((*normal.tolist(), float(normal @ (turn.T @ (point - place)))))
+        return np.array(lines).reshape(-1, 3)
+
+    def _fitted(self, last: _Edge) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """A point (2,) of the edge that was found last, and its normal (2,), by all footholds in a row that have it."""
+        along = np.array([-last.normal[1], last.normal[0]])
+        rows = [(0.0, 0.0, 0.0)]
+        for foothold in reversed(list(self._footholds)[:-1]):
+            row = self._same(last, along, foothold.edges)
+            if row is None:
+                break
+            rows.append(row)
+        s, d, m = np.array(rows).T
+        count, weight = len(rows), (self._spread / _TURN) ** 2
+        middle = float(s.mean())
+        lever = s - middle
+        slope = (float(lever @ d) + weight * float(m.sum())) / (float(lever @ lever) + weight * count)
+        normal = last.normal - slope * along
+        point = last.point + middle * along + float(d.mean()) * last.normal
+        return point, np.asarray(normal / math.hypot(*normal.tolist()))
+
+    def _same(self, last: _Edge, along: NDArray[np.float64], edges: list[_Edge]) -> tuple[float, float, float] | None:
+        """Place along and across a line, and slope against it, of the one of some edges that is the same; else None."""
+        for edge in edges:
+            away, c = edge.point - last.point, float(edge.normal @ last.normal)
+            slope = -float(edge.normal @ along) / c if c > math.cos(_PARALLEL) else math.inf
+            across = float(away @ last.normal)
+            if abs(slope) < _PARALLEL and abs(across) < self._agreement:
+                return float(away @ along), across, slope
+        return None
