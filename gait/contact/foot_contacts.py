@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.contact.ankle_reach import borne_part, loaded_middle
+from gait.contact.edge_memory import EdgeMemory
 from gait.contact.stance_contact import ContactSettings, StanceContact
 from gait.estimate.sole_slope import SoleSlope
 from gait.plan.feet_view import FeetView
@@ -110,6 +111,7 @@ class FootContacts:
         self._feet = {
             side: _Foot(StanceContact(layouts[side], settings), self._middle[side], self._borne[side]) for side in SIDES
         }
+        self._edges = EdgeMemory(settings.body)
         self._foreseen = -1
         self._region_of: list[object] = []
         self._region = np.empty((0, 2))
@@ -223,9 +225,18 @@ class FootContacts:
         found = []
         for side in self.coming_to_carry(phase, time, feet):
             rises = None if slope is None else slope.slope(side)
+            if rises is not None and self._settings.remember:
+                self._remember(side, state)
             if self._feet[side].contact.update(soles[side].reading, state.loads[side], rises):
                 found.append(self._taken(side, state))
         return tuple(found)
+
+    def _remember(self, side: Side, state: BaseState) -> None:
+        """Let a foot that lands presume that the ground of the foothold before goes on under it."""
+        foot = self._feet[side]
+        if foot.step is not None and not foot.contact.settled:
+            place, turn = state.positions_sole[side], state.rotations_sole[side]
+            foot.contact.expect(self._edges.expected(foot.step, place, turn))
 
     def _taken(self, side: Side, state: BaseState) -> FootholdFound:
         """Take over what a landed foot stands on."""
@@ -233,6 +244,7 @@ class FootContacts:
         assert foot.step is not None
         known = foot.support is not None
         position, rotation = state.positions_sole[side], state.rotations_sole[side]
+        self._edges.update(foot.step, contact.lines, contact.center_in_sole, position, rotation)
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
         center = loaded_middle(contact.polygon_in_sole, self._reach)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))

@@ -22,6 +22,7 @@ from plantar.settings.schema import Settings, number, share, switch, whole
 
 __all__ = ["ContactSettings", "StanceContact"]
 
+_DENIALS = 3  # times in a row that silence denies what is remembered until it is forgotten: a load that jumps does once
 _BESIDE = 0.3  # of a taxel's size from where the load is, towards the side that rises: what still lies under it
 
 
@@ -53,6 +54,7 @@ class ContactSettings(Settings):
         foresee_readings: Readings of the ground from which a foothold is planned with before the foot is on it.
         foresee_reach: Distance in m that the foot may still have to go for that.
         foresee_least: Time in s before the planned touchdown from which it is too late for that.
+        remember: Whether a foot that does not see the ground presumes that edges of the foothold before go on under it.
         watch: Time in s into the single support until which a contact polygon is refined.
     """
 
@@ -79,6 +81,7 @@ class ContactSettings(Settings):
     foresee_readings: int = whole(6, "readings", 1, 1000)
     foresee_reach: float = share(0.065, "sole", 0, 0.2)
     foresee_least: float = share(0.283, "beat", 0, 1)
+    remember: bool = switch(True)
     watch: float = share(0.607, "beat", 0, 5)
 
 
@@ -113,6 +116,9 @@ class StanceContact:
         self._seen_time = -1.0
         self._looks = 0
         self._believed: NDArray[np.float64] | None = None
+        self._remembered: NDArray[np.float64] | None = None
+        self._denied = 0
+        self.lines: NDArray[np.float64] = np.empty((0, 3))
         self._time = -1.0
         self._slope = np.zeros(2)
         self._fit.reset()
@@ -160,6 +166,22 @@ class StanceContact:
         if self._count < s.settle_readings or (self.settled and self._count % s.fit_every):
             return False
         return self._find()
+
+    def expect(self, lines: NDArray[np.float64]) -> None:
+        """Presume that the ground of the foothold before goes on under this one; before the first load.
+
+        It is believed until loads beyond the lines, or silence between them, say otherwise.
+
+        Args:
+            lines: Edges (m, 3) n . x <= h in the sole frame; those that cut too little off, or leave too little, are
+                not believed.
+        """
+        least = (1.0 - self.settings.full_ratio) * self._whole_area
+        cut = [line for line in lines if area(self._fit.polygon(line[None])) < self._whole_area - least]
+        kept = np.array(cut).reshape(-1, 3)
+        left = self._fit.polygon(kept)
+        if len(kept) and len(left) >= 3 and area(left) > least:
+            self._remembered = kept
 
     def update_view(self, reading: Reading) -> None:
         """Take in what the taxels see of the ground while the foot comes down.
@@ -227,14 +249,7 @@ class StanceContact:
             outside = self._carried & (mean > s.least_expected) & ~self._over(self._believed)
             if int(outside.sum()) >= s.least_seen:
                 self._believed = None  # what was seen there is not what carries
-        if self._believed is None:
-            silent = self._silent(mean)
-            if silent is not None:
-                self._idle |= silent
-            self._idle &= ~self._carried
-            lines = self._fit.between(self._carried, self._idle)
-        else:
-            lines = self._believed
+        lines = self._from_loads(mean) if self._believed is None else self._believed
         polygon = self._fit.polygon(lines)
         # A foot that still settles presses on a corner or a line; once it stands, the loads say where the edges are.
         if len(lines) and s.subcell and self._believed is None and float(mean.sum()) > s.standing_load:
@@ -243,7 +258,7 @@ class StanceContact:
             noise = math.hypot(s.taxel_noise / self._weight**0.5, s.model_error * largest)
             found = self._fit.update(mean, self._carried, noise, start=lines)
             if found.residual < s.model_error * largest:
-                polygon = found.polygon
+                polygon, lines = found.polygon, found.lines
         elif len(lines) and not s.subcell and self._carried.any():
             polygon = cells_polygon(self.layout, self._carried)
         if len(polygon) < 3:
@@ -251,9 +266,35 @@ class StanceContact:
         ratio = area(polygon) / self._whole_area
         # A sliver that is missing is an edge that was not found well, and not worth a change of the plan.
         if ratio > s.full_ratio or not len(lines):
-            polygon, ratio = self.layout.outline, 1.0
-        self.area_ratio, self.polygon_in_sole = ratio, polygon
+            polygon, ratio, lines = self.layout.outline, 1.0, np.empty((0, 3))
+        self.area_ratio, self.polygon_in_sole, self.lines = ratio, polygon, lines
         return first or polygon is not before
+
+    def _from_loads(self, mean: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Edges (m, 3) of the ground by what is remembered of the foothold before, while the loads do not deny it; else
+        by what the taxels have carried, and where they should have."""
+        if self._remembered is not None and self._beyond(self._remembered, mean):
+            self._forget()
+        silent = self._silent(mean)
+        self._denied = 0 if silent is None else self._denied + 1
+        if self._remembered is not None and self._denied >= _DENIALS:
+            self._forget()
+        if self._remembered is not None:
+            return self._remembered
+        if silent is not None:
+            self._idle |= silent
+        self._idle &= ~self._carried
+        return self._fit.between(self._carried, self._idle)
+
+    def _forget(self) -> None:
+        """What was remembered of the foothold before is not so here."""
+        self._remembered = None
+        self._fit.reset()
+
+    def _beyond(self, lines: NDArray[np.float64], mean: NDArray[np.float64]) -> bool:
+        """Whether taxels (n,) beyond lines carry more of the load than neighbours on the ground would give them."""
+        carried = np.where(mean > self.settings.taxel_noise, mean, 0.0)
+        return float(carried[~self._over(lines)].sum()) > self.settings.least_wrong * float(carried.sum())
 
     def _over(self, lines: NDArray[np.float64]) -> NDArray[np.bool_]:
         """Taxels (n,) of which lines leave a part."""
@@ -270,7 +311,9 @@ class StanceContact:
             return None
         cop = (mean @ self.layout.positions[:, :2]) / load
         # A load near the edge lifts the rest off, whether there is ground or not: only a load well inside tells.
-        lines = np.empty((0, 3)) if self._fit.edges is None else self._fit.edges.lines
+        lines = np.empty((0, 3)) if self._remembered is None else self._remembered
+        if self._fit.edges is not None:
+            lines = self._fit.edges.lines
         polygon = self._fit.polygon(lines)
         around = float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
         if around <= 0.0:

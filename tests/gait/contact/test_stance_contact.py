@@ -171,3 +171,49 @@ def test_a_sole_on_its_edge_has_its_ground_where_it_rises(seed: int) -> None:
     assert level.contact.area_ratio < 0.3  # a level sole would carry on both sides of the row, and does not
     assert 0.35 < turned.contact.area_ratio < 0.65
     assert turned.contact.center_in_sole[0] < -0.04
+
+
+STRIP = np.array([[1.0, 0.0, 0.03], [-1.0, 0.0, 0.03]])  # 60 mm of ground across the sole
+
+
+def on_its_rear_edge(foot: Foot, readings: int = 20) -> None:
+    """A sole that rests on the rear edge of a strip: one row carries, and the strip goes on ahead of it."""
+    row = np.abs(SOLE.positions[:, 0] + 0.03) < 0.013
+    for _ in range(readings):
+        foot.time += 0.004
+        forces = np.where(row, 200.0 / row.sum(), 0.0) + foot.rng.normal(0.0, 1.47, len(SOLE))
+        foot.contact.update(Reading(foot.time, np.clip(forces, 0.0, None)), 200.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_one_edge_of_a_strip_that_is_remembered_is_enough(seed: int) -> None:
+    told, untold = Foot(STRIP, seed), Foot(STRIP, seed)
+    told.contact.expect(STRIP)
+    for foot in (told, untold):
+        on_its_rear_edge(foot)
+    assert told.contact.center_in_sole == pytest.approx([0.0, 0.0], abs=0.004)
+    assert told.contact.area_ratio == pytest.approx(area(FIT.polygon(STRIP)) / area(FIT.polygon(WHOLE)), abs=0.02)
+    assert abs(untold.contact.center_in_sole[0]) > 0.025  # a row, or all that lies ahead of it
+
+
+def test_loads_beyond_a_line_deny_it() -> None:
+    foot = Foot(WHOLE)
+    foot.contact.expect(STRIP)
+    foot.load(at=(0.0, 0.0))
+    assert foot.contact.whole
+
+
+def test_silence_between_lines_denies_them() -> None:
+    foot = Foot(REAR)
+    foot.contact.expect(np.array([[1.0, 0.0, 0.07]]))
+    foot.load(readings=90, force=600.0, at=(-0.03, 0.0))
+    assert foot.contact.center_in_sole == pytest.approx([-0.0565, 0.0], abs=0.015)
+
+
+@pytest.mark.parametrize("line", [[1.0, 0.0, 0.13], [1.0, 0.0, -0.12]])
+def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line: list[float]) -> None:
+    foot = Foot(WHOLE)
+    foot.contact.expect(np.array([line]))
+    foot.load(readings=3, at=(0.0, 0.0))
+    assert foot.contact.whole
+    assert foot.contact.lines.shape == (0, 3)
