@@ -448,16 +448,20 @@ class WalkingController:
         standing = phase.kind == PhaseKind.STANDING and phase.step == 0
         slope.update(state.rotations_sole, state.loads, standing)
         side = self.motion.last_side
-        if side is not None and self.motion.comes_down:
-            self._damping[side].level(state.loads[side], slope.slope(side), self.settings.landing.levelling)
+        if side is None or not self.motion.comes_down:
+            return
+        landing, load = self.settings.landing, state.loads[side]
+        if not landing.probing or load <= self.settings.estimator.minimum_load:
+            self._damping[side].level(load, slope.slope(side), landing.levelling)
 
     def _damp(self, phase: Phase, sensed: _Sensed, state: BaseState, feet: FeetView, looks: bool) -> None:
         """Foot damping of feet that come to carry, once each: on its edge a sole shows no foothold, and makes a moment
-        on the best of ground. One that does not see the ground comes down level instead."""
+        on the best of ground. One that does not see the ground comes down level, and is turned by its load from then
+        on: towards the middle of what it is believed to stand on, so that all of that is loaded, or denied."""
         damped: dict[Side, tuple[SoleLoad, float]] = {}
         if looks and self._slope is not None:
             self._level(self._slope, phase, state)
-        if looks and (self._slope is None or not self.settings.landing.levelling):
+        if looks and (self._slope is None or self.settings.landing.probing):
             coming = self.contacts.coming_to_carry(phase, sensed.time, feet)
             damped = {side: (sensed.percepts[side], self.settings.estimator.minimum_load) for side in coming}
         if self.guard is not None and self.guard.probing and phase.swing is not None:

@@ -22,7 +22,7 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
-from plantar.settings.schema import Settings, number, share
+from plantar.settings.schema import Settings, number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["FootMotion", "Landing", "SoleSense"]
@@ -60,6 +60,8 @@ class Landing(Settings):
             high as the last one, less averages over more footholds of uneven ground.
         levelling: How fast in 1/s a foot that does not see the ground turns parallel to the one that stands, where only
             forces tell what it stands on; 0 leaves it as it comes.
+        probing: Whether such a foot, once it has load, turns until its centre of pressure is in the middle of what it
+            is believed to stand on: taxels there carry, or deny it, before it gets the body's weight.
         approach_height: Height in m above the expected ground from which a swing goes down slowly (see
             `SwingTrajectory`); 0 comes down in one move.
         approach_speed: Speed of that in m/s.
@@ -74,6 +76,7 @@ class Landing(Settings):
     relax_time: float = number(0.0, "s", 0, 100)
     ground_share: float = number(0.3, "1", 0, 1)
     levelling: float = share(10.0, "1/beat", 0, 200)
+    probing: bool = switch(True)
     approach_height: float = number(0.0, "m", 0, 0.2)
     approach_speed: float = share(0.0247, "leg/beat", 0.001, 1)
 

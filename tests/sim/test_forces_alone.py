@@ -22,3 +22,16 @@ def test_a_foot_that_comes_as_it_does_stays_on_the_edge_that_it_met() -> None:
     summary = run_scene(load_scene("partial-rear", ["footholds=force", *off]), 0)
     assert summary["fell"]
     assert summary["footholds"]["area_ratio_found"][2] < 0.5 * summary["footholds"]["area_ratio_true"][2]
+
+
+BEAM = ("footholds=force", "sensing.taxels=elastic", "terrain.width=0.26 sole", "offset_range=0.174 sole")
+
+
+def test_a_foot_looks_for_the_rest_of_a_beam_that_it_met_the_edge_of() -> None:
+    """Before the weight comes; a foot that does not falls off the first part of a beam of a quarter of the sole."""
+    walked, fell = (
+        run_scene(load_scene("beam", [*BEAM, "walk.steps=14", f"landing.probing={on}"], "hrp2kai"), 2)
+        for on in ("true", "false")
+    )
+    assert walked["completed"], walked["reasons"]
+    assert fell["fell"]
