@@ -13,6 +13,8 @@ from plantar.geometry.polygon import area, centroid, closest_point, part_inside
 
 __all__ = ["borne_part", "loaded_middle"]
 
+_HALF = 0.5  # of an ankle's torque, which the other half is to balance with
+
 
 def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
     """What of a foothold the ankle bears the robot on.
@@ -39,7 +41,11 @@ def borne_part(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64
 
 
 def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
-    """Where a foothold is best loaded: at its centroid, or midway between the ends of what the ankle bears.
+    """Where a foothold is best loaded: at its centroid, or as near to it as leaves the ankle half its torque to balance
+    with; where that is beyond the foothold, midway between the ends of what the ankle bears.
+
+    Midway in general would not do: of the two ends of a whole sole, the heel is an edge that it tips over and turns
+    about, and the motor's limit ahead is none.
 
     Args:
         polygon: Convex polygon (k, 2) in the sole frame in m, counter-clockwise.
@@ -53,4 +59,7 @@ def loaded_middle(polygon: NDArray[np.float64], reach: float) -> NDArray[np.floa
     part = borne_part(polygon, reach)
     if part is polygon:
         return middle
-    return np.array([0.5 * float(part[:, 0].min() + part[:, 0].max()), middle[1] if len(part) > 2 else part[0, 1]])
+    x, y = middle.tolist()
+    midway = 0.5 * float(part[:, 0].min() + part[:, 0].max())
+    x = max(midway, min(x, _HALF * reach)) if x > 0.0 else min(midway, max(x, -_HALF * reach))
+    return np.array([x, y if len(part) > 2 else float(part[0, 1])])
