@@ -84,6 +84,8 @@ class Robot:
         single_support: t_ss in s of a walk whose scene does not say; 0 takes the same number of beats of
             the leg as for every robot (`sim.run.controller_settings`).
         double_support: t_ds likewise.
+        approach_support: Least t_ss in s of a walk whose swing comes down slowly (`walk.approach_height`) and so has to
+            reach its place in three fifths of it: for motors that are weak; 0 for those that are not.
         ankle_reach: How far in m from the sole frame's origin, which is below the ankle, along the sole, the ankle's
             motor bears the robot; nothing farther off is loaded.
         rocks: Whether it takes its steps in its own time and without a slow approach, whatever a scene asks for: legs
@@ -122,6 +124,7 @@ class Robot:
     trunk_lean: float
     single_support: float
     double_support: float
+    approach_support: float
     ankle_reach: float
     rocks: bool
     pace: float

@@ -131,6 +131,8 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     """
     stated = (0.0, 0.0) if robot.rocks else (walk.single_support, walk.double_support)
     single = stated[0] or robot.single_support or _SINGLE_SUPPORT * body.beat
+    if walk.approach_height > 0.0 and not robot.rocks:
+        single = max(single, robot.approach_support)
     double = stated[1] or robot.double_support or _DOUBLE_SUPPORT * body.beat
     start, end = (max(_LEAST_START, double), single + double) if robot.rocks else (walk.start, walk.end)
     return Timing(single, double, start, end, walk.settle)

@@ -148,7 +148,16 @@ class _Checked:
         steps = walk.steps if walk.velocities(0) is None else _STEPS
         feet, plan = self._planned(min(steps, _STEPS), 1.0)
         settings = controller_settings(self.scene, robot, self.body, ankle_sensors(self.legs.model, robot))
-        return Walked(feet, plan, settings.timing, walk.swing_height, settings.com_height, settings.trunk_lean)
+        return Walked(
+            feet,
+            plan,
+            settings.timing,
+            walk.swing_height,
+            settings.com_height,
+            settings.trunk_lean,
+            settings.landing.approach_height,
+            settings.landing.approach_speed,
+        )
 
     def _planned(self, count: int, share: float) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
         """So many footsteps of a share of the scene's length, and where the feet stand before."""

@@ -28,6 +28,8 @@ from sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking
 from sim.survey.servo_gains import servo_gains
 
 __all__ = [
+    "APPROACH_HEIGHT",
+    "APPROACH_SPEED",
     "HELD",
     "KNEE_LEAST",
     "MISSED",
@@ -64,6 +66,9 @@ ROLL_MOST = math.radians(3.0)
 QUICK_SINGLE, QUICK_DOUBLE, QUICK_STEP = 2.02, 0.404, 0.15
 """Phases in paces and length in legs of the steps that the built-in scenes ask for which walk at a velocity."""
 
+APPROACH_HEIGHT, APPROACH_SPEED = 0.025, 0.0247
+"""Height in legs and speed in legs a beat of the slow approach to the ground that the built-in scenes ask for."""
+
 QUICK_HELD = 0.85
 """Share of the torque limits that quick steps may take: OP3's, whose knees took 1.6 of it, sat at a limit in a third of
 all ticks and hit the ground with 6 body weights; at 0.85 of it that was 1 %."""
@@ -74,6 +79,7 @@ _LEAST_CROUCH = 0.05  # of the leg: what scenes on unknown ground ask for
 _MOST_CROUCH = 0.25
 _CROUCH_STEPS = 5
 _SLOWER = (1.0, 1.15, 1.3)
+_APPROACHES = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.75, 2.0)
 _PACES = (1.0, 1.2, 1.4, 1.6, 1.8, 2.0)
 _SHORTER = (1.0, 0.85, 0.7, 0.55, 0.4)
 _BENDS = tuple(math.radians(a) for a in (20.0, 30.0, 40.0, 50.0))
@@ -168,6 +174,7 @@ def fit_gait(draft: Robot) -> FittedGait:
         double_support=max(robot.double_support, own.double_support),
         balance=_balance(body),
     )
+    robot = replace(robot, approach_support=_approach_support(robot, legs, body))
     return FittedGait(robot, body, inertia, reach, notes)
 
 
@@ -340,6 +347,23 @@ def _pace(robot: Robot, legs: LegModel, body: BodyScale) -> float:
         if not bool((asked.torque > QUICK_HELD * limits).any()):
             return beats
     return _PACES[-1]
+
+
+def _approach_support(robot: Robot, legs: LegModel, body: BodyScale) -> float:
+    """The least t_ss in s at which a swing that comes down slowly leaves the motors something to balance with; 0 where
+    that is the robot's own, or where it rocks and comes down as quickly as ever."""
+    if robot.rocks or not robot.effort_limits:
+        return 0.0
+    limits = np.array(robot.effort_limits)
+    approach = (APPROACH_HEIGHT * body.leg, APPROACH_SPEED * body.leg / body.beat)
+    height = robot.com_height - min(robot.largest_crouch, _LEAST_CROUCH * body.leg)
+    for longer in _APPROACHES:
+        slow = replace(robot, single_support=longer * robot.single_support)
+        walk = straight_walk(slow, body, height, _QUICK_STEPS)
+        asked = plan_reach(slow, legs, replace(walk, approach_height=approach[0], approach_speed=approach[1]))
+        if not bool((asked.torque > QUICK_HELD * limits).any()):
+            break
+    return round(slow.single_support, 2) if longer > 1.0 else 0.0
 
 
 def _ankle(robot: Robot, legs: LegModel) -> int:

@@ -203,6 +203,7 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         trunk_lean=0.0,
         single_support=0.9,
         double_support=0.3,
+        approach_support=0.0,
         pace=1.0,
         ankle_reach=1.0,
         rocks=False,

@@ -45,6 +45,8 @@ class Walked:
         swing_height: Clearance of the swing foot in m.
         com_height: Height of the CoM above the soles in m.
         lean: Roll of the torso over the stance foot in rad per metre of lateral CoM motion.
+        approach_height: Height in m above the ground from which the swing foot comes down slowly.
+        approach_speed: Speed of that in m/s.
     """
 
     feet: Mapping[Side, Footstep]
@@ -53,6 +55,8 @@ class Walked:
     swing_height: float
     com_height: float
     lean: float = 0.0
+    approach_height: float = 0.0
+    approach_speed: float = 0.06
 
 
 @dataclass(frozen=True)
@@ -149,9 +153,18 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
             target = walked.steps[phase.step]
             start = feet[phase.swing]
             path = SwingTrajectory(
-                start.position, target.position, start.yaw, target.yaw, walked.swing_height, phase.end - phase.start
+                start.position,
+                target.position,
+                start.yaw,
+                target.yaw,
+                walked.swing_height,
+                phase.end - phase.start,
+                approach_height=walked.approach_height,
+                approach_speed=walked.approach_speed,
             )
             at, yaw = path.at(time - phase.start)
+            if walked.approach_height > 0.0:
+                at[2] = max(at[2], target.z)  # the path goes on below level ground, which stops the foot
             positions[phase.swing] = at
             rotations[phase.swing] = rotation_from_angles(yaw)
             share = {s: 0.0 if s == phase.swing else 1.0 for s in SIDES}

@@ -188,12 +188,24 @@ def _gait(fitted: FittedGait) -> list[str]:
         ),
         f"single_support = {robot.single_support:g}  # s",
         f"double_support = {robot.double_support:g}  # s, {robot.double_support / robot.single_support:.2f} of it",
+        *_approaching(robot),
         *_told(
             "Beats of a pace, so that quick steps take "
             + ("its own time." if robot.rocks else f"{100.0 * QUICK_HELD:.0f} % of the motors' torque at most.")
         ),
         f"pace = {robot.pace:g}",
     ]
+
+
+def _approaching(robot: Robot) -> list[str]:
+    """The time of a swing that comes down slowly, where the motors need more than the usual one."""
+    if not robot.approach_support:
+        return []
+    told = _told(
+        "A swing that comes down slowly onto unknown ground has to be there in three fifths of its time; with so much "
+        f"of it that takes {100.0 * QUICK_HELD:.0f} % of the motors' torque at most."
+    )
+    return [*told, f"approach_support = {robot.approach_support:g}  # s"]
 
 
 def _loaded(robot: Robot) -> list[str]:

@@ -10,7 +10,14 @@ from plantar.settings.body_scale import BodyScale
 from sim.robots import load_robot
 from sim.run.controller_settings import controller_settings
 from sim.run.scene import load_scene
-from sim.survey.fitted_gait import QUICK_DOUBLE, QUICK_SINGLE, QUICK_STEP, fit_gait
+from sim.survey.fitted_gait import (
+    APPROACH_HEIGHT,
+    APPROACH_SPEED,
+    QUICK_DOUBLE,
+    QUICK_SINGLE,
+    QUICK_STEP,
+    fit_gait,
+)
 
 SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 
@@ -35,3 +42,14 @@ def test_weak_motors_make_a_pace_longer() -> None:
     assert strong.pace == 1.0
     weak = fit_gait(replace(h1, effort_limits=(51.0, 90.0, 30.0, 85.0, 25.0, 71.0))).robot
     assert weak.pace > 1.0
+    assert strong.approach_support == 0.0
+    assert weak.approach_support > weak.single_support
+
+
+def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need() -> None:
+    uneven = load_scene("uneven").for_body(SLOW)
+    assert uneven.walk.approach_height == pytest.approx(APPROACH_HEIGHT * SLOW.leg)
+    assert uneven.walk.approach_speed == pytest.approx(APPROACH_SPEED * SLOW.leg / SLOW.beat)
+    weak = replace(load_robot("h1"), single_support=0.8, approach_support=1.1)
+    for scene, single in ((uneven, 1.1), (load_scene("flat").for_body(SLOW), 0.8)):
+        assert controller_settings(scene, weak, SLOW, {}).timing.single_support == pytest.approx(single)
