@@ -51,6 +51,7 @@ from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.plan.plan_change import AppliedChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.decide import decide
+from gait.propose.edge_beside import EdgeBeside
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_found import FootholdCarries
 from gait.propose.foothold_refused import StepGuard
@@ -78,6 +79,7 @@ __all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "Start", "W
 _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
 _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
+_NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where it stands on nothing
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 _NO_WAY = 1 / 12  # leg: a walk that is shorter has no direction of its own
 
@@ -280,6 +282,9 @@ class WalkingController:
             FootholdSeenAhead(rules),
             FootholdCarries(rules, middles, outlines, strip, self.settings.ankle_reach),
         ]
+        if self.settings.compliance is not None and self.settings.footholds == "off":
+            drop = _NO_GROUND * self.settings.ground_map.sensing_range
+            on_ground.append(EdgeBeside(self.layouts, drop, rules.largest_shift))
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 
     @property

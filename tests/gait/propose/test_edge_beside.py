@@ -1,0 +1,106 @@
+"""Steps that move off an edge which a landing sole saw beside it, and no others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from gait.plan.feet_view import FeetView
+from gait.plan.plan_change import PlanChange
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.edge_beside import EdgeBeside
+from gait.propose.proposer import Tick
+from plantar.layouts.layout import SoleLayout
+from plantar.layouts.tiling import hex_layout
+from plantar.sides import SIDES, Side
+
+NOWHERE = np.empty((0, 2))
+DROP, LARGEST, FIRST = 0.04, 0.02, 2.2 + 0.85  # s, when the first foot touches down
+
+
+@pytest.fixture(scope="module")
+def sole() -> SoleLayout:
+    return hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
+
+
+@pytest.fixture
+def proposer(sole: SoleLayout) -> EdgeBeside:
+    return EdgeBeside(dict.fromkeys(SIDES, sole), DROP, LARGEST)
+
+
+def down(side: Side, distance: NDArray[np.float64]) -> FeetView:
+    """A foot that touches down, and what it saw."""
+    return FeetView(dict.fromkeys(SIDES, (np.zeros(3), 0.0)), side, touchdown=True, distance=distance)
+
+
+def ground(sole: SoleLayout, edge: float) -> NDArray[np.float64]:
+    """Distances of a sole that stands on ground which ends at y = edge, with nothing to its right."""
+    return np.where(sole.positions[:, 1] < edge, np.inf, 0.001)
+
+
+def test_steps_move_away_from_the_edge_by_half_of_what_it_cuts_off(
+    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan = plan_of()
+    change = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
+    assert change is not None
+    assert change.step == 0
+    assert change.shift == pytest.approx((0.0, 0.5 * 0.025), abs=0.004)
+    places = [plan.view.foothold(k).y for k in range(6)]
+    assert plan.apply(change, FIRST, NOWHERE).moved[0].reason == "off the edge beside"
+    moved = [plan.view.foothold(k).y - y for k, y in enumerate(places)]
+    assert moved == pytest.approx([0.0] + 5 * [change.shift[1]])
+
+
+def test_one_landing_moves_them_only_so_far(
+    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    change = proposer.propose(tick_at(plan_of(), FIRST, feet=down("left", ground(sole, -0.01))))
+    assert change is not None
+    assert change.shift == pytest.approx((0.0, LARGEST))
+
+
+@pytest.mark.parametrize("what", ["whole", "dead taxels", "two taxels", "toes", "all but nothing"])
+def test_what_is_no_edge_beside_moves_nothing(
+    what: str, proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    x, y = sole.positions[:, 0], sole.positions[:, 1]
+    seen = {
+        "whole": np.full(len(sole), 0.001),
+        "dead taxels": np.where(y < -0.045, np.nan, 0.001),
+        "two taxels": np.where(np.arange(len(sole)) < 2, np.inf, 0.001),
+        "toes": np.where(x > 0.06, np.inf, 0.001),
+        "all but nothing": np.where(y < 0.05, np.inf, 0.001),
+    }[what]
+    assert proposer.propose(tick_at(plan_of(), FIRST, feet=down("left", seen))) is None
+
+
+def test_between_two_edges_there_is_no_way(
+    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan = plan_of()
+    first = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
+    assert first is not None
+    plan.apply(first, FIRST, NOWHERE)
+    later = next(p.end for p in plan.schedule.phases if p.step == 1 and p.swing is not None) - 0.01
+    mirrored = np.where(sole.positions[:, 1] > 0.045, np.inf, 0.001)
+    assert proposer.propose(tick_at(plan, later, feet=down("right", mirrored))) is None
+    assert EdgeBeside(dict.fromkeys(SIDES, sole), DROP, LARGEST).propose(
+        tick_at(plan, later, feet=down("right", mirrored))
+    )
+
+
+def test_it_asks_again_until_its_change_is_applied(
+    proposer: EdgeBeside, sole: SoleLayout, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan = plan_of()
+    first = proposer.propose(tick_at(plan, FIRST, feet=down("left", ground(sole, -0.045))))
+    plan.apply(PlanChange("somebody else's", 3, vrp=(0.8, 0.0)), FIRST, NOWHERE)
+    second = proposer.propose(tick_at(plan, FIRST + 0.005))
+    assert first is not None
+    assert second == first
+    plan.apply(second, FIRST + 0.005, NOWHERE)
+    assert proposer.propose(tick_at(plan, FIRST + 0.01)) is None
