@@ -2,7 +2,8 @@
 
 `python benchmarks/introduced_robots.py [MINUTES]` introduces the robots of `PLANTAR_REAL_DATA`, runs what is missing in
 introduced_robots.csv, one run after the other, and writes the table; stopped, it goes on where it was. A row's commit
-is what is checked out, so run it in a worktree that nobody changes. `... introduced_robots.py report` writes the table.
+is what is checked out, so run it in a worktree that nobody changes. Names of robots or scenes after the minutes leave the
+others out. `... introduced_robots.py report` writes the table.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 from statistics import median
@@ -81,11 +82,19 @@ def introduce(data: Path) -> None:
         subprocess.run(command, cwd=FOLDER.parent, check=True, stdout=subprocess.DEVNULL)
 
 
-def missing() -> Iterator[tuple[Case, int]]:
-    """Runs that have no row yet, in the order of the cases."""
+def missing(names: Sequence[str] = ()) -> Iterator[tuple[Case, int]]:
+    """Runs that have no row yet, in the order of the cases.
+
+    Args:
+        names: Robots, scenes or both that are run; all where it names none.
+
+    Yields:
+        Case and seed.
+    """
     done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(BENCHMARK.path)}
+    robots, scenes = set(names) & set(MODELS) or set(MODELS), set(names) & set(SCENES) or set(SCENES)
     for case, seed in product(BENCHMARK.cases, SEEDS):
-        if (case.name, case.robot, seed) not in done:
+        if case.robot in robots and case.name in scenes and (case.name, case.robot, seed) not in done:
             yield case, seed
 
 
@@ -117,14 +126,17 @@ def report() -> None:
     write_table(FOLDER / "introduced_robots.md", [*lines, "", f"Runs were made at {made}; all are in the CSV file."])
 
 
-def main(minutes: float) -> None:
+def main(minutes: float, names: Sequence[str]) -> None:
     """Run what is missing for some minutes, and write the table."""
+    odd = [n for n in names if n not in MODELS and n not in SCENES]
+    if odd:
+        sys.exit(f"no robot or scene is called '{odd[0]}'; there are {', '.join([*MODELS, *SCENES])}")
     data = os.environ.get("PLANTAR_REAL_DATA")
     if not data:
         sys.exit("PLANTAR_REAL_DATA is not set; it names the folder that holds the models")
     introduce(Path(data))
     end, made = time.monotonic() + 60.0 * minutes, commit()
-    for case, seed in missing():
+    for case, seed in missing(names):
         if time.monotonic() > end:
             break
         show(add_row(BENCHMARK, case, seed, made))
@@ -135,4 +147,4 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["report"]:
         report()
     else:
-        main(float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
+        main(float(sys.argv[1]) if len(sys.argv) > 1 else 1e6, sys.argv[2:])
