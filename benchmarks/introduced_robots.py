@@ -2,8 +2,8 @@
 
 `python benchmarks/introduced_robots.py [MINUTES]` introduces the robots of `PLANTAR_REAL_DATA`, runs what is missing in
 introduced_robots.csv, one run after the other, and writes the table; stopped, it goes on where it was. A row's commit
-is what is checked out, so run it in a worktree that nobody changes. Names of robots or scenes after the minutes leave the
-others out. `... introduced_robots.py report` writes the table.
+is what is checked out, so run it in a worktree that nobody changes. Names of robots or scenes after the minutes leave
+the others out. `... introduced_robots.py report` writes the table.
 """
 
 from __future__ import annotations
