@@ -20,6 +20,7 @@ from gait.balance.dcm_balance import BalanceGains
 from gait.balance.law import Feet, FootAction, FootState
 from gait.balance.open_loop import OpenLoop
 from gait.command import Command, FootTarget, Sensors
+from gait.contact.ankle_limits import AnkleLimits
 from gait.contact.foot_contacts import FootContacts, middle_of_sole
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
@@ -113,6 +114,8 @@ class ControllerSettings(Settings):
         feedback: False walks the plan in open loop, for comparison.
         zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
+        ankle_limits: Strips (m, 4) of each sole in which the robot's weight may act on that foot alone without a joint
+            of its ankle beyond its torque limit (`gait.contact.ankle_limits`); empty for joints without limits.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
             "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
     """
@@ -141,6 +144,7 @@ class ControllerSettings(Settings):
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
+    ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
     footholds: str = choice("off", "force", "skin")
 
     def __post_init__(self) -> None:
@@ -224,7 +228,7 @@ class WalkingController:
         if gains is not None:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
         self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
-        self.contacts = FootContacts(settings.contact, layouts, settings.ankle_reach)
+        self.contacts = FootContacts(settings.contact, layouts, settings.ankle_reach, self._ankle_limits())
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}
         blind = settings.footholds == "force" and settings.compliance is None
@@ -243,6 +247,10 @@ class WalkingController:
         bias = self.estimator.gyro_bias
         found: dict[str, object] = {} if bias is None else {"gyro_bias_rad_s": bias.value.round(6).tolist()}
         return found if self.body is None else {**found, **self.body.summary()}
+
+    def _ankle_limits(self) -> Mapping[Side, AnkleLimits]:
+        margin = self.settings.gains.zmp_offset
+        return {side: AnkleLimits(strips, margin) for side, strips in self.settings.ankle_limits.items()}
 
     def _gyro_bias(self) -> tuple[GyroBias | None, SteadyLoad | None]:
         """What identifies the gyro's bias, and which feet it goes by, where the settings want it."""

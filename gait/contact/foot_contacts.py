@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.contact.ankle_limits import AnkleLimits
 from gait.contact.ankle_reach import borne_part, loaded_middle
 from gait.contact.edge_memory import EdgeMemory
 from gait.contact.stance_contact import ContactSettings, StanceContact
@@ -85,12 +86,14 @@ class FootholdSeen:
 @dataclass
 class _Foot:
     """One foot of the walk: its taxels' view, where its foothold is loaded (2,) and on what (k, 2) its ankle bears the
-    robot, both in the sole, the same in the world where the foothold is known, and the step that put it down."""
+    robot, both in the sole, the same in the world where the foothold is known, what (k, 2) of that carries the robot
+    alone within the ankle's limits, and the step that put it down."""
 
     contact: StanceContact
     center: NDArray[np.float64]
     borne: NDArray[np.float64]
     support: NDArray[np.float64] | None = None
+    alone: NDArray[np.float64] | None = None
     step: int | None = None
 
 
@@ -101,13 +104,22 @@ class FootContacts:
         settings: How the contact polygon is found from the taxels.
         layouts: Sole layout of each side.
         reach: How far in m from the sole frame's origin, along the sole, an ankle bears the robot.
+        limits: Where each foot carries the body alone within its ankle's torque limits; anywhere where not given.
     """
 
-    def __init__(self, settings: ContactSettings, layouts: Mapping[Side, SoleLayout], reach: float = math.inf) -> None:
+    def __init__(
+        self,
+        settings: ContactSettings,
+        layouts: Mapping[Side, SoleLayout],
+        reach: float = math.inf,
+        limits: Mapping[Side, AnkleLimits] | None = None,
+    ) -> None:
         self._settings = settings
         self._reach = reach
+        self._limits = limits or {}
         self._middle = {side: middle_of_sole(layouts[side], reach) for side in SIDES}
         self._borne = {side: borne_part(layouts[side].outline, reach) for side in SIDES}
+        self._alone = {side: self._within_limits(side, self._borne[side]) for side in SIDES}
         self._feet = {
             side: _Foot(StanceContact(layouts[side], settings), self._middle[side], self._borne[side]) for side in SIDES
         }
@@ -134,7 +146,7 @@ class FootContacts:
         """
         foot = self._feet[side]
         foot.contact.lift()
-        foot.support = None
+        foot.support = foot.alone = None
         foot.center, foot.borne = self._middle[side], self._borne[side]
         foot.step = step
 
@@ -197,7 +209,7 @@ class FootContacts:
         if ground is None:
             return None
         self._foreseen = phase.step
-        center = loaded_middle(ground, self._reach)
+        center = self._center(side, ground)
         return FootholdSeen(phase.step, side, state.positions_sole[side][:2] + feet.ahead + turn @ center)
 
     def find(
@@ -246,22 +258,35 @@ class FootContacts:
         position, rotation = state.positions_sole[side], state.rotations_sole[side]
         self._edges.update(foot.step, contact.lines, contact.center_in_sole, position, rotation)
         polygon = polygon_in_world(contact.polygon_in_sole, rotation, position)
-        center = loaded_middle(contact.polygon_in_sole, self._reach)
+        center = self._center(side, contact.polygon_in_sole)
         vrp, middle = ((position + rotation[:, :2] @ place)[:2] for place in (center, contact.center_in_sole))
         as_planned = contact.whole and not known
         if not as_planned:
             foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
             whole = foot.borne is contact.polygon_in_sole
             foot.support = polygon if whole else polygon_in_world(foot.borne, rotation, position)
+            foot.alone = polygon_in_world(self._within_limits(side, foot.borne), rotation, position)
         return FootholdFound(foot.step, side, polygon, contact.area_ratio, vrp, middle, contact.whole, as_planned)
+
+    def _within_limits(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What of a support polygon (k, 2) in the sole frame carries the robot alone within the ankle's limits."""
+        limits = self._limits.get(side)
+        return polygon if limits is None else limits.within(polygon)
+
+    def _center(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where (2,) a part (k, 2) of a sole is best loaded, both in the sole frame."""
+        center, limits = loaded_middle(polygon, self._reach), self._limits.get(side)
+        weak = borne_part(polygon, self._reach) is not polygon  # such an ankle is loaded midway already
+        return center if limits is None or weak else limits.center(polygon, center)
 
     def zmp_region(
         self, phase: Phase, feet: FeetView, frame_offset: NDArray[np.float64], margin: float
     ) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards.
 
-        A foot whose support is not known counts with its whole sole at its commanded place. The region is made anew
-        only when a foot comes, goes or moves, or another support is found.
+        A foot whose support is not known counts with its whole sole at its commanded place; one that stands alone
+        counts as far as its ankle's torque limits let it. (Two feet share the weight, and reach farther.) The region is
+        made anew only when a foot comes, goes or moves, or another support is found.
 
         Args:
             phase: Phase of the walk.
@@ -273,7 +298,8 @@ class FootContacts:
             Convex polygon (k, 2) in the world in m, counter-clockwise.
         """
         standing = [s for s in SIDES if feet.landed or phase.swing != s]
-        places: list[object] = []
+        alone = len(standing) == 1
+        places: list[object] = [alone]
         for side in standing:
             position, yaw = feet.footholds[side]
             support = self._feet[side].support
@@ -281,11 +307,12 @@ class FootContacts:
         if places != self._region_of:
             parts = []
             for side in standing:
-                support = self._feet[side].support
+                foot = self._feet[side]
+                support = foot.alone if alone else foot.support
                 if support is None:
                     position, yaw = feet.footholds[side]
                     support = polygon_in_world(
-                        self._borne[side],
+                        (self._alone if alone else self._borne)[side],
                         level_rotation(yaw),
                         np.array([position[0], position[1], 0.0]) + frame_offset,
                     )

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gait.balance.balance_laws import balance_gains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
@@ -45,7 +48,11 @@ T = TypeVar("T", bound=Settings)
 
 
 def controller_settings(
-    scene: Scene, robot: Robot, body: BodyScale, ankles: Mapping[Side, AnkleSensor]
+    scene: Scene,
+    robot: Robot,
+    body: BodyScale,
+    ankles: Mapping[Side, AnkleSensor],
+    limits: Mapping[Side, NDArray[np.float64]] | None = None,
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
@@ -54,6 +61,7 @@ def controller_settings(
         robot: The robot.
         body: How large it is: what is stated as a share of its body counts for this one.
         ankles: Force-torque sensor of each ankle, where it has them.
+        limits: Where its weight may act on one foot (see `sim.model.ankle_limits`); anywhere where None.
 
     Returns:
         The settings.
@@ -97,6 +105,7 @@ def controller_settings(
         feedback=control.feedback,
         zmp_source=control.zmp_source,
         ankles=ankles,
+        ankle_limits=limits or {},
         footholds=control.footholds,
     )
     try:

@@ -30,6 +30,7 @@ from sim.judging.velocity_truth import VelocityTruth
 from sim.judging.verdict import Ending, reasons
 from sim.judging.walk_goal import WalkGoal
 from sim.judging.zmp_comparison import ZmpComparison
+from sim.model.ankle_limits import ankle_limits
 from sim.model.body import body_of
 from sim.model.world import World, build_leg_model, build_world, check_stable
 from sim.plant.draw import drawn_plant
@@ -95,7 +96,13 @@ class Simulation:
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )
-        self.settings = controller_settings(scene, robot, self.body, ankle_sensors(self.legs.model, robot))
+        self.settings = controller_settings(
+            scene,
+            robot,
+            self.body,
+            ankle_sensors(self.legs.model, robot),
+            ankle_limits(robot, self.legs.model, self.body.weight),
+        )
         start = Start(self.feet, self.steps, walk.begin, self._commands())
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
