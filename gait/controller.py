@@ -58,8 +58,9 @@ from gait.propose.foothold_found import FootholdCarries
 from gait.propose.foothold_refused import StepGuard
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
-from gait.propose.proposer import Proposer, Tick
+from gait.propose.proposer import Pendulum, Proposer, Tick
 from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
+from gait.propose.step_timing import StepTiming, StepTimingRules
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
@@ -111,6 +112,7 @@ class ControllerSettings(Settings):
         identification: What is identified of the robot's differences from its model; None believes the model.
         contact: How contact polygons are found from the taxels.
         foothold: When what is found moves the plan.
+        step_timing: When a single support ends sooner or later than planned; None keeps the plan's times.
         feedback: False walks the plan in open loop, for comparison.
         zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
@@ -141,6 +143,7 @@ class ControllerSettings(Settings):
     identification: IdentificationRules | None = None
     contact: ContactSettings = field(default_factory=ContactSettings)
     foothold: FootholdRules = field(default_factory=FootholdRules)
+    step_timing: StepTimingRules | None = None
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
@@ -293,6 +296,8 @@ class WalkingController:
         if self.settings.compliance is not None and self.settings.footholds == "off":
             drop = _NO_GROUND * self.settings.ground_map.sensing_range
             on_ground.append(EdgeBeside(self.layouts, drop, rules.largest_shift))
+        if self.settings.step_timing is not None:
+            on_ground.append(StepTiming(self.settings.step_timing, self.settings.period))
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 
     @property
@@ -331,14 +336,18 @@ class WalkingController:
         if feedback:
             self._align(state)
         feet, inward = self._swing(sensed, state)
+        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         tick = self._perceive(sensed, state, feet, inward, feedback)
+        if feedback and self.settings.step_timing is not None:
+            region = self._zmp_region(tick.phase, feet)
+            goal = self.plan.dcm_after(tick.phase)
+            tick = tick._replace(pendulum=Pendulum(self.omega, xi, self.plan.at(time), goal, region))
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
             applied = self.plan.apply(change, time, self._zmp_region(tick.phase, feet))
             feet = self._take_over(applied)
         phase, reference = self.schedule.at(time), self.plan.at(time)
-        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         law = self.balance if feedback else self._open_loop
         balanced = law.update(reference, xi, state.zmp, self._zmp_region(phase, feet) if feedback else _ANYWHERE)
         if feedback:

@@ -17,6 +17,7 @@ from gait.feet.ground_conformity import ConformityGains
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
+from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, PlantarError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.schema import Setting, Settings
@@ -31,6 +32,7 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "landing": (Landing,),
     "contact": (ContactSettings,),
     "foothold": (FootholdRules,),
+    "step_timing": (StepTimingRules,),
     "compliance": (ComplianceGains,),
     "touchdown": (TouchdownGains,),
     "ground_map": (GroundMapSettings,),

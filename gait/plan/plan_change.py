@@ -31,6 +31,8 @@ class PlanChange:
         longer: By how much in s the current single support ends later (negative: sooner).
         wait: For how long in s the foot is down by then; as before where None. A foot whose touchdown moves in time is
             swung on accordingly.
+        resets: Whether the reference goes over to the changed plan at once, since the body is nearer to that, and not
+            by a bridge.
         because: Reason in the record for the footsteps after it, where theirs is another one.
     """
 
@@ -43,6 +45,7 @@ class PlanChange:
     following: tuple[Footstep, ...] | None = None
     longer: float | None = None
     wait: float | None = None
+    resets: bool = False
     because: str = ""
 
 

@@ -188,6 +188,7 @@ class WalkPlan:
             del times[0], points[0]
         self._vrps = VrpPlan([first - _AT_REST * timing.body.beat, first, *times], [start, start, *points], omega)
         self._asked = (-math.inf, self._vrps, self._vrps.at(-math.inf))
+        self._next = (-math.inf, self._vrps, self._vrps.at(-math.inf).dcm)
 
     @property
     def view(self) -> PlanView:
@@ -216,6 +217,14 @@ class WalkPlan:
             reference = self._vrps.at(time)
             self._asked = (time, self._vrps, reference)
         return reference
+
+    def dcm_after(self, phase: Phase) -> NDArray[np.float64]:
+        """Where the plan has the DCM (2,) in m at the end of one of its phases."""
+        end, vrps, dcm = self._next
+        if end != phase.end or vrps is not self._vrps:  # asked at each tick of the phase
+            dcm = self._vrps.at(phase.end).dcm
+            self._next = (phase.end, self._vrps, dcm)
+        return dcm
 
     @property
     def end(self) -> NDArray[np.float64]:
@@ -291,7 +300,7 @@ class WalkPlan:
         step, phase, beat = change.step, self.schedule.at(time), self._body.beat
         anew = change.following is not None
         if change.longer is not None or anew:
-            window = (time, min(phase.end, time + _STANCE_BRIDGE * beat))
+            window = (time, time if change.resets else min(phase.end, time + _STANCE_BRIDGE * beat))
             return self._solved(time, now, window, region, shift, late=change.longer or 0.0, anew=anew), 0.0
         takes_over = phase.step == step + 1 and phase.kind == PhaseKind.DOUBLE_SUPPORT
         if phase.step == step and phase.kind == PhaseKind.SINGLE_SUPPORT and phase.end - time >= _FORESIGHT * beat:

@@ -21,11 +21,12 @@ from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase
 from gait.plan.plan_change import PlanChange
+from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["Priority", "Proposer", "Tick", "was_applied"]
+__all__ = ["Pendulum", "Priority", "Proposer", "Tick", "was_applied"]
 
 
 class Priority(IntEnum):
@@ -35,8 +36,28 @@ class Priority(IntEnum):
     """A foothold that is not trusted: nothing may put weight on it."""
     FOOTHOLD = 1
     """What a foot stands on, or will: the VRP has to lie over it."""
-    COMMAND = 2
+    TIMING = 2
+    """When the swing foot comes down, by where the DCM is."""
+    COMMAND = 3
     """What a user wants: it can wait for a tick."""
+
+
+class Pendulum(NamedTuple):
+    """The pendulum at one tick.
+
+    Attributes:
+        omega: Its frequency in rad/s.
+        dcm: Estimated DCM (2,) in m.
+        reference: The plan now.
+        goal: Where the plan has the DCM (2,) at the end of the phase in m.
+        zmp_region: Convex polygon (k, 2) in the world in m in which the ZMP may lie, counter-clockwise.
+    """
+
+    omega: float
+    dcm: NDArray[np.float64]
+    reference: LipReference
+    goal: NDArray[np.float64]
+    zmp_region: NDArray[np.float64]
 
 
 class Tick(NamedTuple):
@@ -54,6 +75,7 @@ class Tick(NamedTuple):
         found: What feet have been found to stand on at this tick.
         seen: What the swing foot has been seen to stand on soon.
         inward: By how much in m, along its y axis, a foot that touches down now shall carry further inside.
+        pendulum: Where the body is, where balance is fed back.
     """
 
     time: float
@@ -67,6 +89,7 @@ class Tick(NamedTuple):
     found: tuple[FootholdFound, ...] = ()
     seen: FootholdSeen | None = None
     inward: float = 0.0
+    pendulum: Pendulum | None = None
 
     def place(self, side: Side) -> Footstep:
         """Where a foot is commanded, as a level place in the world without its height."""

@@ -22,6 +22,7 @@ from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
+from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side
 from plantar.settings.body_scale import BodyScale
@@ -101,6 +102,8 @@ def controller_settings(
         identification=made(IdentificationRules, "identification") if control.identify else None,
         contact=made(ContactSettings, "contact"),
         foothold=made(FootholdRules, "foothold"),
+        # A robot that rocks keeps its own time, which its soles' edges make and no plan of the ZMP.
+        step_timing=made(StepTimingRules, "step_timing") if control.step_timing and not robot.rocks else None,
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
         feedback=control.feedback,
         zmp_source=control.zmp_source,
@@ -157,6 +160,7 @@ def _refuse_unused(scene: Scene) -> None:
     runs = {
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
+        "step_timing": (control.step_timing, "control.step_timing = true"),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
         "conformity": (control.conform, "control.conform = true"),
         **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),

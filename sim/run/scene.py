@@ -190,6 +190,8 @@ class Control(Settings):
         conform: Feet take the ground's shape: standing soles turn until the ground carries them where they shall be
             loaded. For bumps; needs pfc.
         identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
+        step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
+            a robot that rocks.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -202,6 +204,7 @@ class Control(Settings):
     feasibility: str = choice("off", "skin", "force_torque")
     conform: bool = switch(False)
     identify: bool = switch(True)
+    step_timing: bool = switch(True)
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

@@ -23,7 +23,7 @@ def test_half_a_foothold_is_found_and_walked_over(inner: dict) -> None:  # type:
 
 
 def test_without_looking_at_footholds_nothing_is_replanned() -> None:
-    blind = run_scene(load_scene("partial-third", ["footholds=off"]), 1)
+    blind = run_scene(load_scene("partial-third", ["footholds=off", "control.step_timing=false"]), 1)
     assert blind["replans"] == 0
     assert "footholds" not in blind
     assert blind["fell"]

@@ -1,0 +1,122 @@
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from gait.plan.plan_change import PlanChange
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.proposer import Pendulum, Tick
+from gait.propose.step_timing import StepTiming, StepTimingRules
+
+PERIOD = 0.005
+RULES = StepTimingRules()
+SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+NARROW, WIDE = 1e-4 * SQUARE, 0.1 * SQUARE  # m about the stance's VRP
+NOW = 3.4 + 0.45  # s: half-way through the second single support of the plan
+
+
+@pytest.fixture
+def timed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Callable[..., tuple[WalkPlan, Tick]]:
+    """Makes a plan, and the tick at a time of it at which the DCM and the room of the ZMP are given."""
+
+    def made(time: float, dcm: Any, room: np.ndarray = NARROW, **known: Any) -> tuple[WalkPlan, Tick]:
+        plan = plan_of()
+        reference = plan.at(time)
+        goal = plan.dcm_after(plan.schedule.at(time))
+        pendulum = Pendulum(3.5, np.asarray(dcm(plan)), reference, goal, reference.vrp + room)
+        return plan, tick_at(plan, time, pendulum=pendulum, **known)
+
+    return made
+
+
+def proposed(tick: Tick, **rules: Any) -> PlanChange | None:
+    return StepTiming(StepTimingRules(**rules), PERIOD).propose(tick)
+
+
+def late_by(seconds: float) -> Callable[[WalkPlan], np.ndarray]:
+    return lambda plan: plan.at(NOW - seconds).dcm
+
+
+def missed(tick: Tick, left: float) -> float:
+    """By how much the DCM misses the end of the stance, with the best constant ZMP: a distance in GEOS."""
+    pendulum, growth = tick.pendulum, math.exp(3.5 * left) - 1.0
+    assert pendulum is not None
+    wanted = pendulum.dcm + (pendulum.dcm - pendulum.goal) / growth
+    return growth * float(shapely.Polygon(pendulum.zmp_region).distance(shapely.Point(wanted)))
+
+
+@pytest.mark.parametrize("late", [0.04, 0.08, 0.12])
+def test_a_dcm_that_is_behind_gets_the_time_that_it_needs(late: float, timed: Any) -> None:
+    plan, tick = timed(NOW, late_by(late))
+    change = proposed(tick, price=0.0)
+    assert change is not None
+    assert change.reason == "DCM behind"
+    assert change.longer == pytest.approx(late, abs=2.0 * PERIOD)
+    plan.apply(change, NOW, tick.pendulum.zmp_region)
+    # The plan goes on from where the body is, and its steps stay where they are.
+    assert plan.at(NOW).dcm == pytest.approx(tick.pendulum.dcm, abs=0.005)
+    assert plan.at(NOW).com == pytest.approx(tick.pendulum.reference.com, abs=1e-12)
+    assert plan.schedule.at(NOW).end == pytest.approx(tick.phase.end + change.longer)
+    assert [s.foothold for s in plan.view.steps] == [s.foothold for s in tick.plan.steps]
+
+
+def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed: Any) -> None:
+    _, tick = timed(NOW, late_by(-0.06))
+    change = proposed(tick, price=0.0)
+    assert change is not None
+    assert change.reason == "DCM ahead"
+    assert change.longer == pytest.approx(-0.06, abs=2.0 * PERIOD)
+    _, far = timed(NOW, late_by(-0.3))
+    hurried = proposed(far, price=0.0)
+    assert hurried is not None
+    assert hurried.longer == pytest.approx(-0.25 * 0.9, abs=1.5 * PERIOD)  # a quarter of a single support, and no more
+    assert proposed(far, shortest=0.0) is None or proposed(far, shortest=0.0).longer > 0.0
+
+
+def test_what_the_zmp_can_do_is_left_to_it(timed: Any) -> None:
+    for late in (0.0, 0.04, -0.04):
+        assert proposed(timed(NOW, late_by(late), WIDE)[1]) is None
+    assert proposed(timed(NOW, late_by(0.0))[1]) is None
+    assert proposed(timed(NOW, late_by(0.003))[1]) is None  # 15 ms of walking: less than the least error
+
+
+def test_only_single_supports_have_a_time_of_their_own(timed: Any) -> None:
+    behind = late_by(0.1)
+    assert proposed(timed(3.2, lambda plan: plan.at(3.1).dcm)[1]) is None  # double support
+    _, tick = timed(NOW, behind)
+    assert proposed(tick._replace(pendulum=None)) is None  # without feedback
+    waits = tick.phase.__class__(**{**vars(tick.phase), "wait": 0.2})
+    assert proposed(tick._replace(phase=waits)) is None  # somebody else has the time in hand
+
+
+def test_it_rests_between_two_changes(timed: Any) -> None:
+    _, tick = timed(NOW, late_by(0.08))
+    timing = StepTiming(RULES, PERIOD)
+    assert timing.propose(tick) is not None
+    assert timing.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
+    assert timing.propose(tick._replace(time=NOW + RULES.pause)) is not None
+
+
+@pytest.mark.parametrize("seed", range(100))
+def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed: Any, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    time = NOW + float(rng.uniform(-0.4, 0.4))
+    off = rng.normal(0.0, 0.02, 2)
+    _, tick = timed(time, lambda plan: plan.at(time).dcm + off, SQUARE * rng.uniform(0.002, 0.04, 2))
+    change, left = proposed(tick), tick.phase.end - time
+    before = missed(tick, left)
+    begun = time - tick.phase.start
+    longest, least = 1.5 * 0.9 - begun, max(RULES.least_left, 0.75 * 0.9 - begun)
+    allowed = np.arange(left, longest, PERIOD).tolist() + np.arange(left, least, -PERIOD).tolist()
+    best = min([missed(tick, t) + RULES.price * abs(t - left) for t in allowed], default=before)
+    if change is None:
+        soon = min(missed(tick, t) + RULES.price * abs(t - left) for t in (left - PERIOD, left, left + PERIOD))
+        assert before < RULES.least_error or best >= soon - 1e-12  # a change of one period is none
+        return
+    after = left + change.longer
+    assert before >= RULES.least_error
+    assert missed(tick, after) + RULES.price * abs(change.longer) == pytest.approx(best, abs=1e-9)
+    assert min(left, least) - 1e-9 <= after <= max(left, longest) + 1e-9
