@@ -56,6 +56,7 @@ class FootholdFound:
         middle: Its centroid (2,) in the world in m, which is the VRP unless the ankle bears the robot on a part of it.
         whole: Whether it carries the whole sole.
         as_planned: Whether it carries the whole sole, and nothing else was found before.
+        seen: Whether the sole saw it before it touched; of what loads alone show, another edge may be found yet.
     """
 
     step: int
@@ -66,6 +67,7 @@ class FootholdFound:
     middle: NDArray[np.float64]
     whole: bool = False
     as_planned: bool = False
+    seen: bool = True
 
 
 @dataclass(frozen=True)
@@ -263,10 +265,11 @@ class FootContacts:
         as_planned = contact.whole and not known
         if not as_planned:
             foot.center, foot.borne = center, borne_part(contact.polygon_in_sole, self._reach)
-            whole = foot.borne is contact.polygon_in_sole
-            foot.support = polygon if whole else polygon_in_world(foot.borne, rotation, position)
+            every = foot.borne is contact.polygon_in_sole
+            foot.support = polygon if every else polygon_in_world(foot.borne, rotation, position)
             foot.alone = polygon_in_world(self._within_limits(side, foot.borne), rotation, position)
-        return FootholdFound(foot.step, side, polygon, contact.area_ratio, vrp, middle, contact.whole, as_planned)
+        ratio, whole, seen = contact.area_ratio, contact.whole, contact.seen
+        return FootholdFound(foot.step, side, polygon, ratio, vrp, middle, whole, as_planned, seen)
 
     def _within_limits(self, side: Side, polygon: NDArray[np.float64]) -> NDArray[np.float64]:
         """What of a support polygon (k, 2) in the sole frame carries the robot alone within the ankle's limits."""

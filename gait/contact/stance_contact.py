@@ -129,6 +129,11 @@ class StanceContact:
         return self.polygon_in_sole is self.layout.outline
 
     @property
+    def seen(self) -> bool:
+        """Whether the taxels saw the ground before they touched it; by loads alone it may end nearer than is known."""
+        return self._depth is not None
+
+    @property
     def center_in_sole(self) -> NDArray[np.float64]:
         """Centroid (2,) of the support polygon in the sole frame in m."""
         found = centroid(self.polygon_in_sole)

@@ -82,14 +82,15 @@ class FootholdCarries:
         """Take a foothold into the strip; whether it may move the plan now."""
         if found.whole:
             self._strip.clear()
-        elif self._is_narrow(found, tick):
+        elif not found.seen or self._is_narrow(found, tick):
             self._strip.update(found.step, found.side, found.middle)
         rested = tick.time >= self._moved + self._rules.replan_pause or self._moved_step != found.step
         return rested and not found.as_planned
 
     def _is_narrow(self, found: FootholdFound, tick: Tick) -> bool:
         """Whether a foothold may be a part of a strip along the walk: ground that ends along the walk is as wide as the
-        sole, and where its centroid lies says nothing of what comes."""
+        sole, and where its centroid lies says nothing of what comes. (How wide it is has to be seen: loads show one of
+        its edges after the other.)"""
         turn = level_rotation(tick.plan.foothold(max(found.step, tick.plan.first)).yaw)[:2, :2]
         sole = self._outlines[found.side] @ turn.T @ self._strip.across
         ground = found.polygon @ self._strip.across

@@ -126,6 +126,22 @@ def test_ground_that_ends_along_the_walk_is_no_strip(
         plan.apply(change, time, NOWHERE)
 
 
+def test_ground_that_loads_alone_show_may_be_a_strip_however_wide_it_is_known_to_be(
+    plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
+) -> None:
+    plan, asked, shifts = plan_of(), proposer(), []
+    for step in (1, 2):
+        time = double_support(plan, step)
+        here = found(plan, step, (0.0, 0.05 - float(plan.view.vrp(step)[1])))
+        wide = replace(here, polygon=here.middle + np.array([0.5, 1.0]) * SQUARE, seen=False)
+        change = asked.propose(tick_at(plan, time, found=(wide,)))
+        assert change is not None
+        shifts.append(change.shift[1])
+        plan.apply(change, time, NOWHERE)
+    assert shifts[0] == 0.0
+    assert shifts[1] == pytest.approx(RULES.largest_shift)
+
+
 @pytest.mark.parametrize("ahead", [0.03, 0.055, 0.07])
 def test_footsteps_move_once_a_foothold_until_the_ankle_is_over_what_carries(
     ahead: float, plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]
