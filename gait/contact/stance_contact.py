@@ -46,6 +46,8 @@ class ContactSettings(Settings):
         level: Slope in rad of the sole against the ground from which the silence of taxels on the side that rises tells
             nothing: what its noise is.
         least_force: Running mean in N from which a taxel has carried.
+        least_beside: Share of the strongest neighbour's force up to which a taxel may be carried along by its cover and
+            have no ground: more than the twentieth that a crosstalk of 10 % gives one beside a straight edge.
         model_error: Share of the largest force that a taxel's force may differ from the fit's.
         full_ratio: Share of the sole from which on the contact polygon counts as the whole sole.
         subcell: Whether edges are found finer than a cell; else the polygon of cell corners counts (T 4.24).
@@ -73,6 +75,7 @@ class ContactSettings(Settings):
     least_wrong: float = number(0.1, "1", 0, 1)
     level: float = number(1.5e-4, "rad", 0, 0.5)
     least_force: float = share(0.00415, "weight", 0, 10000)
+    least_beside: float = number(0.08, "1", 0, 1)
     model_error: float = number(0.1, "1", 0, 1)
     full_ratio: float = number(0.93, "1", 0.1, 1)
     subcell: bool = switch(True)
@@ -97,6 +100,10 @@ class StanceContact:
         self.layout = layout
         self.settings = settings
         self._fit = PartialContact(layout)
+        most = max((len(near) for near in layout.neighbours), default=0)
+        self._near = np.full((len(layout), max(1, most)), -1, dtype=np.intp)
+        for i, near in enumerate(layout.neighbours):
+            self._near[i, : len(near)] = near
         self._whole_area = area(self._fit.polygon(np.empty((0, 3))))
         self.lift()
 
@@ -167,7 +174,10 @@ class StanceContact:
         share = s.smoothing if self._count > 1 else 1.0
         self._mean += share * (force - self._mean)
         if self._count >= s.settle_readings:
-            self._carried |= self._mean > s.least_force
+            around = np.where(self._near >= 0, self._mean[self._near], 0.0).max(axis=1, initial=0.0)
+            # Ground that was seen needs no such doubt.
+            beside = 0.0 if self.seen else s.least_beside
+            self._carried |= self._mean > np.maximum(s.least_force, beside * around)
         if self._count < s.settle_readings or (self.settled and self._count % s.fit_every):
             return False
         return self._find()

@@ -217,3 +217,23 @@ def test_a_line_that_cuts_nothing_off_or_leaves_nothing_is_not_expected(line: li
     foot.load(readings=3, at=(0.0, 0.0))
     assert foot.contact.whole
     assert foot.contact.lines.shape == (0, 3)
+
+
+def test_what_a_cover_carries_along_is_no_ground() -> None:
+    """A crosstalk of a tenth gives the row beside an edge more than the least force of a taxel that carries."""
+    cells = len(SOLE)
+    spread = 0.9 * np.eye(cells)
+    for i, near in enumerate(SOLE.neighbours):
+        spread[list(near), i] = 0.1 / len(near)
+    strip = np.array([[1.0, 0.0, 0.028], [-1.0, 0.0, 0.028]])
+    forces = spread @ FIT.expected(1200.0, (0.0, 0.0), strip)
+    assert forces[FIT.cover(strip)[:, 0] == 0.0].max() > ContactSettings().least_force
+    found = []
+    for share in (ContactSettings().least_beside, 0.0):
+        contact = StanceContact(SOLE, ContactSettings(least_beside=share))
+        for k in range(20):
+            contact.update(Reading(0.004 * (k + 1), forces), 1200.0)
+        found.append(contact.area_ratio)
+    true = area(FIT.polygon(strip)) / area(FIT.polygon(WHOLE))
+    assert abs(found[0] - true) < abs(found[1] - true)
+    assert found[0] == pytest.approx(true, abs=0.1)
