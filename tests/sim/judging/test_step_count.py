@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gait.plan.footsteps import Footstep, straight_plan
 from gait.plan.plan_change import MovedStep
 from plantar.layouts.layout import Side
+from plantar.sides import SIDES
 from sim.judging.step_count import StepCount
 from sim.judging.walk_goal import WalkGoal
 
@@ -136,7 +138,9 @@ def test_a_walk_around_an_obstacle_counts_where_it_was_said_before() -> None:
     for step in STEPS[2:]:
         walk.land(step, dx=-0.22)
     assert walk.taken == 6
-    assert walk.goal.end({"left": [0.0, 0.0], "right": [0.0, 0.0]})[0] == pytest.approx([STEPS[-1].x - 0.22, 0.0])  # type: ignore[dict-item]
+    soles = dict.fromkeys(SIDES, np.zeros(2))
+    assert walk.goal.end(soles)[0] == pytest.approx([STEPS[-1].x - 0.22, 0.0])
+    assert walk.goal.end(soles, at_start=True)[0] == pytest.approx([STEPS[-1].x, 0.0])
     assert [row["reason"] for row in walk.goal.summary()] == ["foothold refused"] * 4
 
 
