@@ -72,7 +72,7 @@ def test_one_that_is_ahead_is_followed_as_far_as_the_foot_can_be_hurried(timed: 
     _, far = timed(NOW, late_by(-0.3))
     hurried = proposed(far, price=0.0)
     assert hurried is not None
-    assert hurried.longer == pytest.approx(-0.25 * 0.9, abs=1.5 * PERIOD)  # a quarter of a single support, and no more
+    assert hurried.longer == pytest.approx(-RULES.shortest * 0.9, abs=1.5 * PERIOD)  # of a single support, and no more
     assert proposed(far, shortest=0.0) is None or proposed(far, shortest=0.0).longer > 0.0
 
 
@@ -109,8 +109,10 @@ def test_a_change_is_the_best_that_there_is_and_worth_its_price(timed: Any, seed
     change, left = proposed(tick), tick.phase.end - time
     before = missed(tick, left)
     begun = time - tick.phase.start
-    longest, least = 1.5 * 0.9 - begun, max(RULES.least_left, 0.75 * 0.9 - begun)
-    allowed = np.arange(left, longest, PERIOD).tolist() + np.arange(left, least, -PERIOD).tolist()
+    longest = (1.0 + RULES.longest) * 0.9 - begun
+    least = max(RULES.least_left, (1.0 - RULES.shortest) * 0.9 - begun)
+    later, sooner = np.arange(left, longest + 1e-9, PERIOD), np.arange(left, least - 1e-9, -PERIOD)
+    allowed = later.tolist() + sooner.tolist()
     best = min([missed(tick, t) + RULES.price * abs(t - left) for t in allowed], default=before)
     if change is None:
         soon = min(missed(tick, t) + RULES.price * abs(t - left) for t in (left - PERIOD, left, left + PERIOD))
