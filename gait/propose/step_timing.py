@@ -93,7 +93,7 @@ class StepTiming:
         sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
         best, least = 0.0, error
         for sign, most in ((1.0, later), (-1.0, sooner)):
-            for k in range(1, int(most / self._period) + 1):
+            for k in range(1, int(most / self._period + 1e-6) + 1):
                 price = rules.price * k * self._period
                 if price >= least:
                     break
