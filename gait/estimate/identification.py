@@ -40,7 +40,7 @@ class IdentificationRules(Settings):
     gyro_largest: float = number(0.05, "rad/s", 0.0, 1.0)
     gyro_piece: float = share(1.0, "beat", 0.001, 100.0)
     gyro_slip: float = number(4e-4, "rad", 1e-6, 1.0)
-    steady_share: float = number(0.8, "1", 0.5, 1.0)
+    steady_share: float = number(0.8, "1", 0.0, 1.0)
     steady_time: float = share(2.0, "beat", 0.001, 10.0)
     steady_band: float = share(0.05, "weight", 0.0, 100000)
     encoders: bool = switch(True)
