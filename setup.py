@@ -14,7 +14,8 @@ from setuptools.command.build_ext import build_ext
 KERNELS = sorted(p for p in Path("plantar/kernels").glob("*.pxd") if p.stem != "__init__")
 BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
-FLAGS = [] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=off"]
+# What a builder asks for in CFLAGS comes last and counts.
+FLAGS = [] if os.name == "nt" else ["-O3", "-g0", "-ffp-contract=off", *os.environ.get("CFLAGS", "").split()]
 # Kernels keep their indices in range, never count from the end, and guard each division themselves.
 DIRECTIVES = {"boundscheck": False, "wraparound": False, "cdivision": True, "initializedcheck": False}
 

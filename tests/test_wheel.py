@@ -19,23 +19,27 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def run(*command: str | Path, cwd: Path, check: bool = True) -> subprocess.CompletedProcess[str]:
-    """Run a command in an environment that knows nothing of the checkout."""
+def run(*command: str | Path, cwd: Path, check: bool = True, **more: str) -> subprocess.CompletedProcess[str]:
+    """Run a command in an environment that knows nothing of the checkout, with some more variables."""
     clean = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL_ENV", "PLANTAR"))}
-    done = subprocess.run([str(c) for c in command], cwd=cwd, env=clean, capture_output=True, text=True)
+    done = subprocess.run([str(c) for c in command], cwd=cwd, env=clean | more, capture_output=True, text=True)
     assert not check or done.returncode == 0, f"{command}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
     return done
 
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory) -> Path:
-    """The wheel of what is in the checkout; built from a copy, so that the checkout stays as it is."""
+    """The wheel of what is in the checkout; built from a copy, so that the checkout stays as it is.
+
+    Its kernels are not optimized, which takes two minutes less; those of the checkout are, and are tested.
+    """
     folder = tmp_path_factory.mktemp("wheel")
     source = folder / "source"
     for path in tracked():
         (source / path).parent.mkdir(parents=True, exist_ok=True)
         (source / path).write_bytes((ROOT / path).read_bytes())
-    run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source, cwd=folder)
+    build = (sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source)
+    run(*build, cwd=folder, CFLAGS="-O0")
     [built] = folder.glob("*.whl")
     return built
 
