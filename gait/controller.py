@@ -92,7 +92,6 @@ class ControllerSettings(Settings):
     Attributes:
         com_height: CoM height above the soles in m.
         mass: Robot mass in kg.
-        crouch: By how much in m it could stand higher.
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
@@ -125,7 +124,6 @@ class ControllerSettings(Settings):
 
     com_height: float
     mass: float
-    crouch: float = number(0.0, "m", 0.0, 1.0)
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
@@ -643,5 +641,4 @@ class WalkingController:
         """CoM height above the feet: follows the stance foot, blends in double support."""
         heights = {side: self.motion.footholds[side][0].item(2) for side in SIDES}
         target = heights[phase.stance] if phase.stance is not None else 0.5 * (heights["left"] + heights["right"])
-        rise = 0.0 if self.body is None else min(self.settings.crouch, self.body.rise)
-        return self._ground.update(target) + self.settings.com_height + rise
+        return self._ground.update(target) + self.settings.com_height

@@ -30,8 +30,6 @@ class IdentificationRules(Settings):
         com_largest: Largest offset in m that is believed.
         lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet for each tenth
             that mass and CoM load the hips more than in the model, up to two tenths; 0 leans as the walk says.
-        bent: How much shorter in m than straight legs are taken to be: a crouched walk of a robot with more mass than
-            its model stands up by as much as keeps its knees' torque; 0 does not.
         place_error: How well it is known where the feet stand at the start, as a standard deviation in m.
         turn_error: How well soles are known to lie flat, and the accelerometer to show gravity on average, in rad.
         fade: Time in s in which what is commanded follows what was found in the opening stand.
@@ -53,7 +51,6 @@ class IdentificationRules(Settings):
     com_least: float = share(0.005, "leg", 0.0, 0.1)
     com_largest: float = share(1 / 12, "leg", 0.0, 0.5)
     lean: float = share(0.48, "rad/leg", 0.0, 10.0)
-    bent: float = share(0.1, "leg", 0.0, 0.5)
     place_error: float = share(1e-3, "leg", 1e-6, 0.1)
     turn_error: float = number(1e-3, "rad", 1e-6, 0.1)
     fade: float = share(1.6, "beat", 0.01, 10.0)

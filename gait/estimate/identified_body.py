@@ -133,17 +133,6 @@ class IdentifiedBody:
         return self._faded * self._rules.lean * min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
 
     @property
-    def rise(self) -> float:
-        """How much higher in m than by the model the CoM shall be for the knees to have the model's torque.
-
-        The knee of a leg that is shorter by d than straight lies off the line from hip to ankle as sqrt(d). Its torque
-        goes with that and the weight, so that with r times the mass d / r^2 leaves it as it was.
-        """
-        if self.mass_ratio <= 1.0 + _EVEN:
-            return 0.0
-        return self._faded * self._rules.bent * (1.0 - self.mass_ratio**-2)
-
-    @property
     def _faded(self) -> float:
         s = self._share
         return s * s * (3.0 - 2.0 * s)  # starts and ends without a jump in speed

@@ -83,7 +83,6 @@ def controller_settings(
 
     found = ControllerSettings(
         com_height=robot.com_height - min(walk.crouch, crouch),
-        crouch=min(walk.crouch, crouch),
         mass=body.mass,
         trunk_lean=robot.trunk_lean if walk.lean else 0.0,
         period=_period(control),

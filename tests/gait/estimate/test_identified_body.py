@@ -118,33 +118,6 @@ def test_commands_follow_without_a_jump() -> None:
     assert leans[-1] == pytest.approx(2.0 * RULES.lean)  # 15 mm of 100 mm, times 1.05: more than two tenths
 
 
-@pytest.mark.parametrize("ratio", [1.05, 1.1, 1.2])
-def test_a_heavier_robot_stands_up_until_its_knees_have_the_models_torque(ratio: float) -> None:
-    body = stood(RULES, np.zeros(4), soles(ratio * WEIGHT))
-    rises = []
-    for _ in range(round(RULES.fade / PERIOD) + 1):
-        rises.append(body.rise)
-        body.advance()
-    assert rises[0] == 0.0
-    assert rises == sorted(rises)
-    leg = RULES.body.leg
-
-    def lever(short: float) -> float:
-        """How far a knee lies off the line from hip to ankle, of two equal links."""
-        return 0.5 * float(np.sqrt(leg**2 - (leg - short) ** 2))
-
-    torque = ratio * lever(RULES.bent - body.rise) / lever(RULES.bent)
-    assert torque == pytest.approx(1.0, abs=0.01)
-
-
-@pytest.mark.parametrize("ratio", [0.9, 1.0, 1.02])
-def test_one_that_is_no_heavier_stays_as_low_as_it_walks(ratio: float) -> None:
-    body = stood(RULES, np.zeros(4), soles(ratio * WEIGHT))
-    for _ in range(round(RULES.fade / PERIOD) + 1):
-        body.advance()
-    assert body.rise == 0.0
-
-
 def test_an_estimator_stands_where_it_stood() -> None:
     wrong = np.array([0.004, 0.003, -0.004, -0.003])
     body = IdentifiedBody(Sliding(), WEIGHT, FEET, RULES, PERIOD)
