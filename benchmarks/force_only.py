@@ -8,13 +8,12 @@ Nothing sees the ground (`footholds=force`), and the taxels are an elastic layer
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import FEW, Benchmark, Case, add_row, commit, latest, rows_of, show, write_table
+from resumable import FEW, Benchmark, Case, latest, rows_of, run_for, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("steps_taken", "sim_time_s", "tilt_max_deg", "replans", "foothold_error_median_m", "foothold_error_p95_m")
@@ -96,9 +95,5 @@ def report() -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:] != ["report"]:
-        end, made = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6), commit()
-        for _, case, seed in sorted(missing(), key=lambda job: job[0]):
-            if time.monotonic() > end:
-                break
-            show(add_row(BENCHMARK, case, seed, made))
+        run_for(BENCHMARK, missing(), float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
     report()

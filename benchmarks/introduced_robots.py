@@ -11,14 +11,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, add_row, commit, latest, rows_of, show, write_table
+from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
 
 FOLDER = Path(__file__).parent
 MADE = FOLDER.parent / "out" / "introduced"
@@ -135,11 +134,7 @@ def main(minutes: float, names: Sequence[str]) -> None:
     if not data:
         sys.exit("PLANTAR_REAL_DATA is not set; it names the folder that holds the models")
     introduce(Path(data))
-    end, made = time.monotonic() + 60.0 * minutes, commit()
-    for case, seed in missing(names):
-        if time.monotonic() > end:
-            break
-        show(add_row(BENCHMARK, case, seed, made))
+    run_for(BENCHMARK, ((rank, *job) for rank, job in enumerate(missing(names))), minutes)
     report()
 
 

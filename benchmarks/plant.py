@@ -9,12 +9,11 @@ minutes it writes the tables and the figure.
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from resumable import Benchmark, Case, add_row, commit, latest, origin, rows_of, show, wanted, write_table
+from resumable import Benchmark, Case, latest, origin, rows_of, run_for, wanted, write_table
 
 from sim.plant.draw import RANGES
 from sim.plant.settings import RANDOM, Plant
@@ -153,16 +152,12 @@ def run(minutes: float, words: Sequence[str]) -> None:
         minutes: For how long.
         words: The words.
     """
-    end, made = time.monotonic() + 60.0 * minutes, commit()
     jobs = [
         (rank, case, seed)
         for rank, case, seed in wanted(BENCHMARK)
         if all(word in f"{case.name} {case.robot}".split() or word in case.name for word in words)
     ]
-    for _, case, seed in sorted(jobs, key=lambda job: job[0]):
-        if time.monotonic() > end:
-            break
-        show(add_row(BENCHMARK, case, seed, made))
+    run_for(BENCHMARK, jobs, minutes)
 
 
 BENCHMARK = Benchmark(FOLDER / "plant.csv", COLUMNS, _cases(), figures)

@@ -11,6 +11,7 @@ import csv
 import os
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -26,6 +27,7 @@ __all__ = [
     "latest",
     "origin",
     "rows_of",
+    "run_for",
     "show",
     "wanted",
     "write_table",
@@ -168,6 +170,21 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         file.flush()
         os.fsync(file.fileno())
     return row
+
+
+def run_for(benchmark: Benchmark, jobs: Iterable[tuple[Any, Case, int]], minutes: float) -> None:
+    """Run what is missing for some minutes, the lowest rank first.
+
+    Args:
+        benchmark: What is counted.
+        jobs: Runs that are missing, each with its rank.
+        minutes: For how long; a run that has begun is ended.
+    """
+    end, made = time.monotonic() + 60.0 * minutes, commit()
+    for _, case, seed in sorted(jobs, key=lambda job: job[0]):
+        if time.monotonic() > end:
+            break
+        show(add_row(benchmark, case, seed, made))
 
 
 def count(rows: Sequence[dict[str, str]], fresh: bool) -> str:

@@ -7,12 +7,11 @@ Rows go to velocity.csv, one a run; stopped, it goes on where it was.
 from __future__ import annotations
 
 import sys
-import time
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, add_row, commit, count, latest, rows_of, show, wanted, write_table
+from resumable import Benchmark, Case, count, latest, rows_of, run_for, wanted, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("speed_ratio", "turn_ratio", "walked_m", "turned_deg", "steps", "steps_after_stop", "tilt_deg", "wall_s")
@@ -59,9 +58,5 @@ def _range(values: list[float]) -> str:
 
 if __name__ == "__main__":
     if sys.argv[1:] != ["report"]:
-        end, made = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6), commit()
-        for _, case, seed in sorted(wanted(BENCHMARK), key=lambda job: job[0]):
-            if time.monotonic() > end:
-                break
-            show(add_row(BENCHMARK, case, seed, made))
+        run_for(BENCHMARK, wanted(BENCHMARK), float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
     report()
