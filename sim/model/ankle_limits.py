@@ -7,12 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sides import SIDES, Side
-from sim.model.body import stood
+from sim.model.body import pitching_joints, rolling_joints, stood
 from sim.robots.robot import Robot
 
 __all__ = ["ankle_limits"]
-
-_ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about it: nearer to it than to the others
 
 
 def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Side, NDArray[np.float64]]:
@@ -31,16 +29,13 @@ def ankle_limits(robot: Robot, model: mujoco.MjModel, weight: float) -> dict[Sid
         none of a joint without a limit.
     """
     data = stood(robot, model)
-    torso = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)
     limits = _torque_limits(model)
     found: dict[Side, NDArray[np.float64]] = {}
     for side in SIDES:
         site = model.site(robot.legs[side].sole_site).id
         origin, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
-        joints = [int(model.joint(name).id) for name in robot.legs[side].joints]
         strips = []
-        for way in (torso[:, 1], torso[:, 0]):
-            turning = [j for j in joints if abs(float(data.xaxis[j] @ way)) > _ALONG]
+        for turning in (pitching_joints(robot, side, model, data), rolling_joints(robot, side, model, data)):
             if len(turning) < 2 or turning[-1] not in limits:  # one joint alone is the hip's
                 continue
             axis, anchor = rotation.T @ data.xaxis[turning[-1]], rotation.T @ (data.xanchor[turning[-1]] - origin)

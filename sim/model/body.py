@@ -9,10 +9,10 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from sim.robots.robot import Robot
 
-__all__ = ["body_of", "leg_length", "pitching_joints", "stood"]
+__all__ = ["body_of", "leg_length", "pitching_joints", "rolling_joints", "stood"]
 
 _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
-_PITCHES = 0.7  # cosine with the torso's y axis from which a joint pitches: nearer to it than to x and z
+_ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about it: nearer to it than to the others
 
 
 def body_of(robot: Robot, model: mujoco.MjModel) -> BodyScale:
@@ -84,9 +84,29 @@ def pitching_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoc
     Returns:
         Their ids from hip to ankle.
     """
-    across = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 1]
+    return _turning_joints(robot, side, model, data, 1)
+
+
+def rolling_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> list[int]:
+    """Joints of a leg that turn about the torso's x axis more than about another: hip and, where there is one, ankle.
+
+    Args:
+        robot: The robot.
+        side: The leg.
+        model: A model with the robot in it.
+        data: Its state, with kinematics.
+
+    Returns:
+        Their ids from hip to ankle.
+    """
+    return _turning_joints(robot, side, model, data, 0)
+
+
+def _turning_joints(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData, axis: int) -> list[int]:
+    """Ids of a leg's joints, from hip to foot, that turn about an axis of the torso."""
+    way = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, axis]
     ids = [int(model.joint(name).id) for name in robot.legs[side].joints]
-    return [i for i in ids if abs(float(data.xaxis[i] @ across)) > _PITCHES]
+    return [i for i in ids if abs(float(data.xaxis[i] @ way)) > _ALONG]
 
 
 def _length(robot: Robot, side: Side, model: mujoco.MjModel, data: mujoco.MjData) -> float:

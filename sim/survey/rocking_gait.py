@@ -15,11 +15,9 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import numpy as np
-
 from plantar.gravity import GRAVITY
 from plantar.sides import Side
-from sim.model.body import stood
+from sim.model.body import rolling_joints, stood
 from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
 
@@ -35,7 +33,6 @@ at a third of the way, and all at a fifth."""
 
 _SINGLE = 0.62  # of the time of a step; with more, feet that land on an edge have no time to come down flat
 _SHORTEST = 0.2  # s: the least that the timing of a walk allows
-_ROLLS = 0.7  # cosine with the torso's x axis from which a joint rolls: nearer to it than to y and z
 
 
 def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
@@ -49,11 +46,7 @@ def has_ankle_roll(robot: Robot, legs: LegModel, side: Side = "left") -> bool:
     Returns:
         Whether it has.
     """
-    model = legs.model
-    data = stood(robot, model)
-    forward = data.xmat[model.body(robot.torso_body).id].reshape(3, 3)[:, 0]
-    axes = data.xaxis[[model.joint(name).id for name in robot.legs[side].joints]]
-    return int((np.abs(axes @ forward) > _ROLLS).sum()) >= 2
+    return len(rolling_joints(robot, side, legs.model, stood(robot, legs.model))) >= 2
 
 
 def rocking(robot: Robot, com_height: float) -> Robot:
