@@ -338,18 +338,20 @@ class WalkingController:
         feet, inward = self._swing(sensed, state)
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         tick = self._perceive(sensed, state, feet, inward, feedback)
+        region = self._zmp_region(tick.phase, feet)
         if feedback and self.settings.step_timing is not None:
-            region = self._zmp_region(tick.phase, feet)
             goal = self.plan.dcm_after(tick.phase)
             tick = tick._replace(pendulum=Pendulum(self.omega, xi, self.plan.at(time), goal, region))
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
-            applied = self.plan.apply(change, time, self._zmp_region(tick.phase, feet))
+            applied = self.plan.apply(change, time, region)
             feet = self._take_over(applied)
         phase, reference = self.schedule.at(time), self.plan.at(time)
+        if applied is not None:
+            region = self._zmp_region(phase, feet)
         law = self.balance if feedback else self._open_loop
-        balanced = law.update(reference, xi, state.zmp, self._zmp_region(phase, feet) if feedback else _ANYWHERE)
+        balanced = law.update(reference, xi, state.zmp, region if feedback else _ANYWHERE)
         if feedback:
             self._conform(phase, balanced.zmp_desired, state, sensed)
         com, torso, posture = self._body(phase, balanced.com)

@@ -77,17 +77,16 @@ class StepTiming:
         error = _missed(pendulum, left)
         if error < rules.least_error:
             return None
-        change = self._best_change(tick, left, error)
+        change = self._best_change(tick, pendulum, left, error)
         if abs(change) < 1.5 * self._period:
             return None
         self._changed = tick.time
         reason = "DCM behind" if change > 0.0 else "DCM ahead"
         return PlanChange(reason, phase.step, longer=change, resets=True)
 
-    def _best_change(self, tick: Tick, left: float, error: float) -> float:
+    def _best_change(self, tick: Tick, pendulum: Pendulum, left: float, error: float) -> float:
         """By how much in s to end the phase later: where what is missed, and the change's price, are least."""
-        pendulum, rules = tick.pendulum, self._rules
-        assert pendulum is not None
+        rules = self._rules
         usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
         later = (1.0 + rules.longest) * usual - begun - left
         sooner = left - max(rules.least_left, (1.0 - rules.shortest) * usual - begun)
