@@ -18,7 +18,7 @@ from plantar.geometry.convex_shapes import points_of
 from plantar.layouts import cell_edges, cell_layout, curved_sole, taxel_values, tiling
 from plantar.layouts.hex_lattice import HexLattice
 from plantar.layouts.layout import SoleLayout
-from plantar.mechanics import lip, wrench, zmp
+from plantar.mechanics import external_wrench, lip, wrench, zmp
 from plantar.percepts import batch, foot_tick, sole_pose, support
 from plantar.percepts.percept import Percept
 from plantar.sensing import (
@@ -383,6 +383,16 @@ def _of_mechanics() -> list[Call]:
             "wrench.wrench_at",
             wrench.wrench_at,
             {"wrench": whole, "point": Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")},
+        ),
+        *(
+            Call(f"external_wrench.{f.__name__}", f, {"wrench": whole}, {"mass": 50.0, "omega": 3.5})
+            for f in (external_wrench.vrp_offset, external_wrench.external_acceleration)
+        ),
+        Call(
+            "external_wrench.push_of_dcm",
+            external_wrench.push_of_dcm,
+            {"impulse": Argument(np.array([[10.0, -5.0]]), (..., 2), "impulse", nan=True)},
+            {"mass": 50.0, "omega": 3.5},
         ),
         Call(
             "lip.divergent_component",

@@ -1,0 +1,132 @@
+"""A wrench on the body in the dynamics of the divergent component of motion (K 6-12, corrected).
+
+The pendulum of height g / w^2 stands with its ZMP at u_ref and is pushed by a wrench about its CoM: a horizontal force
+F and a moment tau that the body, kept upright, hands on to the ground. Moments about the ZMP give
+
+    x'' = w^2 (x - u_ref) + F / m + w^2 [tau_y, -tau_x] / (m g) = w^2 (x - u),    u = u_ref - (u_F + u_tau),
+
+so both parts push the CoM away from where a force above it leans: printed is u_F - u_tau, with which a force at
+shoulder height would push less than one at the hip. The vertical force is left out, as in K: it changes how much weight
+the ground carries, not where the pendulum falls.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.gravity import GRAVITY
+
+__all__ = ["external_acceleration", "push_of_dcm", "vrp_offset"]
+
+
+def vrp_offset(wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0) -> NDArray[np.float64]:
+    """Offset u_w = u_F + u_tau of the VRP by a wrench on the body: u = u_ref - u_w (K 9-11 corrected).
+
+    Args:
+        wrench: Wrench (..., 6) about the CoM in axes with z up in N and N m, exerted by the world on the robot; one
+            that holds NaN or inf gives such an offset.
+        mass: Mass of the robot in kg, above 0.
+        omega: Pendulum frequency sqrt(g / z) in rad/s, above 0.
+        virtual_mass: nu of K 10-11: the share of its mass with which the robot answers a push; 1 is its own body, a
+            smaller one gives way more.
+
+    Returns:
+        Offset (..., 2) in m: where the ZMP would have to go for the CoM not to be accelerated by the wrench.
+
+    Raises:
+        InputError: If the wrench is not (..., 6) numbers, or mass, frequency or share of the mass not a finite number
+            above 0.
+
+    Example:
+        >>> hip = vrp_offset([50.0, 0.0, 0.0, 0.0, 0.0, 0.0], 86.0, 3.44)
+        >>> shoulder = vrp_offset([50.0, 0.0, 0.0, 0.0, 20.0, 0.0], 86.0, 3.44)
+        >>> [round(float(u), 4) for u in (*hip, *shoulder)]
+        [0.0491, 0.0, 0.0728, 0.0]
+    """
+    given = array(wrench, "wrench", (..., 6))
+    rate = _positive(omega, "pendulum frequency", "rad/s")
+    carried = _positive(mass, "mass", "kg") * _positive(virtual_mass, "share of the mass", "1")
+    if given.ndim == 1:
+        fx, fy, _, tx, ty, _ = given.tolist()
+        by_force, by_moment = 1.0 / (carried * rate * rate), 1.0 / (carried * GRAVITY)
+        return np.array((fx * by_force + ty * by_moment, fy * by_force - tx * by_moment))
+    out = np.empty((*given.shape[:-1], 2))
+    with np.errstate(over="ignore", invalid="ignore"):  # of wrenches that are not finite
+        out[..., 0] = given[..., 0] / (carried * rate * rate) + given[..., 4] / (carried * GRAVITY)
+        out[..., 1] = given[..., 1] / (carried * rate * rate) - given[..., 3] / (carried * GRAVITY)
+    return out
+
+
+def external_acceleration(
+    wrench: ArrayLike, mass: float, omega: float, virtual_mass: float = 1.0
+) -> NDArray[np.float64]:
+    """Horizontal acceleration of the CoM by a wrench on the body, at a ZMP that stays (K 12 with its moment).
+
+    K 12 holds the force alone; by the moment balance the ZMP has to carry the moment too, which accelerates the CoM by
+    w^2 u_tau.
+
+    Args:
+        wrench: Wrench (..., 6) as in `vrp_offset`.
+        mass: Mass of the robot in kg, above 0.
+        omega: Pendulum frequency in rad/s, above 0.
+        virtual_mass: nu as in `vrp_offset`.
+
+    Returns:
+        Acceleration (..., 2) in m/s^2: w^2 u_w.
+
+    Raises:
+        InputError: As `vrp_offset`.
+
+    Example:
+        >>> omega = (9.81 / 0.83) ** 0.5
+        >>> external_acceleration([50.0, 0.0, 0.0, 0.0, 50.0 * 0.4, 0.0], 86.0, omega).round(3).tolist()
+        [0.862, 0.0]
+    """
+    return np.asarray(vrp_offset(wrench, mass, omega, virtual_mass) * float(omega) ** 2)
+
+
+def push_of_dcm(impulse: ArrayLike, mass: float, omega: float, height: float = 0.0) -> NDArray[np.float64]:
+    """By how much a short push moves the DCM: J (1 + w^2 height / g) / (m w).
+
+    It is what xi' = w (xi - u_ref + u_w) (K 8-9) adds up to while the pendulum has no time to move.
+
+    Args:
+        impulse: Horizontal impulse (..., 2) on the robot in N s.
+        mass: Mass of the robot in kg, above 0.
+        omega: Pendulum frequency in rad/s, above 0.
+        height: How far above the CoM the push acts in m, below 0 where it acts below.
+
+    Returns:
+        Displacement (..., 2) of the DCM in m.
+
+    Raises:
+        InputError: If the impulse is not (..., 2) numbers, mass or frequency not a finite number above 0, or the height
+            not finite.
+
+    Example:
+        >>> push_of_dcm([0.0, 20.0], 86.0, 3.44).round(4).tolist()
+        [0.0, 0.0676]
+    """
+    given = array(impulse, "impulse", (..., 2))
+    rate, carried = _positive(omega, "pendulum frequency", "rad/s"), _positive(mass, "mass", "kg")
+    lever = 1.0 + rate * rate * number(height, "height of the push", finite=True) / GRAVITY
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.asarray(given * (lever / (carried * rate)))
+
+
+def _positive(value: float, name: str, unit: str) -> float:
+    """A number above 0 that is finite.
+
+    Raises:
+        InputError: If it is not.
+    """
+    given = number(value, name, nan=True)
+    if not 0.0 < given < math.inf:
+        raise InputError(f"{name} is {value} {unit}; allowed: a finite value above 0")
+    return given
