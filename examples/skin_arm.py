@@ -9,10 +9,10 @@ what touches the arm moves it in the null space of the tip alone, which does not
 import mujoco
 import numpy as np
 
+from sim.body_skin.sensing import SkinSensing, SkinSensor
+from sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.machine import load_machine
-from sim.companion.skin_sensing import SkinSensing, SkinSensor
-from sim.companion.skin_surface import OBSTACLE_GROUP, skin_from_tables
 from wholebody.stack import TaskStack
 from wholebody.tasks.cartesian_pose import CartesianPose, PoseGains
 from wholebody.tasks.interaction import DirectInteraction

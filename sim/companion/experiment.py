@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from plantar.errors import SceneError
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import Settings, choice, number
+from sim.body_skin.sensing import SkinSensor
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
 from sim.figures.render import View
 from wholebody.dynamics import RobotDynamics
 

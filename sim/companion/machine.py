@@ -25,7 +25,7 @@ from plantar.files.structured_text import read_toml
 from plantar.mechanics.lip import GRAVITY
 from plantar.settings.schema import Settings, choice, number, tables, text
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["BaseTable", "JointTable", "Machine", "ServoTable", "builtin_machines", "load_machine"]
 
@@ -91,7 +91,7 @@ class Machine:
         base: What carries the joints.
         servo: How joints are commanded.
         joints: What each joint with one degree of freedom can do, by its name.
-        patches: The `[[patch]]` tables, unread: `sim.companion.skin_surface` makes skin of them.
+        patches: The `[[patch]]` tables, unread: `sim.body_skin.surface` makes skin of them.
     """
 
     name: str

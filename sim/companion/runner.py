@@ -15,6 +15,8 @@ import numpy as np
 
 from plantar.atomic import output_folder, parent_folder
 from plantar.errors import InputError, SceneError
+from sim.body_skin.sensing import SkinSensor
+from sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from sim.companion.drives import Drives
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.encoders import Encoders
@@ -22,8 +24,6 @@ from sim.companion.experiment import World
 from sim.companion.lidar import Lidar
 from sim.companion.machine import Machine, ServoTable, load_machine
 from sim.companion.scene import CompanionScene
-from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import OBSTACLE_GROUP, skin_from_tables
 from sim.figures.render import FRAME_RATE, Camera, VideoWriter
 
 __all__ = ["Companion", "run_companion", "run_companion_to_files"]

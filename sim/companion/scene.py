@@ -14,9 +14,9 @@ from plantar.errors import SceneError
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings
 from plantar.settings.unknown_keys import refuse_unknown_keys
+from sim.body_skin.sensing import SkinSensing
 from sim.companion.experiment import CompanionControl, Experiment, experiment_class
 from sim.companion.lidar import LidarSettings
-from sim.companion.skin_sensing import SkinSensing
 
 __all__ = ["CompanionScene", "companion_scene", "companion_setting_name", "companion_tables"]
 

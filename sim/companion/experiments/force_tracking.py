@@ -15,13 +15,13 @@ from plantar.errors import InputError
 from plantar.mechanics.rotation import rotation_from_angles
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, tables
+from sim.body_skin.sensing import SkinSensor
+from sim.body_skin.surface import OBSTACLE_GROUP
 from sim.companion.experiment import Experiment, Verdict, World, failed
 from sim.companion.handling.actors import Fist, Push, Visit, Visitor, come_and_go
 from sim.companion.handling.force_record import ForceRecord
 from sim.companion.handling.hand_controller import HandControl, HandController
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import OBSTACLE_GROUP
 from sim.figures.render import View
 
 __all__ = ["ForceTracking", "ForceTrackingSettings"]

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, tables, text
+from sim.body_skin.sensing import SkinSensor
 from sim.companion.experiment import Experiment, Verdict, World, failed
 from sim.companion.machine import Machine
 from sim.companion.reaching.layout import KINDS, random_layout
 from sim.companion.reaching.reach_controller import ReachControl, ReachController
 from sim.companion.reaching.reach_record import ReachRecord
-from sim.companion.skin_sensing import SkinSensor
 from sim.figures.render import View
 from sim.model.contact_truth import feet_contacts
 

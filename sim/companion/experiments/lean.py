@@ -18,10 +18,10 @@ from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number
+from sim.body_skin.sensing import SkinSensor
+from sim.body_skin.surface import OBSTACLE_GROUP
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import OBSTACLE_GROUP
 from sim.companion.standing.lean_controller import HAND, PATCH, LeanControl, LeanController
 from sim.companion.standing.standing import StandingExperiment
 from sim.model.contact_truth import feet_contacts

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, number, switch
+from sim.body_skin.sensing import SkinSensor
+from sim.body_skin.surface import skin_from_tables
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.pad import Pad
 from sim.companion.standing.standing import StandingExperiment

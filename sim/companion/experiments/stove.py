@@ -18,11 +18,11 @@ import numpy as np
 from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number, switch
+from sim.body_skin.sensing import SkinSensor
+from sim.body_skin.surface import OBSTACLE_GROUP, skin_from_tables
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Controller, Verdict, World, failed
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
-from sim.companion.skin_surface import OBSTACLE_GROUP, skin_from_tables
 from sim.companion.standing.controller import StandingControl, StandingController
 from sim.companion.standing.heat import HotPlate, PlateSettings
 from sim.companion.standing.standing import StandingExperiment

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.easing import minimum_jerk
+from sim.body_skin.surface import OBSTACLE_GROUP
 from sim.companion.experiment import World
-from sim.companion.skin_surface import OBSTACLE_GROUP
 
 __all__ = ["FIST", "PERSON", "Fist", "Push", "Visit", "Visitor", "come_and_go"]
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
-from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["KINDS", "Layout", "Post", "random_layout"]
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sensing.link_skin import SkinPatch
-from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["Pad"]
 

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.rotation import rotation_from_angles
+from sim.body_skin.sensing import SkinSensor
 from sim.companion.dynamics import MujocoDynamics
 from sim.companion.experiment import Experiment, World, failed
 from sim.companion.machine import Machine
-from sim.companion.skin_sensing import SkinSensor
 from sim.companion.standing.controller import StandingControl
 from sim.companion.standing.joint_range import JointRange
 from sim.companion.standing.pad import Pad

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["Visitor"]
 

@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from sim.body_skin.surface import skin_from_tables
 from sim.companion.machine import load_machine
-from sim.companion.skin_surface import skin_from_tables
 from sim.robots import load_robot
 
 

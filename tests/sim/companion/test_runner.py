@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from plantar.errors import InputError, SceneError
+from sim.body_skin.surface import OBSTACLE_GROUP
 from sim.companion import experiment as experiments
 from sim.companion.experiment import Experiment, Verdict, failed
 from sim.companion.runner import Companion, run_companion, run_companion_to_files
 from sim.companion.scene import companion_scene, companion_setting_name
-from sim.companion.skin_surface import OBSTACLE_GROUP
 from wholebody.stack import TaskStack
 from wholebody.tasks.posture import Posture
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
-from sim.companion.skin_electronics import SkinElectronicsSettings
-from sim.companion.skin_sensing import SkinSensing, SkinSensor
-from sim.companion.skin_surface import skin_from_tables
+from sim.body_skin.electronics import SkinElectronicsSettings
+from sim.body_skin.sensing import SkinSensing, SkinSensor
+from sim.body_skin.surface import skin_from_tables
 
 WORLD = """
 <mujoco>

@@ -8,6 +8,7 @@ links and obstacles MuJoCo's own contacts are off, so that nothing but the skin 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import mujoco
@@ -17,9 +18,9 @@ from numpy.typing import NDArray
 from plantar.errors import RobotError
 from plantar.sensing.link_skin import BodySkin, SkinReading
 from plantar.settings.schema import number, switch
-from sim.companion.obstacle import Obstacle
-from sim.companion.skin_electronics import SkinElectronics, SkinElectronicsSettings
-from sim.companion.skin_surface import OBSTACLE_GROUP
+from sim.body_skin.electronics import SkinElectronics, SkinElectronicsSettings
+from sim.body_skin.obstacle import Obstacle
+from sim.body_skin.surface import OBSTACLE_GROUP
 
 __all__ = ["LIFT", "SkinSensing", "SkinSensor"]
 
@@ -62,13 +63,14 @@ class _Patch(NamedTuple):
 
 
 class SkinSensor:
-    """The skin of a machine in a world with obstacles: all geoms of `OBSTACLE_GROUP`.
+    """The skin of a machine or robot in a world with obstacles.
 
     Args:
         model: The MjModel of the world; contacts between skinned links and obstacles are switched off in it.
         skin: The skin, on links of the model.
         settings: What the skin is made of and how well it measures.
         seed: Of noise, gain errors and dead taxels.
+        obstacles: Ids of the geoms that it feels; None for all of `OBSTACLE_GROUP`.
 
     Attributes:
         skin: The skin.
@@ -85,11 +87,18 @@ class SkinSensor:
         SceneError: If an obstacle is of a kind that cannot be felt.
     """
 
-    def __init__(self, model: Any, skin: BodySkin, settings: SkinSensing, seed: int) -> None:
+    def __init__(
+        self,
+        model: Any,
+        skin: BodySkin,
+        settings: SkinSensing,
+        seed: int,
+        obstacles: Sequence[int] | None = None,
+    ) -> None:
         self.skin, self.settings = skin, settings
         self._bodies = [_body(model, link) for link in skin.links]
         self._patches = [_ready(model, skin, i, self._bodies) for i in range(len(skin.patches))]
-        geoms = np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist()
+        geoms = np.flatnonzero(model.geom_group == OBSTACLE_GROUP).tolist() if obstacles is None else list(obstacles)
         self._obstacles = [Obstacle(model, g) for g in geoms]
         _separate(model, self._bodies, [o.geom for o in self._obstacles])
         self._broad = _BroadPhase(model, self._patches, geoms)
