@@ -16,6 +16,7 @@ from gait.plan.plan_change import MovedStep
 from gait.plan.vrp_plan import LipReference
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
+from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
@@ -34,6 +35,7 @@ class Sensors:
         readings: Latest reading of each sole.
         ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
             empty for a robot that has none.
+        skin: Latest reading of the skin on its upper body (`ControllerSettings.skin`); None for a robot without.
     """
 
     time: float
@@ -42,6 +44,7 @@ class Sensors:
     accelerometer: NDArray[np.float64]
     readings: Mapping[Side, Reading]
     ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    skin: SkinReading | None = None
 
 
 class FootTarget(NamedTuple):

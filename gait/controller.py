@@ -70,6 +70,7 @@ from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequen
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
@@ -120,6 +121,8 @@ class ControllerSettings(Settings):
             of its ankle beyond its torque limit (`gait.contact.ankle_limits`); empty for joints without limits.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
             "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
+        skin: Skin on its upper body, whose readings are `Sensors.skin`: all of it on one link, the base, so that its
+            taxels stand in the base frame; None for a robot without.
     """
 
     com_height: float
@@ -149,6 +152,7 @@ class ControllerSettings(Settings):
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
     ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
     footholds: str = choice("off", "force", "skin")
+    skin: BodySkin | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
