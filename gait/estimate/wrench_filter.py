@@ -1,0 +1,125 @@
+"""The push that is expected to last: a low pass of the VRP offset, and what it comes to until a step ends (K 18-19).
+
+A force that has lasted counts for the future, one of an instant does not: the offset u_w of
+`plantar.mechanics.external_wrench` runs through a first-order low pass (K 19), and is expected to stay (K 18). Pushes
+end, though; with `lasts` the expected offset decays, u_w(s) = u_w e^(-s / lasts), and what enters the closed forms of a
+constant offset over a horizon T is the constant that moves the DCM as far in that time,
+
+    mean(T) = u_w a (1 - e^(-a' T)) / (1 - e^(-w T)),    a' = w + 1 / lasts,  a = w / a'.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.settings.schema import Settings, share
+
+__all__ = ["WrenchFilter", "WrenchFilterRules"]
+
+MOST_OFFSET = 10.0
+"""Largest expected offset in m that is handed on: far beyond what any step makes up for, and small enough that no
+product of it with what a pendulum grows by overflows."""
+
+
+class WrenchFilterRules(Settings):
+    """How a push is expected to go on.
+
+    Attributes:
+        time_constant: Time constant in s of the low pass (K 19). The paper's alpha = dt is one of 1 s, with which a
+            push of 0.1 s counts for a tenth.
+        lasts: Time constant in s with which the expected push decays; 1e6 for one that stays (K 18).
+    """
+
+    time_constant: float = share(4.04, "beat", 0, 10)
+    lasts: float = share(2.02, "beat", 0.001, 1e6)
+
+
+class WrenchFilter:
+    """Follows the VRP offset by a wrench on the body and expects it to go on.
+
+    Args:
+        rules: How.
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+
+    Example:
+        >>> push = WrenchFilter(WrenchFilterRules(time_constant=0.1, lasts=1e6), 3.5, 0.005)
+        >>> for _ in range(100):
+        ...     _ = push.update([0.02, -0.01])
+        >>> push.expected.round(4).tolist(), push.mean(0.4).round(4).tolist()
+        ([0.0199, -0.0099], [0.0199, -0.0099])
+    """
+
+    def __init__(self, rules: WrenchFilterRules, omega: float, period: float) -> None:
+        rate = number(omega, "pendulum frequency", finite=True)
+        tick = number(period, "control period", finite=True)
+        if rate <= 0.0 or tick <= 0.0:
+            raise InputError(f"pendulum frequency is {omega} rad/s, control period {period} s; allowed: above 0")
+        self._omega = rate
+        # Exact for an offset that is constant over a tick; K 19's alpha is its first order.
+        self._share = 1.0 if rules.time_constant == 0.0 else -math.expm1(-tick / rules.time_constant)
+        self._decay = 1.0 / rules.lasts
+        self._x = self._y = 0.0
+
+    @property
+    def expected(self) -> NDArray[np.float64]:
+        """The offset (2,) in m that is expected now."""
+        return np.array((self._x, self._y))
+
+    @property
+    def acts(self) -> bool:
+        """Whether any push is expected; what follows from one may be left out where none is."""
+        return self._x != 0.0 or self._y != 0.0
+
+    def update(self, offset: ArrayLike) -> NDArray[np.float64]:
+        """One control tick (K 19).
+
+        Args:
+            offset: Offset u_w (2,) of the VRP by what is felt now in m; cut to `MOST_OFFSET`. One that is not finite
+                counts as none.
+
+        Returns:
+            The expected offset (2,) in m.
+
+        Raises:
+            InputError: If these are not two numbers.
+        """
+        x, y = array(offset, "VRP offset", (2,)).tolist()
+        size = math.hypot(x, y)
+        if not math.isfinite(size):
+            x = y = 0.0
+        elif size > MOST_OFFSET:
+            x, y = x * (MOST_OFFSET / size), y * (MOST_OFFSET / size)
+        self._x += self._share * (x - self._x)
+        self._y += self._share * (y - self._y)
+        # A low pass never ends by itself. Below a nanometre nothing follows from it any more.
+        if x == 0.0 and y == 0.0 and math.hypot(self._x, self._y) < 1e-9:
+            self._x = self._y = 0.0
+        return self.expected
+
+    def mean(self, horizon: float) -> NDArray[np.float64]:
+        """The constant offset that moves the DCM over some time as far as the expected one (K 18 where it stays).
+
+        Args:
+            horizon: Time in s, 0 or more.
+
+        Returns:
+            Offset (2,) in m.
+
+        Raises:
+            InputError: If the time is not a finite number, 0 or more.
+        """
+        time = number(horizon, "horizon", finite=True)
+        if time < 0.0:
+            raise InputError(f"horizon is {horizon} s; allowed: 0 or more")
+        w, faster = self._omega, self._omega + self._decay
+        if time == 0.0:
+            return self.expected
+        kept = (w / faster) * math.expm1(-faster * time) / math.expm1(-w * time)
+        return np.array((kept * self._x, kept * self._y))
