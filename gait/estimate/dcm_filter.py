@@ -1,0 +1,171 @@
+"""CoM and DCM of a pendulum that is pushed: a Kalman filter that knows the force (after K 7-12).
+
+An observer that takes every acceleration that the ZMP does not explain for an error of its measurement follows a push
+late. Here the felt push is an input as the ZMP is, and what neither explains may be a state of its own, the unfelt
+offset d: a push on a part of the body that has no skin. On each axis
+
+    x' = w (xi - x),    xi' = w (xi - p + u_w + d),    d' = 0 + noise,
+
+sampled exactly at the control period. All noises are constant, so the gain is the stationary one, found once from the
+discrete Riccati equation by doubling; an update is a few products.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.settings.schema import Settings, share
+
+__all__ = ["DcmFilter", "DcmFilterRules", "PushedPendulum"]
+
+
+class DcmFilterRules(Settings):
+    """How far each source is trusted: standard deviations at one tick.
+
+    Attributes:
+        com_noise: Of the kinematic CoM in m.
+        velocity_noise: Of the velocity of the CoM in m/s, where one is measured.
+        zmp_noise: Of the ZMP less the felt offset in m: taxels, skin, and what no pendulum is.
+        unfelt_rate: By how much in m/s the offset of a push that no skin feels changes; 0 trusts the skin alone, and
+            what it does not feel counts as noise of the ZMP.
+    """
+
+    com_noise: float = share(0.00333, "leg", 1e-6, 0.1)
+    velocity_noise: float = share(0.0206, "leg/beat", 1e-6, 10)
+    zmp_noise: float = share(0.0433, "sole", 1e-6, 0.5)
+    unfelt_rate: float = share(0.536, "sole/beat", 0, 100)
+
+
+class PushedPendulum(NamedTuple):
+    """What a `DcmFilter` says.
+
+    Attributes:
+        com: CoM (2,) in m.
+        dcm: DCM (2,) in m.
+        unfelt: Offset (2,) of the VRP in m by a push that no skin feels.
+    """
+
+    com: NDArray[np.float64]
+    dcm: NDArray[np.float64]
+    unfelt: NDArray[np.float64]
+
+
+class DcmFilter:
+    """Estimates CoM and DCM from the kinematic CoM, the ZMP and the felt push.
+
+    Args:
+        rules: How far each source is trusted.
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+
+    Raises:
+        InputError: If frequency or period is not a finite number above 0.
+
+    Example:
+        >>> known = DcmFilter(DcmFilterRules(), 3.5, 0.005)
+        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.0, 0.0])
+        >>> state = known.update([0.0, 0.0], None, [0.0, 0.0], [0.1, 0.0])  # a push that is felt moves it at once
+        >>> round(float(state.dcm[0]), 4)
+        0.0018
+    """
+
+    def __init__(self, rules: DcmFilterRules, omega: float, period: float) -> None:
+        w = number(omega, "pendulum frequency", finite=True)
+        tick = number(period, "control period", finite=True)
+        if w <= 0.0 or tick <= 0.0:
+            raise InputError(f"pendulum frequency is {omega} rad/s, control period {period} s; allowed: above 0")
+        c, s = math.cosh(w * tick), math.sinh(w * tick)
+        self._input = np.array([1.0 - c, 1.0 - c - s])  # of the VRP, on x and xi
+        own = np.array([[c - s, s], [0.0, c + s]])
+        count = 3 if rules.unfelt_rate > 0.0 else 2
+        self._step = np.eye(count)
+        self._step[:2, :2] = own
+        noise = np.zeros((count, count))
+        noise[:2, :2] = rules.zmp_noise**2 * np.outer(self._input, self._input)
+        noise += 1e-18 * np.eye(count)  # m^2: keeps the covariance regular
+        if count == 3:
+            self._step[:2, 2] = -self._input
+            noise[2, 2] = (rules.unfelt_rate * tick) ** 2
+        place = np.eye(1, count)
+        speed = np.array([[-w, w, 0.0][:count]])
+        self._by_place = _stationary_gain(self._step, noise, place, np.array([[rules.com_noise**2]]))
+        both = np.diag([rules.com_noise**2, rules.velocity_noise**2])
+        self._measured = np.vstack([place, speed])
+        self._by_both = _stationary_gain(self._step, noise, self._measured, both)
+        self._omega = w
+        self._state: NDArray[np.float64] | None = None
+
+    def reset(self) -> None:
+        """Forget everything; the next update begins anew."""
+        self._state = None
+
+    def update(
+        self, com: ArrayLike, com_velocity: ArrayLike | None, zmp: ArrayLike | None, offset: ArrayLike
+    ) -> PushedPendulum:
+        """One control tick.
+
+        Args:
+            com: CoM (2,) by kinematics in m.
+            com_velocity: Velocity (2,) of the CoM in m/s where it is measured; else None.
+            zmp: ZMP (2,) since the tick before in m; None where no foot carries, and no ground pushes.
+            offset: Offset u_w (2,) of the VRP by the felt push in m (`plantar.mechanics.external_wrench.vrp_offset`).
+
+        Returns:
+            The state now; at the first update it is what is measured.
+
+        Raises:
+            InputError: If one of these is not two finite numbers.
+        """
+        place = array(com, "CoM", (2,), finite=True)
+        felt = array(offset, "VRP offset", (2,), finite=True)
+        speed = None if com_velocity is None else array(com_velocity, "velocity of the CoM", (2,), finite=True)
+        if self._state is None:
+            self._state = np.zeros((len(self._step), 2))
+            self._state[:2] = place
+            if speed is not None:
+                self._state[1] += speed / self._omega
+            return self._told()
+        # Without ground the only acceleration is that of the push: as with the ZMP under the CoM.
+        ground = self._state[0] if zmp is None else array(zmp, "ZMP", (2,), finite=True)
+        state = self._step @ self._state
+        state[:2] += np.outer(self._input, ground - felt)
+        if speed is None:
+            state += self._by_place * (place - state[0])
+        else:
+            state += self._by_both @ (np.stack([place, speed]) - self._measured @ state)
+        self._state = state
+        return self._told()
+
+    def _told(self) -> PushedPendulum:
+        state = self._state
+        assert state is not None
+        return PushedPendulum(state[0].copy(), state[1].copy(), state[2].copy() if len(state) == 3 else np.zeros(2))
+
+
+def _stationary_gain(
+    step: NDArray[np.float64], noise: NDArray[np.float64], measured: NDArray[np.float64], error: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Kalman gain (n, m) that the filter settles at: P of the discrete Riccati equation by doubling.
+
+    Each pass doubles the number of ticks that P accounts for (E. Chu, H. Fan, W. Lin, C. Wang, "Structure-preserving
+    algorithms for periodic discrete-time algebraic Riccati equations", Int. J. Control 77, 2004), so 60 of them are far
+    more than any filter needs to settle.
+    """
+    one = np.eye(len(step))
+    a, g, p = step.T, measured.T @ np.linalg.solve(error, measured), noise
+    for _ in range(60):
+        w = np.linalg.solve(one + g @ p, np.hstack([a, g]))
+        wa, wg = w[:, : len(one)], w[:, len(one) :]
+        more = a.T @ p @ wa
+        a, g, p = a @ wa, g + a @ wg @ a.T, p + more
+        if np.abs(more).max() <= 1e-15 * np.abs(p).max():
+            break
+    p = 0.5 * (p + p.T)
+    return np.asarray(np.linalg.solve(measured @ p @ measured.T + error, measured @ p).T)
