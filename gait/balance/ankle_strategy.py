@@ -1,0 +1,468 @@
+"""The ankle strategy in closed form: which VRP brings the DCM to where the next phase begins (K 17-27).
+
+Under a push that is expected to stay, with offset u_w of the VRP, the DCM obeys xi' = w (xi - u_ref + u_w). The
+reference VRP stays at u_i in single support and moves from u_i to u_e in double support, as 1 - sin does over a quarter
+of its period (K 17), so both phases have a solution by which the VRP that reaches a target is found at once. Everything
+is written with e^(-w t), which is bounded; what does grow is cut, by name:
+
+- `SHORTEST_TIME`: a target is approached for that long at least, as no VRP reaches another place at once.
+- `MOST_GROWTH`: a DCM that runs away is told up to e^`MOST_GROWTH` times its distance.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.geometry.polygon import closest_point
+from plantar.settings.schema import Settings
+from plantar.settings.schema import number as number_setting
+
+__all__ = [
+    "MOST_GROWTH",
+    "SHORTEST_TIME",
+    "AnkleRules",
+    "AnkleVrp",
+    "Saturation",
+    "TargetDcms",
+    "dcm_after_double_support",
+    "dcm_after_single_support",
+    "double_support_pull",
+    "double_support_reference",
+    "double_support_vrp",
+    "growth",
+    "shrunk_support",
+    "single_support_vrp",
+    "target_dcms",
+    "within_support",
+]
+
+SHORTEST_TIME = 1e-6
+"""Time in s in which the DCM shall reach its target at least."""
+
+MOST_GROWTH = 100.0
+"""Largest exponent w t: a nanometre that has grown by e^100 is 1e34 m, so nothing is told apart beyond it, and no
+product of a few such numbers overflows."""
+
+_NODES, _WEIGHTS = (x.tolist() for x in np.polynomial.legendre.leggauss(10))
+
+
+class AnkleRules(Settings):
+    """How much of the support polygon the ankle strategy uses before a step is changed (K 27).
+
+    Attributes:
+        forward: Share beta_x of the polygon along the sole (K Table 1).
+        sideways: Share beta_y of it across the sole.
+    """
+
+    forward: float = number_setting(0.5, "1", 0, 1)
+    sideways: float = number_setting(0.8, "1", 0, 1)
+
+
+class Saturation(StrEnum):
+    """What a VRP was cut by."""
+
+    NONE = "none"
+    TIME = "shortest time"
+    SUPPORT = "support polygon"
+
+
+class AnkleVrp(NamedTuple):
+    """A VRP of the ankle strategy.
+
+    Attributes:
+        vrp: u_ref (2,) in m that is wanted now.
+        gain: Its derivative by the DCM, the same on both axes; above 1.
+        saturated: What it was cut by.
+    """
+
+    vrp: NDArray[np.float64]
+    gain: float
+    saturated: Saturation = Saturation.NONE
+
+
+class TargetDcms(NamedTuple):
+    """Where the DCM shall be at the ends of the phases (K 21-24).
+
+    Attributes:
+        double_end: xi_d (2,) at the end of the double support in m.
+        single_end: xi_s (2,) at the end of the single support in m.
+        slope: d xi_s / d u_e, the same on both axes.
+    """
+
+    double_end: NDArray[np.float64]
+    single_end: NDArray[np.float64]
+    slope: float
+
+
+def growth(omega: float, time: float) -> float:
+    """Factor e^(w t) by which a DCM runs away, up to e^`MOST_GROWTH`.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        time: Time in s.
+
+    Returns:
+        The factor.
+
+    Example:
+        >>> round(growth(3.5, 0.4), 4), growth(3.5, 100.0) == math.exp(MOST_GROWTH)
+        (4.0552, True)
+    """
+    return math.exp(min(omega * time, MOST_GROWTH))
+
+
+def double_support_reference(time: float, duration: float, start: ArrayLike, end: ArrayLike) -> NDArray[np.float64]:
+    """Reference VRP in double support, u = (u_e - u_i) (sin(w_d t) - 1) + u_e (K 17).
+
+    Args:
+        time: Time since it began in s; cut to the duration.
+        duration: T_d in s, above 0.
+        start: u_i (2,) in m.
+        end: u_e (2,) in m.
+
+    Returns:
+        VRP (2,) in m.
+
+    Raises:
+        InputError: If a place is not two finite numbers, or the duration not above 0.
+
+    Example:
+        >>> double_support_reference(0.05, 0.2, [0, 0], [0.2, 0.1]).round(4).tolist()
+        [0.0765, 0.0383]
+        >>> double_support_reference(0.2, 0.2, [0, 0], [0.2, 0.1]).tolist()
+        [0.2, 0.1]
+    """
+    ux, uy = _pair(start, "start of the VRP")
+    ex, ey = _pair(end, "end of the VRP")
+    left = 1.0 - min(max(time / _above_zero(duration, "duration of double support"), 0.0), 1.0)
+    back = 2.0 * math.sin(0.25 * math.pi * left) ** 2  # 1 - sin(w_d t), exact at the end
+    return np.array((ex - (ex - ux) * back, ey - (ey - uy) * back))
+
+
+def dcm_after_single_support(
+    dcm: ArrayLike, vrp: ArrayLike, offset: ArrayLike, omega: float, time: float
+) -> NDArray[np.float64]:
+    """DCM after some time at one VRP (K 20, single support; K 28).
+
+    Args:
+        dcm: DCM (2,) now in m.
+        vrp: u_ref (2,) in m.
+        offset: u_w (2,) of the push in m.
+        omega: Pendulum frequency in rad/s.
+        time: Time in s; what it grows by is cut at `MOST_GROWTH`.
+
+    Returns:
+        DCM (2,) in m.
+
+    Raises:
+        InputError: If a place is not two finite numbers.
+
+    Example:
+        >>> dcm_after_single_support([0.01, 0.0], [0.0, 0.0], [0.0, 0.0], 3.5, 0.4).round(4).tolist()
+        [0.0406, 0.0]
+    """
+    x, y = _pair(dcm, "DCM")
+    px, py = _pair(vrp, "VRP")
+    wx, wy = _pair(offset, "VRP offset")
+    factor = growth(omega, time)
+    return np.array((px - wx + factor * (x - px + wx), py - wy + factor * (y - py + wy)))
+
+
+def dcm_after_double_support(
+    dcm: ArrayLike,
+    start: ArrayLike,
+    end: ArrayLike,
+    offset: ArrayLike,
+    omega: float,
+    duration: float,
+    begun: float,
+    until: float,
+) -> NDArray[np.float64]:
+    """DCM at another time of a double support (K 20, double support).
+
+    Args:
+        dcm: DCM (2,) at the time `begun` in m.
+        start: u_i (2,) in m.
+        end: u_e (2,) in m.
+        offset: u_w (2,) of the push in m.
+        omega: Pendulum frequency in rad/s.
+        duration: T_d in s, above 0.
+        begun: Time since the double support began in s at which the DCM is known.
+        until: The other time in s.
+
+    Returns:
+        DCM (2,) in m; what it grows by is cut at `MOST_GROWTH`.
+
+    Raises:
+        InputError: If a place is not two finite numbers, or the duration not above 0.
+
+    Example:
+        >>> dcm_after_double_support([0.05, 0.0], [0, 0], [0.2, 0.0], [0, 0], 3.5, 0.2, 0.0, 0.2).round(4).tolist()
+        [-0.0159, 0.0]
+    """
+    place, first, last, push = (
+        _pair(v, n)
+        for v, n in ((dcm, "DCM"), (start, "start of the VRP"), (end, "end of the VRP"), (offset, "VRP offset"))
+    )
+    now, then = (_sway(omega, _above_zero(duration, "duration of double support"), t) for t in (begun, until))
+    factor = growth(omega, until - begun)
+    found = []
+    for x, ui, ue, uw in zip(place, first, last, push, strict=True):
+        whole = ue - uw
+        found.append(whole - (ue - ui) * then + factor * (x - whole + (ue - ui) * now))
+    return np.array(found)
+
+
+def target_dcms(
+    place: ArrayLike,
+    stance: ArrayLike,
+    next_stride: ArrayLike,
+    next_duration: float,
+    double_support: float,
+    offset: ArrayLike,
+    omega: float,
+) -> TargetDcms:
+    """Where the DCM has to be when a step ends, for the step after it to come to rest over its foot (K 21-24).
+
+    K 22 ends the second step at the DCM u_n - u_w: over the foot as the push has it, not at u_n as the text says;
+    substituted in K 20 only that gives b_e (corrected).
+
+    Args:
+        place: u_e (2,), where the swing foot lands, in m.
+        stance: u_i (2,), where the other one stands, in m.
+        next_stride: s_n (2,) from `place` to the footstep after it in m.
+        next_duration: T_n of that step's single support in s, 0 or more.
+        double_support: T_d in s, 0 or more; with 0 the weight goes over at once.
+        offset: u_w (2,) of the push in m.
+        omega: Pendulum frequency in rad/s.
+
+    Returns:
+        The targets.
+
+    Raises:
+        InputError: If a place is not two finite numbers.
+
+    Example:
+        >>> targets = target_dcms([0.2, -0.1], [0, 0.1], [0.2, 0.2], 0.5, 0.1, [0, 0], 3.5)
+        >>> targets.double_end.round(4).tolist(), targets.single_end.round(4).tolist()
+        ([0.2348, -0.0652], [0.2012, -0.0522])
+    """
+    ex, ey = _pair(place, "footstep")
+    ix, iy = _pair(stance, "place of the stance foot")
+    nx, ny = _pair(next_stride, "stride of the next step")
+    wx, wy = _pair(offset, "VRP offset")
+    last = math.exp(-omega * max(next_duration, 0.0))
+    bx, by = nx * last - wx, ny * last - wy  # b_e
+    if double_support <= 0.0:
+        end = np.array((ex + bx, ey + by))
+        return TargetDcms(end, end.copy(), 1.0)
+    kept = math.exp(-omega * double_support)
+    # K 24 with e^(-w T_d) (1 - C_d w) - (1 - C_d w_d) in front of u_e - u_i.
+    swayed = kept * _sway(omega, double_support, double_support) - _sway(omega, double_support, 0.0)
+    gone = 1.0 - kept
+    single = np.array(
+        (ex + bx * kept - wx * gone + (ex - ix) * swayed, ey + by * kept - wy * gone + (ey - iy) * swayed)
+    )
+    return TargetDcms(np.array((ex + bx, ey + by)), single, 1.0 + swayed)
+
+
+def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
+    """VRP that brings the DCM to a target at the end of a single support (K 25).
+
+    Args:
+        dcm: DCM (2,) now in m.
+        target: xi_s (2,) in m.
+        left: Time left in s, `SHORTEST_TIME` at least.
+        offset: u_w (2,) of the push in m.
+        omega: Pendulum frequency in rad/s.
+
+    Returns:
+        The VRP, wherever it lies; see `within_support`.
+
+    Raises:
+        InputError: If a place is not two finite numbers.
+
+    Example:
+        >>> found = single_support_vrp([0.01, 0.0], [0.04, 0.0], 0.4, [0.0, 0.0], 3.5)
+        >>> found.vrp.round(4).tolist(), found.saturated.value
+        ([0.0002, 0.0], 'none')
+    """
+    x, y = _pair(dcm, "DCM")
+    tx, ty = _pair(target, "target of the DCM")
+    wx, wy = _pair(offset, "VRP offset")
+    cut = left < SHORTEST_TIME
+    exponent = -omega * max(left, SHORTEST_TIME)
+    kept, gain = math.exp(exponent), -1.0 / math.expm1(exponent)
+    # xi_c + u_w + (xi_c - xi_s) e^(-w T) / (1 - e^(-w T)): K 25 less what cancels.
+    vrp = np.array((x + wx + (x - tx) * kept * gain, y + wy + (y - ty) * kept * gain))
+    return AnkleVrp(vrp, gain, Saturation.TIME if cut else Saturation.NONE)
+
+
+def double_support_vrp(
+    dcm: ArrayLike,
+    target: ArrayLike,
+    end: ArrayLike,
+    duration: float,
+    begun: float,
+    offset: ArrayLike,
+    omega: float,
+) -> AnkleVrp:
+    """VRP now that brings the DCM to a target at the end of a double support (K 25-26).
+
+    From now on the VRP goes to u_e on the way of K 17, begun at the u_i that reaches the target.
+
+    Args:
+        dcm: DCM (2,) now in m.
+        target: xi_d (2,) in m.
+        end: u_e (2,), the middle of the foot that comes to carry, in m.
+        duration: T_d in s.
+        begun: Time T_c since the double support began in s; the end is `SHORTEST_TIME` away at least.
+        offset: u_w (2,) of the push in m.
+        omega: Pendulum frequency in rad/s.
+
+    Returns:
+        The VRP, wherever it lies; see `within_support`.
+
+    Raises:
+        InputError: If a place is not two finite numbers.
+
+    Example:
+        >>> start = [0.05, 0.0]
+        >>> target = dcm_after_double_support(start, [0, 0], [0.2, 0], [0, 0], 3.5, 0.2, 0.0, 0.2)
+        >>> double_support_vrp(start, target, [0.2, 0], 0.2, 0.0, [0, 0], 3.5).vrp.round(9).tolist()
+        [-0.0, 0.0]
+    """
+    x, y = _pair(dcm, "DCM")
+    tx, ty = _pair(target, "target of the DCM")
+    ex, ey = _pair(end, "end of the VRP")
+    wx, wy = _pair(offset, "VRP offset")
+    left = max(duration - begun, SHORTEST_TIME)
+    kept, gain = math.exp(-omega * left), 1.0 / double_support_pull(omega, max(duration, left), left)
+    ex0, ey0 = ex - wx, ey - wy
+    vrp = np.array((ex - (kept * (tx - ex0) - (x - ex0)) * gain, ey - (kept * (ty - ey0) - (y - ey0)) * gain))
+    return AnkleVrp(vrp, gain, Saturation.TIME if duration - begun < SHORTEST_TIME else Saturation.NONE)
+
+
+def double_support_pull(omega: float, duration: float, left: float) -> float:
+    """How far a VRP that is a metre before u_e now, and goes there as in K 17, moves the DCM: integral w e^(-w s) q(s).
+
+    q falls from 1 now to 0 at the end, as 1 - sin(w_d t) does; it is e^(-w T) times the denominator of K 25 over
+    1 - sin(w_d T_c), which is 0 / 0 at the end.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        duration: T_d in s.
+        left: Time until its end in s, above 0.
+
+    Returns:
+        The displacement at the end in metres, brought back by e^(-w left).
+
+    Example:
+        >>> round(double_support_pull(3.5, 0.2, 0.2), 4)
+        0.2139
+    """
+    rate = 0.5 * math.pi / duration
+    half = math.sin(0.5 * rate * left) ** 2
+    if omega * left < 3.0:
+        # The closed form below cancels its digits here, and ten nodes integrate the smooth integrand to the last.
+        total = 0.0
+        for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+            rest = 0.5 * left * (1.0 - node)
+            total += weight * math.exp(-omega * (left - rest)) * math.sin(0.5 * rate * rest) ** 2
+        return 0.5 * left * omega * total / half
+    c = omega / (omega * omega + rate * rate)
+    turned = c * (omega * math.cos(rate * left) + rate * math.sin(rate * left))
+    return (1.0 - turned - math.exp(-omega * left) * (1.0 - c * omega)) / (2.0 * half)
+
+
+def shrunk_support(
+    polygon: NDArray[np.float64], rules: AnkleRules, middle: ArrayLike, yaw: float = 0.0
+) -> NDArray[np.float64]:
+    """The part of a support polygon that the ankle strategy uses, f(c) S with f(c) = (beta_x, beta_y) (K 27).
+
+    Args:
+        polygon: Support polygon S (k, 2) in the world in m.
+        rules: Shares along and across the sole.
+        middle: Point (2,) that it shrinks about in m: the middle of the stance foot.
+        yaw: Heading of the sole in rad.
+
+    Returns:
+        Smaller polygon (k, 2) in m.
+
+    Raises:
+        InputError: If the middle is not two finite numbers.
+
+    Example:
+        >>> square = np.array([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]])
+        >>> shrunk_support(square, AnkleRules(), [0.0, 0.0]).tolist()[2]
+        [0.05, 0.08000000000000002]
+    """
+    about = np.array(_pair(middle, "middle"))
+    c, s = math.cos(yaw), math.sin(yaw)
+    f, across = rules.forward, rules.sideways
+    turn = (f - across) * c * s
+    scale = np.array([[f * c * c + across * s * s, turn], [turn, f * s * s + across * c * c]])
+    return np.asarray(about + (polygon - about) @ scale)
+
+
+def within_support(wanted: AnkleVrp, support: ArrayLike) -> AnkleVrp:
+    """A VRP cut to where the feet can press: the closest point of the polygon (K 27).
+
+    Args:
+        wanted: What the ankle strategy wants.
+        support: Convex polygon (k, 2) in m, already shrunk; an empty one leaves it free.
+
+    Returns:
+        The same, or the closest one in the polygon, with `Saturation.SUPPORT`: then the DCM misses its target, and it
+        is up to a step.
+
+    Raises:
+        InputError: If the polygon is not (k, 2) finite numbers.
+
+    Example:
+        >>> square = [[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]]
+        >>> cut = within_support(single_support_vrp([0.2, 0.05], [0.1, 0.05], 0.4, [0, 0], 3.5), square)
+        >>> cut.vrp.tolist(), cut.saturated.value
+        ([0.1, 0.05], 'support polygon')
+    """
+    nearest = closest_point(support, wanted.vrp)
+    if nearest is None or (nearest[0] == wanted.vrp[0] and nearest[1] == wanted.vrp[1]):
+        return wanted
+    return AnkleVrp(nearest, wanted.gain, Saturation.SUPPORT)
+
+
+def _sway(omega: float, duration: float, time: float) -> float:
+    """1 - C_d SC(t) of K 20."""
+    rate = 0.5 * math.pi / duration
+    c = omega / (omega * omega + rate * rate)
+    return 1.0 - c * (omega * math.sin(rate * time) + rate * math.cos(rate * time))
+
+
+def _pair(value: ArrayLike, name: str) -> list[float]:
+    """Two finite numbers.
+
+    Raises:
+        InputError: If they are not.
+    """
+    found: list[float] = array(value, name, (2,), finite=True).tolist()
+    return found
+
+
+def _above_zero(value: float, name: str) -> float:
+    """A finite number above 0.
+
+    Raises:
+        InputError: If it is not.
+    """
+    given = number(value, name, finite=True)
+    if given <= 0.0:
+        raise InputError(f"{name} is {value} s; allowed: above 0")
+    return given
