@@ -17,8 +17,9 @@ from shoes.fit.taxels import TaxelFit, fit_taxels
 from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step
+from shoes.plan.load_share import LoadShare, check_load_share, relieved
 from shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
-from shoes.plan.strength import strengthened
+from shoes.plan.strength import load_case, strengthened
 from shoes.solid.body import mark_outline, mirrored_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
@@ -66,6 +67,7 @@ class ShoeBuild:
         fit: The cells of the left sole.
         parameters: Dimensions as used: floor and wall may be raised by the load case.
         shoes: The shoes asked for, left first.
+        load_share: Share of the load that the taxels carry.
         retention: What holds them; None where only the layout was asked for.
         notes: What was detected, assumed and decided.
     """
@@ -74,6 +76,7 @@ class ShoeBuild:
     fit: TaxelFit
     parameters: ShoeParameters
     shoes: tuple[Shoe, ...]
+    load_share: LoadShare
     retention: Retention | None = None
     notes: tuple[str, ...] = ()
 
@@ -142,11 +145,13 @@ def build_shoe(
     p, raised = strengthened(foot, left.contact, p)
     if raised:
         left = plan_shoe(foot, fit, p, name=name)
-    notes = foot.notes + fit.notes + raised + left.notes
+    p, lowered = relieved(left, load_case(foot, p), p)
+    notes = foot.notes + fit.notes + raised + lowered + left.notes
+    share = check_load_share(left, load_case(foot, p), p)
     if layout_only:
         plans = [left if which == "left" else mirrored_plan(left) for which in sides]
         tell(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, tuple(Shoe(plan) for plan in plans), notes=notes)
+        return ShoeBuild(foot, fit, p, tuple(Shoe(plan) for plan in plans), share, notes=notes)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
     tell(0.1, "loading the CAD kernel")
@@ -162,4 +167,4 @@ def build_shoe(
         solid = build_solid((*own, Step("cut", "mark", mark)))
         shoes.append(Shoe(plan, solid, surface_of(solid)))
     tell(1.0, "shoes built")
-    return ShoeBuild(foot, fit, p, tuple(shoes), retention, (*notes, retention.note))
+    return ShoeBuild(foot, fit, p, tuple(shoes), share, retention, (*notes, retention.note))

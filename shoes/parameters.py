@@ -45,6 +45,7 @@ class ShoeParameters:
 
     pad_thickness: float = _length(2.0, 0.0, 10.0, "replaceable silicone pad under the taxels, its lower face the sole")
     taxel_protrusion: float = _length(2.5, 0.0, 15.0, "how far the taxels stand out below the printed part")
+    pad_relief: float = _length(0.4, 0.0, 15.0, "gap between the pad's rim and the print; strengthen may raise it")
     pocket_depth: float = _length(2.5, 0.4, 20.0, "pocket for the base of a taxel, from the printed lower face")
     floor: float = _length(5.0, 1.0, 30.0, "plate between the pockets and the foot; strengthen may raise it")
     rib: float = _length(2.4, 0.8, 8.0, "wall between two pockets, centred on the border of the cells")
@@ -86,10 +87,12 @@ class ShoeParameters:
     density: float = _number(0.0, 0.0, 10.0, "g/cm3", "of the printed material; 0 takes the material's")
     pad_density: float = _number(1.15, 0.1, 5.0, "g/cm3", "of the pad's silicone")
     skin_density: float = _number(1.2, 0.1, 5.0, "g/cm3", "of the taxels, mean of board and silicone")
+    pad_hardness: float = _number(40.0, 10.0, 90.0, "Shore A", "of the pad")
+    taxel_hardness: float = _number(30.0, 10.0, 90.0, "Shore A", "of the taxels' rubber")
     flow: float = _number(8.0, 0.5, 100.0, "mm3/s", "material the printer lays down, for the estimate of time")
     material: str = _choice("PA12", tuple(MATERIALS), "printed material")
     retention: str = _choice("auto", RETENTIONS, "how the shoe is held on the foot")
-    strengthen: str = _choice("yes", ("yes", "no"), "raise floor and wall to what the load case needs")
+    strengthen: str = _choice("yes", ("yes", "no"), "raise floor, wall and pad relief to what the load case needs")
 
     def __post_init__(self) -> None:
         for f in fields(self):
@@ -130,6 +133,11 @@ class ShoeParameters:
     def bottom(self) -> float:
         """Height of the printed part's lower face above the sole frame in mm."""
         return self.pad_thickness + self.taxel_protrusion
+
+    @property
+    def pad_rim_height(self) -> float:
+        """How far the pad's rim rises above its sheet in mm; 0 where the relief leaves none."""
+        return max(0.0, self.taxel_protrusion - self.pad_relief)
 
     @property
     def ceiling(self) -> float:

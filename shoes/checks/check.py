@@ -18,6 +18,7 @@ from shoes.checks.printability import Printing, choose_direction, print_hours
 from shoes.geometry.outline import ring
 from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
+from shoes.plan.load_share import LoadShare
 from shoes.plan.shoe_plan import ShoePlan
 from shoes.plan.strength import LoadCase, Member, check_strength
 from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
@@ -26,6 +27,7 @@ from shoes.units import to_mm
 __all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
+_FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
 
 Array = NDArray[np.float64]
 
@@ -64,6 +66,7 @@ class ShoeCheck:
         mounting: The gaps between foot and shoe.
         load: The load case.
         members: Stresses under it.
+        load_share: Share of the load that the taxels carry.
         checks: The single checks.
     """
 
@@ -79,6 +82,7 @@ class ShoeCheck:
     mounting: Mounting
     load: LoadCase
     members: tuple[Member, ...]
+    load_share: LoadShare
     checks: tuple[Check, ...]
 
     @property
@@ -112,12 +116,14 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     printing = choose_direction(surface, p)
     mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p)
     load, members = check_strength(build.foot, build.shoes[0].plan.contact if shoe.side == "left" else _left(shoe), p)
+    share = build.load_share
     reach = _reach(shoe.plan, surface)
     checks = (
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
         *_mounting_checks(mounting, reach, shoe.plan.overhang, build),
+        *_share_checks(share),
         *_strength_checks(load, members, build, len(shoe.layout)),
         *_printing_checks(printing[0], shoe.plan, p),
     )
@@ -135,6 +141,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         mounting=mounting,
         load=load,
         members=members,
+        load_share=share,
         checks=checks,
     )
 
@@ -188,6 +195,14 @@ def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuil
     yield Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), allowed)
     allowed = f"{p.reach_max:g} or less"
     yield Check("reach of lugs, clips and holder, mm", reach <= p.reach_max + 1e-2, round(reach, 2), allowed)
+
+
+def _share_checks(share: LoadShare) -> Iterator[Check]:
+    flat, half = 100.0 * share.flat, 100.0 * share.half
+    least = 100.0 * _FLAT_SHARE
+    yield Check("load that the taxels carry on flat ground, %", flat >= least, round(flat, 1), f"{least:g} or more")
+    least = 100.0 * _HALF_SHARE
+    yield Check("load that the taxels carry on half the sole, %", half >= least, round(half, 1), f"{least:g} or more")
 
 
 def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:

@@ -14,7 +14,7 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from shoes.build import Shoe, ShoeBuild
 from shoes.geometry.outline import ring
 from shoes.geometry.section import section_along
-from shoes.solid.pad import pad_rim
+from shoes.plan.pad_outline import pad_rim
 from shoes.units import to_mm
 
 __all__ = ["draw_shoe"]
@@ -127,7 +127,8 @@ def _section(
         rim = pad_rim(shoe.plan, p).intersection(line)
         for part in () if rim.is_empty else getattr(rim, "geoms", [rim]):
             ends = (part.bounds[across], part.bounds[across + 2])
-            axes.fill_between(ends, p.pad_thickness, p.bottom, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
+            heights = (p.pad_thickness, p.pad_thickness + p.pad_rim_height)
+            axes.fill_between(ends, *heights, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
     foot = shoe.plan.foot.intersection(line).bounds
     top = min(p.rim_top + 14.0, p.thickness + build.foot.height)
     axes.fill_between((foot[across], foot[across + 2]), p.thickness, top, facecolor=COLOURS["truth"], alpha=0.06, lw=0)

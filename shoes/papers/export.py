@@ -120,6 +120,7 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
     extra: dict[str, Any] = {
         "thickness": round(to_m(build.parameters.thickness), 6),
         "overhang": round(to_m(plan.overhang), 6),
+        "rim_stiffness": round(build.load_share.rim_stiffness, 4),
         "foot_outline": to_m(np.array(plan.foot.exterior.coords)[:-1]).round(6).tolist(),
     }
     if weights is not None:

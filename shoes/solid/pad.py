@@ -1,4 +1,4 @@
-"""The replaceable silicone pad: a sheet under the taxels, with a rim around them up to the print. Lengths in mm."""
+"""The replaceable silicone pad: a sheet under the taxels, its rim around them ends below the print. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -10,34 +10,12 @@ from numpy.typing import NDArray
 
 from shoes.geometry.outline import GRID
 from shoes.parameters import ShoeParameters
+from shoes.plan.pad_outline import pad_rim
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["pad_rim", "pad_surface", "volume_of"]
-
-_PLAY = 0.3  # mm between the taxels' heads and the rim
-_LEAST = 2.0  # mm: a narrower rim is left out
+__all__ = ["pad_surface", "volume_of"]
 
 Array = NDArray[np.float64]
-
-
-def pad_rim(plan: ShoePlan, parameters: ShoeParameters) -> Any:
-    """Where the pad reaches up to the printed part: the contact face beside the taxels, where it is wide enough.
-
-    Args:
-        plan: The sole.
-        parameters: Dimensions.
-
-    Returns:
-        A shapely polygon or multipolygon in mm, empty where the taxels reach the edge or do not stand out.
-    """
-    import shapely
-
-    if parameters.taxel_protrusion <= 0.0:
-        return shapely.Polygon()
-    beside = plan.contact.difference(shapely.union_all(plan.cells).buffer(_PLAY, join_style="mitre"))
-    wide = beside.buffer(-0.5 * _LEAST).buffer(0.5 * _LEAST, quad_segs=2).intersection(beside)
-    parts = [p for p in getattr(wide, "geoms", [wide]) if p.geom_type == "Polygon" and p.area > _LEAST**2]
-    return shapely.set_precision(shapely.MultiPolygon(parts), GRID) if parts else shapely.Polygon()
 
 
 def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
@@ -53,7 +31,7 @@ def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
     import shapely
 
     p = parameters
-    rim = pad_rim(plan, p)
+    rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
     lines = shapely.union_all([plan.contact.boundary, rim.boundary], grid_size=GRID)
     faces = [f for f in shapely.polygonize([lines]).geoms if plan.contact.buffer(GRID).covers(f)]
@@ -61,7 +39,7 @@ def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
     parts = []
     for face, raised in zip(faces, high, strict=True):
         flat = _triangles(face)
-        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, p.bottom if raised else p.pad_thickness)]
+        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, full if raised else p.pad_thickness)]
     owners: dict[tuple[tuple[float, float], tuple[float, float]], bool] = {}
     for face, raised in zip(faces, high, strict=True):
         face = shapely.geometry.polygon.orient(face)
@@ -70,8 +48,8 @@ def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
             owners |= dict.fromkeys(pairwise(points), raised)
     for (a, b), raised in owners.items():
         beyond = owners.get((b, a))
-        top = p.bottom if raised else p.pad_thickness
-        low = 0.0 if beyond is None else (p.bottom if beyond else p.pad_thickness)
+        top = full if raised else p.pad_thickness
+        low = 0.0 if beyond is None else (full if beyond else p.pad_thickness)
         if top > low:
             levels = [low, p.pad_thickness, top] if low < p.pad_thickness < top else [low, top]
             for z, up in pairwise(levels):

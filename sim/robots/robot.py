@@ -64,6 +64,8 @@ class Robot:
         foot: Shape of the bare foot, where the file gives it.
         shoe_thickness: Outer contact face below the bare sole in m.
         shoe_mass: Mass of one shoe in kg.
+        rim_stiffness: Stiffness of the shoe beside its taxels over theirs (`sim.sensing.blind_rim`); 0 where its pad is
+            relieved.
         sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
         sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
         effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
@@ -107,6 +109,7 @@ class Robot:
     foot: FootShape | None
     shoe_thickness: float
     shoe_mass: float
+    rim_stiffness: float
     sole_origins: Mapping[Side, NDArray[np.float64]]
     sole_rotations: Mapping[Side, NDArray[np.float64]]
     effort_limits: tuple[float, ...]

@@ -35,7 +35,7 @@ _LARGEST_ANGLE = 360.0  # degrees, of a posture
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "model": ("kind", "file"),
     "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
-    "shoe": ("layout", "origin", "rotation", "origin_right", "rotation_right", "thickness", "mass"),
+    "shoe": ("layout", "origin", "rotation", "origin_right", "rotation_right", "thickness", "mass", "rim_stiffness"),
     "legs": SIDES,
     "torso": ("body", "imu_site"),
     "posture": SIDES,
@@ -206,6 +206,7 @@ class _RobotFile(RobotTables):
             "sole_rotations": {side: place[1] for side, place in places.items()},
             "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
             "shoe_mass": self.number("mass", "shoe", 0.0, 20.0, exported.get("mass")),
+            "rim_stiffness": self.number("rim_stiffness", "shoe", 0.0, 100.0, exported.get("rim_stiffness", 0.0)),
         }
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:
@@ -310,7 +311,8 @@ class _RobotFile(RobotTables):
 
 
 def _exported_shoe(layout: Path) -> dict[str, Any]:
-    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg and thickness in m; a robot's file may say
-    otherwise."""
+    """What `plantar shoe` wrote of a shoe beside its layout: mass in kg, thickness in m and the stiffness of the
+    rim beside its taxels; a robot's file may say otherwise."""
     found = read_json(layout, RobotError, str(layout)).get("shoe", {})
-    return {k: found[k] for k in ("mass", "thickness") if k in found} if isinstance(found, dict) else {}
+    names = ("mass", "thickness", "rim_stiffness")
+    return {k: found[k] for k in names if k in found} if isinstance(found, dict) else {}

@@ -154,7 +154,10 @@ def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
     geoms = [world.model.geom(g).name for g in world.sole_geoms[side]]
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
     layer = sensing.layer + foam if sensing.taxels == "elastic" else None
-    return SoleSkin(world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach, layer=layer)
+    return SoleSkin(
+        world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach, layer=layer,
+        rim_stiffness=world.robot.rim_stiffness,
+    )  # fmt: skip
 
 
 def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:

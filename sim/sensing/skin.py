@@ -24,6 +24,7 @@ from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.reading import Reading
 from sim.model.contact_truth import REACH, ContactSet, foot_contacts
 from sim.plant.taxels import TaxelErrors
+from sim.sensing.blind_rim import BlindRim
 from sim.sensing.elastic_pressure import ElasticPressure
 from sim.sensing.proximity import ProximitySensor
 from sim.sensing.sole_pressure import SolePressure
@@ -42,6 +43,7 @@ class SoleSkin:
         rubber: Thickness in m of the sole's rubber, see `SolePressure`.
         reach: Largest gap in m between sole and ground that the rubber closes.
         layer: Thickness in m of an elastic layer that spreads the load, see `ElasticPressure`; springs do where None.
+        rim_stiffness: Stiffness of the sole beside the taxels over theirs, see `BlindRim`; 0 where they carry all.
 
     Raises:
         RobotError: If the model has no such site or geom.
@@ -58,6 +60,7 @@ class SoleSkin:
         rubber: float = 3e-3,
         reach: float = REACH,
         layer: float | None = None,
+        rim_stiffness: float = 0.0,
     ) -> None:
         self.model = model
         self.layout = layout
@@ -70,6 +73,7 @@ class SoleSkin:
             if layer is None
             else ElasticPressure(layout, thickness=layer, rubber=rubber)
         )
+        self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
         self._reach = reach
 
     def __len__(self) -> int:
@@ -107,6 +111,8 @@ class SoleSkin:
         for fz, tx, ty, patch in pairs:
             if fz > 0.0:
                 part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
+                if self._rim is not None:
+                    part = part * self._rim.share(patch)
                 out = part if out is None else out + part
         return np.zeros(len(self.layout)) if out is None else out
 

@@ -184,6 +184,7 @@ def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: s
         shoe_mass=shoes.mass
         if shoes.mass is not None
         else round(_SHOE_DENSITY * abs(area(layouts["left"].outline)), 4),
+        rim_stiffness=0.0,
         sole_origins=MappingProxyType(
             {s: survey.soles[s].origin - thickness * survey.soles[s].rotation[:, 2] for s in SIDES}
         ),

@@ -7,23 +7,25 @@ import shapely
 import trimesh
 
 from shoes import Foot, ShoeParameters, build_shoe
-from shoes.solid.pad import pad_rim, pad_surface, volume_of
+from shoes.plan.pad_outline import pad_rim
+from shoes.solid.pad import pad_surface, volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])
 @pytest.mark.parametrize("protrusion", [0.0, 2.5])
 def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, protrusion: float) -> None:
-    p = ShoeParameters(taxel_protrusion=protrusion)
-    plan = build_shoe(small_foot, layout_only=True, parameters=p).shoes[side].plan
+    build = build_shoe(small_foot, layout_only=True, parameters=ShoeParameters(taxel_protrusion=protrusion))
+    p, plan = build.parameters, build.shoes[side].plan
     surface = pad_surface(plan, p)
     mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
     rim = pad_rim(plan, p)
     assert (rim.area > 0.0) == (protrusion > 0.0)
-    expected = plan.contact.area * p.pad_thickness + rim.area * protrusion
+    expected = plan.contact.area * p.pad_thickness + rim.area * p.pad_rim_height
     assert mesh.volume == pytest.approx(expected, rel=1e-5)
     assert volume_of(surface) == pytest.approx(expected, rel=1e-5)
+    assert surface[..., 2].max() == pytest.approx(p.bottom - p.pad_relief if protrusion else p.pad_thickness)
     cells = shapely.union_all(plan.cells)
     assert rim.is_empty or rim.distance(cells) == pytest.approx(0.3, abs=0.01)
     assert rim.is_empty or plan.contact.buffer(2e-3).covers(rim)

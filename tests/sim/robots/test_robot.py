@@ -71,8 +71,8 @@ def test_mass_and_thickness_come_with_the_shoes_layout(tmp_path: Path) -> None:
                 line for i, line in enumerate(lines) if i < start or not line.startswith(("thickness", "mass"))
             )
         else:
-            table = json.loads(text) | {"shoe": {"mass": 0.4, "thickness": 0.015}}
+            table = json.loads(text) | {"shoe": {"mass": 0.4, "thickness": 0.015, "rim_stiffness": 1.5}}
             text = json.dumps(table)
         (tmp_path / name).write_text(text)
     robot = load_robot(tmp_path / "robot.toml")
-    assert (robot.shoe_mass, robot.shoe_thickness) == (0.4, 0.015)
+    assert (robot.shoe_mass, robot.shoe_thickness, robot.rim_stiffness) == (0.4, 0.015, 1.5)

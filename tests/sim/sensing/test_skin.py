@@ -44,6 +44,18 @@ def true_wrench(data: Any, skin: SoleSkin) -> NDArray[np.float64]:
     return contact_wrench_in_frame(skin.contacts(data), data.site_xpos[site], data.site_xmat[site])
 
 
+def test_a_pad_that_is_not_relieved_hides_a_part_of_the_load() -> None:
+    model, data, skin = rig(PLANE)
+    run(model, data, 0.5)
+    bad = SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"], rim_stiffness=2.0)
+    taxels = LAYOUT.areas.sum()
+    share = taxels / (taxels + 2.0 * (4.0 * HALF.prod() - taxels))
+    np.testing.assert_allclose(bad.taxel_forces(data), share * skin.taxel_forces(data), rtol=1e-3)
+    assert 0.3 < share < 0.95
+    with pytest.raises(InputError, match="stiffness of the rim"):
+        SoleSkin(model, LAYOUT, "left_sole", ["left_sole_box"], rim_stiffness=np.inf)
+
+
 @pytest.mark.parametrize("com", ["0 0 0.1", "0.05 0.02 0.1", "-0.08 -0.05 0.1"])
 @pytest.mark.parametrize("yaw", ["1 0 0 0", "0.924 0 0 0.383"])
 def test_standing_foot_has_the_true_force_and_centre_of_pressure(com: str, yaw: str) -> None:
