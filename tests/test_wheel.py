@@ -27,21 +27,47 @@ def run(*command: str | Path, cwd: Path, check: bool = True, **more: str) -> sub
     return done
 
 
-@pytest.fixture(scope="module")
-def wheel(tmp_path_factory) -> Path:
-    """The wheel of what is in the checkout; built from a copy, so that the checkout stays as it is.
+def copied_source(folder: Path, *, generated: bool, compiled: bool) -> Path:
+    """A copy of the checkout to build from, so that the checkout stays as it is.
 
-    Its kernels are not optimized, which takes two minutes less; those of the checkout are, and are tested.
+    Args:
+        folder: Where the copy comes to lie.
+        generated: With the C files of the checkout's own build. What is older than its source is generated again.
+        compiled: With the extension modules of the checkout's own build too; likewise.
+
+    Returns:
+        The copy's folder.
     """
-    folder = tmp_path_factory.mktemp("wheel")
     source = folder / "source"
-    for path in tracked():
-        (source / path).parent.mkdir(parents=True, exist_ok=True)
-        (source / path).write_bytes((ROOT / path).read_bytes())
-    build = (sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source)
-    run(*build, cwd=folder, CFLAGS="-O0")
+    library = Path("build") / f"lib.{sysconfig.get_platform()}-{sys.implementation.cache_tag}"
+    kernels = Path("plantar") / "kernels"
+    places = {path: path for path in tracked()}
+    if generated:
+        places |= {c.relative_to(ROOT): c.relative_to(ROOT) for c in (ROOT / "build/cython" / kernels).glob("*.c")}
+    if compiled:
+        extensions = [p for p in (ROOT / kernels).iterdir() if ends(p) & set(EXTENSION_SUFFIXES)]
+        places |= {p.relative_to(ROOT): library / kernels / p.name for p in extensions}
+    for path, place in places.items():
+        (source / place).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / path, source / place)  # with its time, by which a build tells what is stale
+    return source
+
+
+def built_wheel(folder: Path, source: Path, **more: str) -> Path:
+    """The wheel of a copy of the checkout, built with some more variables."""
+    run(sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder, source, cwd=folder, **more)
     [built] = folder.glob("*.whl")
     return built
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory) -> Path:
+    """The wheel of what is in the checkout.
+
+    `make test` has compiled the kernels by the same setup.py just before; only what is stale is compiled once more.
+    """
+    folder = tmp_path_factory.mktemp("wheel")
+    return built_wheel(folder, copied_source(folder, generated=True, compiled=True), CFLAGS="-O0")
 
 
 def ends(path: Path) -> set[str]:
@@ -78,6 +104,25 @@ def installed(wheel, tmp_path_factory) -> Path:
     return scripts
 
 
+def extensions_in(wheel: Path) -> set[str]:
+    """Names of the extension modules in a wheel."""
+    with zipfile.ZipFile(wheel) as archive:
+        return {n for n in archive.namelist() if ends(Path(n)) & set(EXTENSION_SUFFIXES)}
+
+
+def kernels_that_compile() -> set[str]:
+    """All kernels, by path without ending, where there are Cython and a compiler; else none."""
+    compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
+    sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in (ROOT / "plantar" / "kernels").glob("*.pxd")}
+    return sources if compiles else set()
+
+
+@pytest.mark.long
+def test_a_fresh_clone_builds_a_wheel_with_every_kernel(tmp_path):
+    built = built_wheel(tmp_path, copied_source(tmp_path, generated=False, compiled=False), CFLAGS="-O0")
+    assert {n.partition(".")[0] for n in extensions_in(built)} == kernels_that_compile()
+
+
 def test_the_wheel_holds_code_and_data(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = {n for n in archive.namelist() if ".dist-info/" not in n}
@@ -87,11 +132,8 @@ def test_the_wheel_holds_code_and_data(wheel):
         for p in tracked()
         if len(p.parts) > 1 and (p.suffix in {".py", ".pxd", *data} or p.name == "py.typed")
     }
-    extensions = {n for n in names if ends(Path(n)) & set(EXTENSION_SUFFIXES)}
-    assert names - extensions == wanted | {"cli.py"}
-    sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in (ROOT / "plantar" / "kernels").glob("*.pxd")}
-    compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
-    assert {n.partition(".")[0] for n in extensions} == (sources if compiles else set())
+    assert names - extensions_in(wheel) == wanted | {"cli.py"}
+    assert {n.partition(".")[0] for n in extensions_in(wheel)} == kernels_that_compile()
     assert {f"{part}/py.typed" for part in ("plantar", "shoes", "gait", "wholebody", "sim")} <= names
     assert any(n.startswith("sim/robots/") and n.endswith(".toml") for n in names)
     assert any(n.startswith("sim/scenes/") and n.endswith(".toml") for n in names)
@@ -123,15 +165,12 @@ def test_the_installed_kernels_are_compiled_and_the_sources_do_the_same(installe
 
 def test_without_a_compiler_it_installs_and_works(tmp_path):
     """Built from a copy with a compiler that does not exist: the wheel holds the sources alone, and they run."""
-    source = tmp_path / "source"
-    for path in tracked():
-        (source / path).parent.mkdir(parents=True, exist_ok=True)
-        (source / path).write_bytes((ROOT / path).read_bytes())
+    source = copied_source(tmp_path, generated=True, compiled=False)
     build = "import os, sys; os.environ['CC'] = 'no-such-compiler'; from build.__main__ import main; main(sys.argv[1:])"
     run(sys.executable, "-c", build, "--wheel", "--no-isolation", "--outdir", tmp_path, source, cwd=tmp_path)
     [built] = tmp_path.glob("*.whl")
     with zipfile.ZipFile(built) as archive:
-        assert not [n for n in archive.namelist() if ends(Path(n)) & set(EXTENSION_SUFFIXES)]
+        assert not extensions_in(built)
         archive.extractall(tmp_path / "installed")
     code = "from plantar import kernels, polygon; print(polygon.area([[0, 0], [2, 0], [2, 1]]), kernels.compiled)"
     assert run(sys.executable, "-c", code, cwd=tmp_path / "installed").stdout.split() == ["1.0", "False"]
