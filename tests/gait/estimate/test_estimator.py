@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -20,6 +21,12 @@ FEET: dict[Side, NDArray[np.float64]] = {"left": np.array([0.0, 0.09, 0.0]), "ri
 START = {s: (*p.tolist(), 0.0) for s, p in FEET.items()}
 
 
+@cache
+def weights_of(layout: SoleLayout) -> NDArray[np.float64]:
+    """Matrix (n, 3) that gives the least taxel shares of a load from their sum and their centre (x, y)."""
+    return np.linalg.pinv(np.column_stack([np.ones(len(layout)), layout.positions[:, :2]]).T)
+
+
 class Swaying:
     """Base pose over time; `posture` takes the time as its one joint."""
 
@@ -27,8 +34,10 @@ class Swaying:
         self.tilt, self.sway = tilt, sway
 
     def rotation(self, time: float) -> NDArray[np.float64]:
-        angles = [0.5 * self.tilt * math.sin(3.0 * time), self.tilt * math.sin(2.0 * time)]
-        return np.asarray(Rotation.from_euler("xy", angles).as_matrix())
+        """About x, then about y of the world; written out, since it is asked for ten times a tick."""
+        roll, pitch = 0.5 * self.tilt * math.sin(3.0 * time), self.tilt * math.sin(2.0 * time)
+        a, b, c, d = math.sin(roll), math.cos(roll), math.sin(pitch), math.cos(pitch)
+        return np.array([[d, c * a, c * b], [0.0, b, -a], [-c, d * a, d * b]])
 
     def base(self, time: float) -> NDArray[np.float64]:
         return np.array([self.sway * math.sin(2.0 * time), self.sway * math.sin(2.5 * time), 0.8])
@@ -60,10 +69,7 @@ class Swaying:
         out: dict[Side, Percept] = {}
         for side, share in (("left", left), ("right", 1.0 - left)):
             x, y = zmp[0], zmp[1] - (left * 0.09 - (1 - left) * 0.09)
-            p = layout.positions[:, :2]
-            a = np.column_stack([np.ones(len(p)), p])
-            weights = np.linalg.lstsq(a.T, np.array([1.0, x, y]), rcond=None)[0]
-            load = 800.0 * share * weights
+            load = 800.0 * share * (weights_of(layout) @ np.array([1.0, x, y]))
             out[side] = Percept(layout, Reading(time, load), force_threshold=-1e9)  # type: ignore[index]
         return out
 
