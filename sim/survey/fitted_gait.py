@@ -310,11 +310,14 @@ def _fitted(
 def _height(robot: Robot, legs: LegModel, body: BodyScale, seed: float, bend: float) -> tuple[float, PlanReach | None]:
     """The greatest height in m of the CoM at which the knees stay bent by `bend` rad; None where there is none."""
 
+    def bears(missed: float, knee: float, spare: Array) -> bool:
+        return missed <= MISSED and knee >= bend and float(spare.min()) >= _SPARE
+
     def reach(height: float) -> PlanReach:
-        return plan_reach(robot, legs, straight_walk(robot, body, height))
+        return plan_reach(robot, legs, straight_walk(robot, body, height), bears)
 
     def holds(found: PlanReach) -> bool:
-        return found.missed <= MISSED and found.knee >= bend and float(found.spare.min()) >= _SPARE
+        return bears(found.missed, found.knee, found.spare)
 
     low = high = seed + 0.15 * body.leg
     found = None

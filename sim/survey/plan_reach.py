@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import mujoco
@@ -115,16 +115,20 @@ def settled(robot: Robot, legs: LegModel, feet: Mapping[Side, Footstep], com_hei
     return missed
 
 
-def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
+def plan_reach(
+    robot: Robot, legs: LegModel, walked: Walked, bears: Callable[[float, float, Array], bool] = lambda *_: True
+) -> PlanReach:
     """Go through a walk as it is planned, on level ground, and see what the legs have to do.
 
     Args:
         robot: The robot.
         legs: Its kinematics.
         walked: The walk.
+        bears: Asked after each instant, of `missed`, `knee` and `spare` so far, which only get worse; the rest of a
+            walk for which it says no is not looked at.
 
     Returns:
-        What it asks of them.
+        What it asks of them. The torques of a walk that was not looked at to its end are infinite.
     """
     middles = {s: middle_of_sole(robot.layouts[s], robot.ankle_reach) for s in SIDES}
     begin = 0.5
@@ -137,7 +141,7 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
     low = probe.spare(legs)
     every = walked.timing.single_support / _INSTANTS
     angles, static = [], []
-    edged = 0.0
+    edged, never = 0.0, np.full(len(robot.legs["left"].joints), math.inf)
     feet = dict(walked.feet)
     omega2 = GRAVITY / walked.com_height
     height = np.mean([feet[s].z for s in SIDES])
@@ -177,12 +181,13 @@ def plan_reach(robot: Robot, legs: LegModel, walked: Walked) -> PlanReach:
         _, error = legs.solve(com, torso, positions, rotations, iterations=_EACH, yielding=yielding, largest_step=_STEP)
         missed = max(missed, error)
         if not missed < _HOPELESS:
-            never = np.full(len(robot.legs["left"].joints), math.inf)
             return PlanReach(missed, knee, time - begin, -never, never, never, math.pi)
         bend = probe.knees(legs)
         if bend < knee:
             knee, when = bend, time - begin
         low = np.minimum(low, probe.spare(legs))
+        if not bears(missed, knee, low):
+            return PlanReach(missed, knee, when, low, never, never, math.pi)
         push = legs.mass * np.array([*(omega2 * (reference.com - reference.vrp)), GRAVITY])
         points = {s: np.array([*vrp_of_step(feet[s], middles[s]), feet[s].z]) for s in SIDES}
         for s in SIDES:

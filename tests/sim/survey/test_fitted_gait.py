@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import pytest
 
 from plantar.settings.body_scale import BodyScale
+from sim.model.body import body_of
+from sim.model.world import build_leg_model
 from sim.robots import load_robot
 from sim.run.controller_settings import controller_settings
 from sim.run.scene import load_scene
@@ -17,7 +20,9 @@ from sim.survey.fitted_gait import (
     QUICK_SINGLE,
     QUICK_STEP,
     fit_gait,
+    straight_walk,
 )
+from sim.survey.plan_reach import plan_reach
 
 SLOW = BodyScale(mass=3.5, leg=0.22, sole=0.13, sole_width=0.09, pace_beats=1.6)
 
@@ -44,6 +49,19 @@ def test_weak_motors_make_a_pace_longer() -> None:
     assert weak.pace > 1.0
     assert strong.approach_support == 0.0
     assert weak.approach_support > weak.single_support
+
+
+def test_a_walk_is_looked_at_for_as_long_as_it_bears() -> None:
+    robot = load_robot("h1")
+    legs = build_leg_model(robot)
+    walk = straight_walk(robot, body_of(robot, legs.model), robot.com_height, steps=2)
+    whole = plan_reach(robot, legs, walk)
+    bent = 0.5 * (plan_reach(robot, legs, walk, lambda missed, knee, spare: False).knee + whole.knee)
+    until = plan_reach(robot, legs, walk, lambda missed, knee, spare: knee >= bent)
+    assert whole.knee <= until.knee < bent
+    assert until.straightest <= whole.straightest
+    assert (until.torque == math.inf).all()
+    assert (whole.torque < math.inf).all()
 
 
 def test_a_swing_that_comes_down_slowly_gets_the_time_that_its_motors_need() -> None:
