@@ -26,6 +26,7 @@ __all__ = ["confined"]
 
 _CODE = "from plantar.files.confined import _called_on_file; _called_on_file()"
 _LARGEST_FILE = 1_000_000_000  # bytes that the process may write of a temporary file
+_STARTING = 10.0  # s that starting the process may take on a busy machine
 
 
 def confined(
@@ -61,7 +62,7 @@ def confined(
                 capture_output=True,
                 stdin=subprocess.DEVNULL,
                 env=_environment(folder),
-                timeout=2.0 * seconds + 10.0,
+                timeout=2.0 * seconds + _STARTING,
                 check=False,
             )
         except subprocess.TimeoutExpired:
