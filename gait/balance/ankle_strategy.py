@@ -40,6 +40,7 @@ __all__ = [
     "growth",
     "shrunk_support",
     "single_support_vrp",
+    "sway_share",
     "target_dcms",
     "within_support",
 ]
@@ -264,14 +265,32 @@ def target_dcms(
     if double_support <= 0.0:
         end = np.array((ex + bx, ey + by))
         return TargetDcms(end, end.copy(), 1.0)
-    kept = math.exp(-omega * double_support)
-    # K 24 with e^(-w T_d) (1 - C_d w) - (1 - C_d w_d) in front of u_e - u_i.
-    swayed = kept * _sway(omega, double_support, double_support) - _sway(omega, double_support, 0.0)
+    kept, swayed = math.exp(-omega * double_support), sway_share(omega, double_support)
     gone = 1.0 - kept
     single = np.array(
         (ex + bx * kept - wx * gone + (ex - ix) * swayed, ey + by * kept - wy * gone + (ey - iy) * swayed)
     )
     return TargetDcms(np.array((ex + bx, ey + by)), single, 1.0 + swayed)
+
+
+def sway_share(omega: float, double_support: float) -> float:
+    """e^(-w T_d) (1 - C_d w) - (1 - C_d w_d): the share of u_e - u_i that K 24 adds, for the VRP is not at u_e at once.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        double_support: T_d in s, 0 or more.
+
+    Returns:
+        The share, -1 to 0.
+
+    Example:
+        >>> round(sway_share(3.5, 0.2), 4), sway_share(3.5, 0.0)
+        (-0.2139, 0.0)
+    """
+    if double_support <= 0.0:
+        return 0.0
+    end = _sway(omega, double_support, double_support)
+    return math.exp(-omega * double_support) * end - _sway(omega, double_support, 0.0)
 
 
 def single_support_vrp(dcm: ArrayLike, target: ArrayLike, left: float, offset: ArrayLike, omega: float) -> AnkleVrp:
