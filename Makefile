@@ -5,8 +5,9 @@ PYTHON_IN_VENV := $(VENV)/bin/python
 PLANTAR := $(VENV)/bin/plantar
 INSTALLED := $(VENV)/.installed
 OUT ?= out
-# All cores; a file stays on one of them, since some of its tests share what is slow to make.
-PYTEST_OPTIONS ?= -n logical --dist loadfile
+# All cores; a file stays on one of them, since some of its tests share what is slow to make. Files come in the order of
+# tests/conftest.py, the slow ones first; xdist by itself puts those of few tests last, which are the slow ones.
+PYTEST_OPTIONS ?= -n logical --dist loadfile --no-loadscope-reorder
 
 .DEFAULT_GOAL := help
 KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*.pxd)

@@ -24,9 +24,13 @@ if "MUJOCO_GL" not in os.environ:
     del os.environ["MUJOCO_GL"]
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The wheel's tests first: they compile for minutes on one worker, and at the end the others would wait for it."""
-    items.sort(key=lambda item: item.path.name != "test_wheel.py")
+SLOW = ("tests/sim/", "tests/shoes/", "tests/test_", "tests/gait/analysis/", "tests/plantar/formats/")
+"""Where files lie of which some take half a minute: they simulate, build solids, or start processes."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Slow files first, so that no worker is left with one of them at the end while the others have nothing to do."""
+    items.sort(key=lambda item: not item.path.relative_to(config.rootpath).as_posix().startswith(SLOW))
 
 
 @pytest.fixture(autouse=True)

@@ -73,11 +73,16 @@ def test_what_is_no_bag(tmp_path: Path) -> None:
     (tmp_path / "empty" / "metadata.yaml").write_text("nonsense: [")
     with pytest.raises(FormatError, match="not a ROS bag that can be read"):
         read_recording(tmp_path / "empty")
+
+
+@pytest.mark.parametrize("trials", [8, pytest.param(40, marks=pytest.mark.long)])
+def test_a_damaged_bag_is_one_line(tmp_path: Path, trials: int) -> None:
+    """Each is read in a process of its own, which takes half a second to start."""
     random = np.random.default_rng(0)
     write_bag(tmp_path / "whole", {"/left/force": np.ones((30, 8))})
     (file,) = (tmp_path / "whole").glob("*.db3")
     whole = file.read_bytes()
-    for trial in range(20):
+    for trial in range(trials):
         data = bytearray(whole)
         for at in random.integers(0, len(data), size=40):
             data[at] = random.integers(0, 256)
