@@ -13,7 +13,7 @@ from sim.run.runner import Simulation
 from sim.run.scene import load_scene
 
 seed = int(sys.argv[1]) if len(sys.argv) > 1 else 0
-SHORT = ["steps=4", "settle=1.0"]
+SHORT = ["steps=2", "settle=0.5"]
 
 
 def told(summary):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -85,8 +86,13 @@ PLACE_OF_LIBRARY = {
 """The module or package, with what is inside it, that alone may import a heavy library."""
 
 
-def imported_modules(source: str, module: str, is_package: bool) -> Iterator[tuple[int, str]]:
+@cache
+def imported_modules(source: str, module: str, is_package: bool) -> tuple[tuple[int, str], ...]:
     """Line and absolute name of every module that some source imports, at its top or anywhere inside."""
+    return tuple(_imported(source, module, is_package))
+
+
+def _imported(source: str, module: str, is_package: bool) -> Iterator[tuple[int, str]]:
     package = module if is_package else module.rpartition(".")[0]
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
@@ -139,7 +145,7 @@ def sources(root: Path) -> Iterator[tuple[str, Path]]:
         yield ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"), path
 
 
-def imports_of(module: str, path: Path) -> Iterator[tuple[int, str]]:
+def imports_of(module: str, path: Path) -> tuple[tuple[int, str], ...]:
     """Line and name of every module that a file imports."""
     return imported_modules(path.read_text(encoding="utf-8"), module, path.name == "__init__.py")
 
