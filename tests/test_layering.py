@@ -35,19 +35,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
-        *(
-            "terrain",
-            "robots",
-            "plant",
-            "model",
-            "judging",
-            "sensing",
-            "body_skin",
-            "contact_models",
-            "figures",
-            "companion",
-        ),
-        *("run", "survey", "sweep"),
+        *("terrain", "robots", "plant", "model", "judging", "sensing", "body_skin", "contact_models", "figures"),
+        *("companion", "partner", "run", "survey", "sweep"),
     ),
     "shoes": (
         *(

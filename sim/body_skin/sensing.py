@@ -207,7 +207,8 @@ class SkinSensor:
 
 
 class _BroadPhase:
-    """Which patches are near to which obstacles: the sphere about a patch's rays against the box about an obstacle.
+    """Which patches are near to which obstacles: the sphere about a patch's rays against the box about an obstacle, and
+    where these meet, the box about the rays against the sphere about the obstacle.
 
     Args:
         model: The MjModel.
@@ -226,6 +227,12 @@ class _BroadPhase:
         self._squares = np.square(spans)
         boxes = model.geom_aabb[self._geoms].reshape(-1, 6)
         self._centres, self._halves = boxes[:, None, :3].copy(), boxes[:, None, 3:].copy()
+        lows = [p.starts.min(0) - p.reach for p in patches]
+        highs = [p.starts.max(0) + p.reach for p in patches]
+        self._lows, self._highs = np.array(lows), np.array(highs)
+        bounds = model.geom_rbound[self._geoms].copy()
+        bounds[bounds == 0.0] = np.inf  # a plane has none
+        self._bounds = np.square(bounds)
 
     def near(self, data: Any) -> list[tuple[int, list[int]]]:
         """Patches and, for each, the obstacles near to it, by their places in the lists."""
@@ -237,9 +244,18 @@ class _BroadPhase:
         local = apart @ data.geom_xmat[self._geoms].reshape(-1, 3, 3)
         outside = np.maximum(np.abs(local - self._centres) - self._halves, 0.0)
         close = np.einsum("kpi,kpi->pk", outside, outside) <= self._squares[:, None]
-        if not close.any():
+        rows, columns = close.nonzero()
+        if not len(rows):
             return []
-        return [(i, np.flatnonzero(close[i]).tolist()) for i in np.flatnonzero(close.any(1)).tolist()]
+        turns = data.xmat[self._bodies[rows]].reshape(-1, 3, 3)
+        apart = data.geom_xpos[self._geoms[columns]] - data.xpos[self._bodies[rows]]
+        local = np.einsum("kji,kj->ki", turns, apart)
+        outside = np.maximum(np.maximum(self._lows[rows] - local, local - self._highs[rows]), 0.0)
+        met = np.einsum("ki,ki->k", outside, outside) <= self._bounds[columns]
+        found: dict[int, list[int]] = {}
+        for i, k in zip(rows[met].tolist(), columns[met].tolist(), strict=True):
+            found.setdefault(i, []).append(k)
+        return list(found.items())
 
 
 def _ready(model: Any, skin: BodySkin, index: int, bodies: list[int]) -> _Patch:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import mujoco
 import numpy as np
@@ -25,7 +25,7 @@ from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
 from sim.terrain import GROUND_GROUP, Ground, Solid
 
-__all__ = ["PHYSICS_PERIOD", "World", "build_leg_model", "build_world", "check_stable", "robot_spec"]
+__all__ = ["PHYSICS_PERIOD", "Visitor", "World", "build_leg_model", "build_world", "check_stable", "robot_spec"]
 
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene does not say."""
@@ -249,7 +249,20 @@ class World:
             self.data.mocap_pos[i] = solid.at(float(self.data.time))
 
 
-def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD, plant: TruePlant | None = None) -> World:
+class Visitor(Protocol):
+    """Someone or something beside robot and ground that is in a world."""
+
+    def add_to(self, spec: Any) -> None:
+        """Add it to the world's editable `mujoco.MjSpec`."""
+
+
+def build_world(
+    robot: Robot,
+    ground: Ground,
+    period: float = PHYSICS_PERIOD,
+    plant: TruePlant | None = None,
+    others: Sequence[Visitor] = (),
+) -> World:
     """Build and compile the world.
 
     Args:
@@ -257,6 +270,7 @@ def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD, pl
         ground: The ground.
         period: Time step of the physics in s.
         plant: In what robot and ground differ from what these say; None for nothing.
+        others: Who else is in it; their coordinates come after the robot's.
 
     Returns:
         The world in its reference configuration; the runner puts the robot on its feet.
@@ -275,6 +289,8 @@ def build_world(robot: Robot, ground: Ground, period: float = PHYSICS_PERIOD, pl
         _add_touch(spec, spec.geom(f"{side}_sole_box"), f"{side}_truth_touch")
     _add_leg_contact(spec, robot)
     soles = _set_contacts(spec, ground.friction)
+    for other in others:
+        other.add_to(spec)
     model = _compiled(spec, robot)
     body = body_of(robot, model)
     _soften(model, soles, body, period)

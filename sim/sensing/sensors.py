@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gait.controller import Sensors
 from gait.estimate.ankle_sensor import AnkleSensor
+from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
 from sim.model.contact_truth import ContactSet, feet_contacts
@@ -40,6 +41,9 @@ class SensorSuite:
         proximity: Whether the soles have proximity sensors that somebody uses.
         force_torque: Whether the ankles have force-torque sensors that somebody uses.
         plant: What sensors read wrong that are not as they are taken to be; None for nothing.
+
+    Attributes:
+        body_skin: Reads the skin of the upper body; None for a robot without, or before there is one.
     """
 
     def __init__(
@@ -81,6 +85,7 @@ class SensorSuite:
         self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
+        self.body_skin: Callable[[], SkinReading] | None = None
 
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
         """Read the soles, which is due every `skin_every` physics steps.
@@ -126,6 +131,7 @@ class SensorSuite:
             accelerometer=specific,
             readings=dict(self.readings),
             ankles=self._ankles(),
+            skin=None if self.body_skin is None else self.body_skin(),
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:

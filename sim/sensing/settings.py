@@ -27,6 +27,7 @@ class Sensing(Settings):
         encoder_noise: Of each joint encoder in rad.
         gyro_noise: Of each gyro axis in rad/s.
         accelerometer_noise: Of each accelerometer axis in m/s^2.
+        body_skin: Whether the skin of the upper body tells what it feels, in a scene where somebody touches it.
         force_torque: Whether the ankles have force-torque sensors that somebody reads.
         ankle_force_noise: Of each axis of their force in N.
         ankle_torque_noise: Of each axis of their torque in N m.
@@ -44,6 +45,7 @@ class Sensing(Settings):
     encoder_noise: float = number(5e-5, "rad", 0, 0.1)
     gyro_noise: float = number(2e-3, "rad/s", 0, 1)
     accelerometer_noise: float = number(0.05, "m/s^2", 0, 10)
+    body_skin: bool = switch(True)
     force_torque: bool = switch(False)
     ankle_force_noise: float = share(0.00119, "weight", 0, 1000)
     ankle_torque_noise: float = share(0.000257, "weight sole", 0, 100)
