@@ -99,7 +99,7 @@ class StepCount:
         stands = [*self.stands, *self._standing.values()]
         return max((s.slip for s in stands), default=0.0)
 
-    def _last_stands(self) -> list[Stand]:
+    def last_stands(self) -> list[Stand]:
         """The stands that could be steps: of each foot the last one before the other foot touches down."""
         carrying = [s for s in self.stands if s.place is not None]
         return [list(group)[-1] for _, group in groupby(carrying, key=lambda s: s.side)]
@@ -107,7 +107,7 @@ class StepCount:
     def taken(self) -> tuple[int, str]:
         """How many steps were taken one after the other, and what became of the first that was not."""
         steps = self.goal.steps
-        stands = self._last_stands()
+        stands = self.last_stands()
         taken, missed = 0, ""
         for stand in stands:
             if taken == len(steps):

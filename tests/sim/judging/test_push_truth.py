@@ -1,0 +1,93 @@
+"""The judge of pushes: steps compared by the way from foot to foot, and accelerations against a simulated pendulum."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gait.plan.footsteps import straight_plan
+from plantar.gravity import GRAVITY
+from sim.judging.push_truth import CHANGED, Pushed, PushTruth, step_changes
+from sim.judging.step_count import Stand
+
+FEET, STEPS = straight_plan(6, length=0.0)
+LEG = 0.6
+
+
+def stands(*offsets: tuple[float, float]) -> list[Stand]:
+    return [
+        Stand(step.side, float(k), (step.x + dx, step.y + dy, 0.0))
+        for k, (step, (dx, dy)) in enumerate(zip(STEPS, offsets, strict=False))
+    ]
+
+
+def test_only_the_step_that_left_the_plan_is_changed() -> None:
+    moved = stands((0, 0), (0, 0), (0.08, 0.0), (0.08, 0.0), (0.08, 0.0))
+    assert step_changes(moved, FEET, STEPS) == pytest.approx([0.0, 0.0, 0.08, 0.0, 0.0])
+
+
+def test_changes_end_where_the_feet_come_out_of_turn() -> None:
+    wrong = stands((0, 0), (0, 0), (0, 0))
+    wrong[2].side = wrong[1].side
+    assert len(step_changes(wrong, FEET, STEPS)) == 2
+    assert step_changes([], FEET, STEPS) == []
+
+
+def pushes() -> list[Pushed]:
+    return [
+        Pushed(0, 1.0, 1.2, np.array([0.0, 12.0]), small=True),
+        Pushed(3, 4.0, 4.2, np.array([0.0, 30.0]), small=False),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changes", "criteria"),
+    [
+        ([0.0, 0.0, 0.0, 0.06, 0.0], []),
+        ([0.0, 0.04, 0.0, 0.06, 0.0], ["steps_kept"]),
+        ([0.0, 0.0, 0.0, 0.0, 0.01], ["stepped"]),
+        ([], ["stepped"]),
+    ],
+)
+def test_small_pushes_keep_the_steps_and_large_ones_change_one(changes: list[float], criteria: list[str]) -> None:
+    found = PushTruth(86.0, LEG).steps_reasons(pushes(), changes)
+    assert [reason["criterion"] for reason in found] == criteria
+    assert all(reason["limit"] == pytest.approx(CHANGED * LEG) for reason in found)
+
+
+@pytest.mark.parametrize("above", [-0.2, 0.0, 0.4])
+def test_a_pendulum_with_a_wrench_accelerates_as_the_corrected_sign_says(above: float) -> None:
+    """Moments about the ZMP of an upright body, integrated here by themselves."""
+    mass, height, zmp = 86.0, 0.83, np.array([0.02, -0.01])
+    truth, step = PushTruth(mass, LEG), 0.005
+    com, speed = np.array([0.0, 0.0, height]), np.zeros(2)
+    way = np.array([math.cos(0.7), math.sin(0.7)])
+    for k in range(100):
+        time = step * k
+        force = 150.0 * math.sin(math.pi * (time - 0.1) / 0.2) * way if 0.1 <= time < 0.3 else np.zeros(2)
+        wrench = np.array([*force, 0.0, 0.0, 0.0, 0.0])
+        wrench[3:] = np.cross(com + np.array([0.0, 0.0, above]), wrench[:3])
+        truth.update(time, com, zmp, wrench)
+        fine = 20
+        for _ in range(fine):
+            rate = GRAVITY / height * (com[:2] - zmp) + force * (height + above) / height / mass
+            speed = speed + rate * step / fine
+            com[:2] += speed * step / fine
+    impulse = 150.0 * 0.2 * 2.0 / math.pi * way
+    (told,) = truth.accelerations([Pushed(0, 0.1, 0.3, impulse, small=False)])
+    assert told["above_com_m"] == pytest.approx(above, abs=1e-9)
+    assert told["ratio"] == pytest.approx(1.0, abs=0.01)
+    assert told["printed_Ns"] == pytest.approx(told["predicted_Ns"] * (height - above) / (height + above))
+    assert truth.acceleration_reasons([Pushed(0, 0.1, 0.3, impulse, small=False)]) == []
+
+
+def test_an_acceleration_that_nothing_explains_is_told() -> None:
+    truth = PushTruth(86.0, LEG)
+    for k in range(100):
+        time = 0.005 * k
+        force = 100.0 if 0.1 <= time < 0.3 else 0.0
+        truth.update(time, np.array([0.0, 0.0, 0.8]), np.zeros(2), np.array([force, 0.0, 0.0, 0.0, 0.8 * force, 0.0]))
+    (reason,) = truth.acceleration_reasons([Pushed(0, 0.1, 0.3, np.array([20.0, 0.0]), small=False)])
+    assert reason["criterion"] == "com_acceleration"
