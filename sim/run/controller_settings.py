@@ -25,6 +25,7 @@ from gait.propose.slope_inside import SlopeRules
 from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side
+from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
@@ -54,6 +55,7 @@ def controller_settings(
     body: BodyScale,
     ankles: Mapping[Side, AnkleSensor],
     limits: Mapping[Side, NDArray[np.float64]] | None = None,
+    skin: BodySkin | None = None,
 ) -> ControllerSettings:
     """Settings of the walking controller for a scene.
 
@@ -63,6 +65,7 @@ def controller_settings(
         body: How large it is: what is stated as a share of its body counts for this one.
         ankles: Force-torque sensor of each ankle, where it has them.
         limits: Where its weight may act on one foot (see `sim.model.ankle_limits`); anywhere where None.
+        skin: Skin of its upper body, in the base frame; None without.
 
     Returns:
         The settings.
@@ -110,6 +113,7 @@ def controller_settings(
         ankles=ankles,
         ankle_limits=limits or {},
         footholds=control.footholds,
+        skin=skin,
     )
     try:
         return found.for_body(body)

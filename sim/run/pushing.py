@@ -13,13 +13,13 @@ from sim.model.shove import Shove
 from sim.model.world import World
 from sim.run.scene import Push
 
-__all__ = ["Pusher"]
+__all__ = ["Pusher", "direction_name", "direction_of"]
 
 _DIRECTIONS = {
-    "forward": (1.0, 0.0, 0.0),
-    "backward": (-1.0, 0.0, 0.0),
-    "left": (0.0, 1.0, 0.0),
-    "right": (0.0, -1.0, 0.0),
+    "forward": (1.0, 0.0),
+    "backward": (-1.0, 0.0),
+    "left": (0.0, 1.0),
+    "right": (0.0, -1.0),
 }
 _FIRST = 1.5  # s: a robot that stands is left alone for so long
 _WEAKEST = 0.6  # of the scene's impulse: the weakest of several seeded pushes
@@ -40,9 +40,8 @@ class Pusher:
     """
 
     def __init__(self, push: Push, schedule: WalkSchedule, seed: int) -> None:
-        self.direction = push.direction
-        if self.direction == "seeded":
-            self.direction = tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)]
+        _refuse_unused(push)
+        self.direction = direction_name(push, seed)
         self.step: int | None = None
         self.shoves: tuple[Shove, ...] = ()
         self._next = 0
@@ -59,7 +58,7 @@ class Pusher:
         self.step = int(rng.integers(len(swings))) if push.step < 0 else push.step
         phase = swings[self.step]
         start = phase.start + push.phase * (phase.end - phase.start)
-        impulse = push.strength * np.array(_DIRECTIONS[self.direction])
+        impulse = push.strength * np.array([*direction_of(push, seed), 0.0])
         self.shoves = (Shove(start, start + push.duration, impulse, smooth=False),)
 
     def apply(self, world: World) -> None:
@@ -73,6 +72,43 @@ class Pusher:
         world.data.xfrc_applied[world.torso] = (fx, fy, fz, -self._height * fy, self._height * fx, 0.0)
         if time >= shove.end:
             self._next += 1
+
+
+def direction_name(push: Push, seed: int) -> str:
+    """Direction of a push in words, with what the seed chooses.
+
+    Args:
+        push: The pushes of a scene.
+        seed: Seeds 0-3 push forward, backward, left and right, seeds 4-7 again, and so on.
+
+    Returns:
+        One of the four, or "angle" or "step" where the scene says so.
+    """
+    return tuple(_DIRECTIONS)[seed % len(_DIRECTIONS)] if push.direction == "seeded" else push.direction
+
+
+def direction_of(push: Push, seed: int) -> tuple[float, float]:
+    """Direction of a push as a unit vector, forward and to the left.
+
+    Args:
+        push: The pushes of a scene, in no direction that changes with the step.
+        seed: Chooses it where the scene leaves it open.
+
+    Returns:
+        The vector (2,).
+    """
+    if push.direction == "angle":
+        return math.cos(math.radians(push.angle)), math.sin(math.radians(push.angle))
+    return _DIRECTIONS[direction_name(push, seed)]
+
+
+def _refuse_unused(push: Push) -> None:
+    """Refuse what only hands do: a force from nowhere does nothing of it."""
+    alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
+    alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}
+    given = [name for name, is_given in alone.items() if is_given]
+    if given:
+        raise SceneError(f"[push] {given[0]} is for pushes by hands; allowed: with push.by = 'hands'")
 
 
 def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> tuple[Shove, ...]:
@@ -90,7 +126,7 @@ def _while_standing(push: Push, schedule: WalkSchedule, rng: np.random.Generator
         angle, strength = rng.uniform(-math.pi, math.pi), rng.uniform(_WEAKEST, 1.0)
         along = np.array([math.cos(angle), push.sideways * math.sin(angle), 0.0])
         if push.direction != "seeded":
-            along, strength = np.array(_DIRECTIONS[push.direction]), 1.0
+            along, strength = np.array([*direction_of(push, 0), 0.0]), 1.0
         start = _FIRST + i * push.interval
         shoves.append(Shove(start, start + push.duration, strength * push.strength * along, smooth=True))
     return tuple(shoves)

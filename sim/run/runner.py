@@ -25,6 +25,7 @@ from plantar.sides import SIDES
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
+from sim.judging.push_truth import Pushed, PushTruth, step_changes
 from sim.judging.recovery import Recovery
 from sim.judging.velocity_truth import VelocityTruth
 from sim.judging.verdict import Ending, reasons
@@ -33,13 +34,16 @@ from sim.judging.zmp_comparison import ZmpComparison
 from sim.model.ankle_limits import ankle_limits
 from sim.model.body import body_of
 from sim.model.world import World, build_leg_model, build_world, check_stable
+from sim.partner.hand_pushes import HandPushes
+from sim.partner.touch import Partner, Touch
 from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
 from sim.run.controller_settings import controller_settings
+from sim.run.hand_pushing import hand_pushes, upper_body_skin_of
 from sim.run.log import RunLog
-from sim.run.pushing import Pusher
-from sim.run.scene import Scene
+from sim.run.pushing import Pusher, direction_name
+from sim.run.scene import Push, Scene
 from sim.run.servos import LegServos
 from sim.run.shares import body_told, shares_told
 from sim.run.standing import stand
@@ -96,19 +100,28 @@ class Simulation:
             first="left" if walk.first == "left" else "right",
             height=scene.terrain.height,
         )
+        skin = upper_body_skin_of(scene, robot, self.legs.model, self.body)
         self.settings = controller_settings(
             scene,
             robot,
             self.body,
             ankle_sensors(self.legs.model, robot),
             ankle_limits(robot, self.legs.model, self.body.weight),
+            skin if scene.sensing.body_skin else None,
         )
         start = Start(self.feet, self.steps, walk.begin, self._commands())
         self.controller = WalkingController(self.settings, start, robot.layouts, self.legs)
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.ground = ground
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
-        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant)
+        partners: list[Partner] = []
+        self.hands: HandPushes | None = None
+        if skin is not None and scene.push.by == "hands":
+            plan = (self.feet, self.steps)
+            self.hands = hand_pushes(scene.push, lambda: self.controller.schedule, plan, skin, self.body, seed)
+            partners.append(self.hands)
+        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, partners)
+        self.touch = None if skin is None else Touch(self.world, skin, partners, seed)
         self.sensors = SensorSuite(
             self.world,
             scene.sensing,
@@ -119,7 +132,8 @@ class Simulation:
             plant=self.plant,
         )
         self.servos = LegServos(self.world, self.legs, self.settings.period, self.plant)
-        self.pusher = Pusher(scene.push, self.controller.schedule, seed)
+        force = scene.push if scene.push.by == "force" else Push()
+        self.pusher = Pusher(force, self.controller.schedule, seed)
         self.recovery = Recovery(self.pusher.shoves, self.controller.end, self.body) if scene.push.count else None
         self.zmps: ZmpComparison | None = None
         if scene.sensing.force_torque:
@@ -128,11 +142,16 @@ class Simulation:
         for side in SIDES:
             centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side], robot.ankle_reach))
         stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
+        if self.touch is not None:
+            self.touch.place()
+            if scene.sensing.body_skin:
+                self.sensors.body_skin = self.touch.read
         self.foothold_truth = FootholdTruth(self.world, ground)
         self._centers = {side: middle_of_sole(robot.layouts[side], robot.ankle_reach) for side in SIDES}
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
+        self.pushed: PushTruth | None = None if self.hands is None else PushTruth(self.body.mass, self.body.leg)
         self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps, self.body.leg))
 
     def _commands(self) -> tuple[VelocityCommand, ...]:
@@ -228,6 +247,9 @@ class Simulation:
                 truth = judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
                 if self.speeds is not None:
                     self.speeds.update(data.time)
+                if self.touch is not None and self.pushed is not None:
+                    com = data.subtree_com[world.torso]
+                    self.pushed.update(data.time, com, truth.zmp, self.touch.wrench)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
                     self.recovery.update(data.time, truth.zmp, com, plan.vrp, plan.com)
@@ -255,7 +277,10 @@ class Simulation:
             self.pusher.apply(world)
             if world.moving_ground:
                 world.move_ground()
-            mujoco.mj_step(model, data)
+            if self.touch is None:
+                mujoco.mj_step(model, data)
+            else:
+                self.touch.step()
             judge.update_physics()
             k += 1
         if sensors.proximity:
@@ -299,6 +324,7 @@ class Simulation:
         landings = [x.time for x in judge.landings]
         if self.speeds is not None:
             why += self.speeds.reasons(landings)
+        why += self._push_reasons()
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         late = self.servos.out_of_reach_since
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in SIDES}
@@ -374,6 +400,7 @@ class Simulation:
             found["wrench_distribution"] = dict(self.controller.balance.states)
         if self.controller.guard is not None:
             found |= self.controller.guard.summary()
+        found |= self._of_hands()
         if self.pusher.step is not None:
             found["push"] = {
                 "impulse_Ns": round(self.scene.push.strength, 4),
@@ -383,6 +410,46 @@ class Simulation:
                 "time_s": round(self.pusher.shoves[0].start, 3),
             }
         return found
+
+    def _pushes(self) -> list[Pushed]:
+        """The pushes by hands that came, for the judge."""
+        if self.hands is None:
+            return []
+        full = self.scene.push.strength
+        return [
+            Pushed(p.step, p.start, p.end, p.delivered[:2], float(np.hypot(*p.impulse)) < (1.0 - 1e-9) * full)
+            for p in self.hands.pushes
+            if p.start < math.inf
+        ]
+
+    def _changes(self) -> list[float]:
+        """How far each step came to be from its plan in m."""
+        return step_changes(self.judge.steps.last_stands(), self.feet, self.steps)
+
+    def _push_reasons(self) -> list[dict[str, Any]]:
+        """What failed of what a scene asks of pushes by hands."""
+        if self.pushed is None or self.scene.push.verdict == "walk":
+            return []
+        if self.scene.push.verdict == "steps":
+            return self.pushed.steps_reasons(self._pushes(), self._changes())
+        return self.pushed.acceleration_reasons(self._pushes())
+
+    def _of_hands(self) -> dict[str, Any]:
+        """What hands did, and what came of it."""
+        if self.hands is None or self.pushed is None:
+            return {}
+        told = self.hands.summary()
+        for row, found in zip(told["pushes"], self.pushed.accelerations(self._pushes()), strict=True):
+            row |= {name: round(value, 3) for name, value in found.items()}
+        return {
+            "push": {
+                "impulse_Ns": round(self.scene.push.strength, 4),
+                "dv_m_s": round(self.scene.push.strength / self.body.mass, 4),
+                "direction": direction_name(self.scene.push, self.seed),
+                "step_changes_m": [round(change, 4) for change in self._changes()],
+                **told,
+            }
+        }
 
     def _final_error(self) -> tuple[float, float]:
         """Distance in m and heading error in degrees of the true torso from the end of the walk's goal.

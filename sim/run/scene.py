@@ -143,32 +143,52 @@ class Walk(Settings):
 
 
 class Push(Settings):
-    """Pushes on the base: one in a step, or several while the robot stands.
+    """Pushes on the base: one in a step, one in each of several steps, or several while the robot stands.
 
     Attributes:
         dv: Velocity in m/s that the push gives to a body that nothing holds: its impulse is that times the robot's
             mass; 0 pushes nobody.
         impulse: Impulse in N s, for every robot the same, instead of `dv`; 0 goes by `dv`.
         duration: Duration in s.
-        direction: Direction in the robot's frame, or "seeded": the seed chooses.
+        by: What pushes: a "force" on the torso that comes from nowhere, or "hands" that press on the skin of the upper
+            body, which is then felt (`sensing.body_skin`).
+        direction: Direction in the robot's frame; "angle" takes `angle`, "step" goes along the step that it falls into,
+            and with "seeded" the seed chooses.
+        angle: Direction in degrees from forward to the left, where `direction` says so.
         step: Step in whose single support it comes; -1 lets the seed choose.
         phase: Share of the single support at which it begins.
+        cycle: Share of the stride, from the begin of that single support to the begin of the next one of the same foot,
+            at which it begins instead; -1 goes by `phase`. Of pushes by hands.
+        repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
+        small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
+        small_before: So many steps earlier.
         count: Number of pushes on a robot that stands; 0 pushes once, in a step.
         interval: Time in s from one such push to the next.
         sideways: Strength of a push to the side, as a share of one forward; in between along an ellipse.
         height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
+        place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
+        verdict: What the judge asks for beside a completed walk: "steps", that small pushes change no step and others
+            do; "acceleration", that the CoM is accelerated as a force at that height has to. Of pushes by hands.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)
     impulse: float = number(0.0, "N s", 0, 1000)
     duration: float = number(0.1, "s", 0.001, 10)
-    direction: str = choice("seeded", "forward", "backward", "left", "right")
+    by: str = choice("force", "hands")
+    direction: str = choice("seeded", "forward", "backward", "left", "right", "angle", "step")
+    angle: float = number(0.0, "deg", -360, 360)
     step: int = whole(-1, "step", -1, 100000)
     phase: float = number(0.5, "1", 0, 1)
+    cycle: float = number(-1.0, "1", -1, 1)
+    repeat: int = whole(1, "steps", 1, 100000)
+    small: float = number(0.0, "1", 0, 1)
+    small_before: int = whole(4, "steps", 1, 1000)
     count: int = whole(0, "pushes", 0, 1000)
     interval: float = number(4.0, "s", 0.1, 60)
     sideways: float = number(1.0, "1", 0, 1)
     height: float = number(0.0, "m", -1, 1)
+    place: str = choice("height", "com", "hip", "shoulder")
+    verdict: str = choice("walk", "steps", "acceleration")
 
     @property
     def strength(self) -> float:
