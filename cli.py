@@ -123,6 +123,9 @@ def analyze(
     ] = None,
     rate: Annotated[float | None, Option(help="Frames a second, instead of the file's.")] = None,
     side: Annotated[str | None, Option(help="Which foot a file of one foot holds: left or right.")] = None,
+    insole_size: Annotated[
+        str | None, Option(help="Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw.")
+    ] = None,
     mm_per_pixel: Annotated[float | None, Option(help="Footprint images: size of a pixel in mm.")] = None,
     output: Output = Path("out/analysis"),
     as_json: Json = False,
@@ -150,7 +153,7 @@ def analyze(
         raise InputError("give either one recording or --compare A B: plantar analyze walk.asc")
     if side not in (None, "left", "right"):
         raise InputError(f"--side is '{side}'; allowed: left, right")
-    options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side))
+    options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
     with progress_bar() as tell:
         if compare is not None:
             from gait.analysis.compare import compare_recordings

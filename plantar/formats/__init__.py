@@ -122,6 +122,8 @@ def read_recording(
         raise InputError(f"unknown unit {known.unit!r}; allowed: kPa, N/cm2, mmHg, psi, N, kg, raw and their like")
     if known.rate_hz is not None and not RATES[0] <= known.rate_hz <= RATES[1]:
         raise InputError(f"a rate of {known.rate_hz} Hz is not possible; allowed: {RATES[0]:g} to {RATES[1]:g}")
+    if known.insole_size is not None:
+        known = replace(known, insole_size=_insole_size(known.insole_size, chosen.name))
     if chosen.read is None:
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
@@ -140,3 +142,18 @@ def read_recording(
             f"{path}: not a file that can be read as {chosen.name} ({type(error).__name__}: {text})"
         ) from error
     return replace(recording, warnings=tuple(dict.fromkeys([*recording.warnings, *doubts(recording)])))
+
+
+def _insole_size(size: str, format: str) -> str:
+    """A size of insole in lower case, refused where it says nothing.
+
+    Raises:
+        InputError: If the format has no such sizes, or none of this name.
+    """
+    from plantar.formats.nominal_insole import CELL_AREAS
+
+    if format != "pedar":
+        raise InputError(f"--insole-size is for pedar recordings; the file is {format}")
+    if size.lower() not in CELL_AREAS:
+        raise InputError(f"unknown insole size {size!r}; allowed: {', '.join(CELL_AREAS)}")
+    return size.lower()

@@ -21,12 +21,14 @@ class ReadOptions:
         unit: Unit of the values, for example "kPa", "N" or "raw"; see `plantar.formats.units`.
         rate_hz: Frames a second.
         side: Which foot the file holds, where it holds one.
+        insole_size: Size of a pedar insole, for example "x" or "vw"; see `plantar.formats.nominal_insole`.
     """
 
     layout: SoleLayout | None = None
     unit: str | None = None
     rate_hz: float | None = None
     side: Side | None = None
+    insole_size: str | None = None
 
 
 @dataclass(frozen=True)

@@ -3,33 +3,84 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.layouts.layout import DEFAULT_RANGES, Side, SoleLayout, mirrored
 
-__all__ = ["CELL_AREA", "DEFAULT_SIZE", "ROWS", "insole_outline", "nominal_insole"]
+__all__ = ["CELL_AREAS", "DEFAULT_SIZE", "ROWS", "WIDE_ROWS", "insole_outline", "nominal_insole"]
 
 ROWS: tuple[int, ...] = (5, *(7,) * 12, 6, 4)
-"""Cells in each row, heel to toe; in a row they are counted from the medial to the lateral edge."""
+"""Cells in each row of a regular insole, heel to toe; in a row they are counted from the medial to the lateral edge."""
 
-CELL_AREA: Mapping[str, float] = {
-    "u": 127e-6,
-    "v": 141e-6,
-    "w": 157e-6,
-    "x": 174e-6,
-    "y": 193e-6,
-    "z": 217e-6,
-    "uw": 143e-6,
-    "vw": 161e-6,
-    "xw": 198e-6,
+WIDE_ROWS: tuple[int, ...] = (5, *(7,) * 12, 5, 5)
+"""The same of a wide insole, whose published areas are those of two rows of five, large cells at the edges of one."""
+
+_PUBLISHED: Mapping[str, str] = {
+    "u": """
+        126 129 129 129 129 126 126 125 126 126 126 126 129 129 129 129 129 129 129 126 126 127 126 126 126 127 127 127
+        128 127 127 127 127 131 130 131 130 131 131 130 126 126 125 126 126 126 126 126 126 125 126 126 126 126 129 129
+        129 129 129 129 128 127 127 128 127 127 127 127 129 129 130 129 129 129 129 128 127 128 127 128 127 128 126 126
+        126 126 126 125 126 123 122 123 123 123 123 126 126 127 127
+    """,
+    "v": """
+        139 143 143 142 143 139 139 139 139 139 139 139 143 143 143 143 143 143 143 139 139 139 139 139 139 139 141 141
+        141 141 141 141 141 144 144 144 144 144 144 144 139 139 139 139 139 139 139 140 140 140 140 140 140 140 143 143
+        143 143 143 143 143 140 140 140 140 140 140 140 144 144 144 144 144 144 144 141 141 141 141 141 141 141 139 139
+        139 139 139 139 139 136 136 136 136 136 136 140 140 141 140
+    """,
+    "w": """
+        155 160 159 159 159 155 155 155 155 156 155 155 158 160 158 158 160 158 160 155 156 155 155 156 154 156 158 159
+        158 159 158 158 158 160 161 160 161 160 161 160 155 155 155 155 155 155 155 157 157 156 157 157 157 157 158 159
+        158 159 159 159 159 156 157 158 157 157 157 157 160 159 160 160 159 160 159 159 158 158 158 158 158 158 155 155
+        155 155 155 155 155 151 152 151 151 151 151 156 156 157 156
+    """,
+    "x": """
+        172 176 176 176 176 172 172 172 172 172 172 172 176 176 176 176 176 176 176 172 172 172 172 172 172 172 175 175
+        175 175 175 175 175 178 178 178 178 178 178 178 172 172 172 172 172 172 172 173 173 173 173 173 173 173 176 176
+        176 176 176 176 176 173 173 173 173 173 173 173 178 178 178 178 178 178 178 174 174 174 174 174 174 174 171 171
+        171 171 171 171 171 168 168 168 168 168 168 173 173 174 174
+    """,
+    "y": """
+        192 195 197 197 196 191 191 191 191 191 192 191 196 196 196 196 196 197 195 192 190 189 192 191 191 189 195 193
+        194 195 194 195 193 197 197 197 197 197 199 196 191 191 190 191 191 191 190 192 192 192 192 191 192 192 196 196
+        196 196 196 196 196 191 193 192 191 193 192 192 197 198 197 197 197 197 198 195 194 194 194 193 194 194 191 190
+        191 190 191 190 190 187 186 187 186 187 186 192 191 193 192
+    """,
+    "uw": """
+        114 101 107 101 114 103 115 114 115 114 113 105 121 123 122 122 122 121 123 127 129 128 127 128 128 128 135 136
+        136 135 136 137 135 141 142 141 142 141 143 141 149 150 149 150 149 150 148 155 155 156 155 155 156 154 156 159
+        162 162 164 167 167 160 164 165 168 171 173 174 163 166 167 170 170 173 176 158 160 162 164 165 170 170 137 147
+        148 150 151 154 155 210 132 133 135 248 67 98 110 108 104
+    """,
+    "vw": """
+        128 113 120 113 128 117 129 127 128 129 127 117 136 137 136 136 137 136 136 144 144 143 144 144 143 144 152 153
+        151 152 153 151 152 158 159 158 158 159 158 158 168 168 167 168 168 167 168 175 176 174 175 176 174 175 188 186
+        183 181 180 177 175 196 193 191 189 187 184 181 197 195 193 190 187 185 183 190 189 186 183 182 181 177 175 172
+        170 169 167 165 153 276 152 149 147 235 116 122 124 109 76
+    """,
+    "xw": """
+        158 140 149 140 158 145 158 158 159 158 158 145 170 168 169 169 169 168 170 179 177 179 178 179 177 179 188 187
+        188 187 188 187 188 196 196 196 195 196 196 196 207 206 206 207 206 206 207 217 215 216 216 216 215 217 233 229
+        229 225 222 218 218 242 238 235 233 230 226 224 242 240 238 235 232 229 226 235 234 230 227 224 222 218 216 213
+        210 208 206 205 189 343 186 185 182 290 144 149 154 134 93
+    """,
 }
-"""Mean area of a cell in m^2 by insole size (the wide sizes end in w), after the sensor areas that the R package
-pressuRe (S. Telfer, MIT) lists; the cells of one regular insole differ by 2 %."""
+"""Area of each cell 1 to 99 in mm^2 by insole size, as the R package pressuRe (S. Telfer, MIT) publishes them."""
+
+CELL_AREAS: Mapping[str, NDArray[np.float64]] = {
+    **{size: 1e-6 * np.array(text.split(), dtype=float) for size, text in _PUBLISHED.items()},
+    "z": np.full(99, 217e-6),  # no list of its cells is published: those of one regular insole differ by 2 %
+}
+"""Area (99,) of each cell in m^2 by insole size; the wide sizes end in w, and their cells differ by up to 4 times."""
 
 DEFAULT_SIZE = "x"
 """The size that is assumed where the file names none."""
+
+_CORNER = 0.02
+"""Least share of a row that cells of two rows have in common to be neighbours: their areas are rounded to mm^2."""
 
 _STATIONS = np.array([0.0, 0.04, 0.12, 0.22, 0.35, 0.48, 0.62, 0.72, 0.82, 0.91, 0.97, 1.0])
 _WIDTH = np.array([0.130, 0.185, 0.225, 0.240, 0.235, 0.240, 0.285, 0.310, 0.300, 0.250, 0.170, 0.110])
@@ -51,14 +102,14 @@ def insole_outline(length: float) -> NDArray[np.float64]:
 
 
 def nominal_insole(size: str, side: Side) -> SoleLayout:
-    """A parametric insole of 99 quadrilateral cells whose mean area is that of the size.
+    """A parametric insole of 99 quadrilateral cells with the areas that are published for the size.
 
-    The outline is a smooth insole shape (width and midline as fractions of its length); each row's height makes its
-    area proportional to its cells, and a row is cut into cells of equal width. The length follows from the area. The
-    origin lies in the middle of the heel edge; x runs to the toe.
+    The outline is a smooth insole shape (width and midline as fractions of its length); each row's height is
+    proportional to the area of its cells, and a row is cut into cells as wide as their areas ask for.
+    Its length follows from the whole area. The origin lies in the middle of the heel edge; x runs to the toe.
 
     Args:
-        size: A key of `CELL_AREA`.
+        size: A key of `CELL_AREAS`.
         side: "left" or "right".
 
     Returns:
@@ -72,7 +123,10 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
     fine = np.linspace(0.0, 1.0, 2001)
     width = np.interp(fine, _STATIONS, _WIDTH)
     swept = np.concatenate([[0.0], np.cumsum(0.5 * (width[1:] + width[:-1]) * np.diff(fine))])
-    stations = np.interp(np.concatenate([[0], np.cumsum(ROWS)]) / sum(ROWS), swept / swept[-1], fine)
+    areas = CELL_AREAS[size]
+    rows = np.split(areas, np.cumsum(WIDE_ROWS if size.endswith("w") and len(size) > 1 else ROWS)[:-1])
+    share = np.concatenate([[0.0], np.cumsum([row.sum() for row in rows])]) / areas.sum()
+    stations = np.interp(share, swept / swept[-1], fine)
     half = 0.5 * np.interp(stations, _STATIONS, _WIDTH)
     centre = np.interp(stations, _STATIONS, _CENTRE)
     medial, lateral = centre + half, centre - half  # in units of the length, y towards the medial edge
@@ -91,15 +145,14 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
 
     corners: list[tuple[int, ...]] = []
     spans: list[tuple[int, float, float]] = []
-    for row, cells in enumerate(ROWS):
-        for j in range(cells):
-            a, b = j / cells, (j + 1) / cells
+    for row, cells in enumerate(rows):
+        ends = np.concatenate([[0.0], np.cumsum(cells)]) / cells.sum()
+        for a, b in pairwise(ends.tolist()):
             # counter-clockwise with y to the medial side: lateral heel, lateral toe, medial toe, medial heel
             corners.append((vertex(row, b), vertex(row + 1, b), vertex(row + 1, a), vertex(row, a)))
             spans.append((row, a, b))
     unit = np.array(points)
-    areas = np.array([_area(unit[list(c)]) for c in corners])
-    scale = float(np.sqrt(CELL_AREA[size] * len(corners) / areas.sum()))
+    scale = float(np.sqrt(areas.sum() / sum(_area(unit[list(c)]) for c in corners)))
     vertices = np.column_stack([unit * scale, np.zeros(len(unit))])
     edge = np.concatenate([np.column_stack([stations, lateral]), np.column_stack([stations, medial])[::-1]])
     positions = np.array([_centroid(vertices[list(c), :2]) for c in corners])
@@ -112,14 +165,14 @@ def nominal_insole(size: str, side: Side) -> SoleLayout:
         vertices=vertices,
         corners=tuple(corners),
         neighbours=_neighbours(spans),
-        areas=areas * scale**2,
+        areas=areas.copy(),
         outline=edge * scale,
         ids=np.arange(1, n + 1),
         cell_shape="polygon",
-        cell_area=CELL_AREA[size],
+        cell_area=float(areas.mean()),
         modalities=("force",),
         ranges={"force": DEFAULT_RANGES["force"]},
-        thresholds={"force": 10e3 * CELL_AREA[size]},  # 10 kPa: below what such insoles resolve
+        thresholds={"force": 10e3 * float(areas.mean())},  # 10 kPa: below what such insoles resolve
     )
     return right if side == "right" else mirrored(right)
 
@@ -141,6 +194,6 @@ def _neighbours(spans: list[tuple[int, float, float]]) -> tuple[tuple[int, ...],
     def touch(p: tuple[int, float, float], q: tuple[int, float, float]) -> bool:
         if p[0] == q[0]:
             return abs(p[1] - q[2]) < 1e-9 or abs(p[2] - q[1]) < 1e-9
-        return abs(p[0] - q[0]) == 1 and min(p[2], q[2]) - max(p[1], q[1]) > 1e-9
+        return abs(p[0] - q[0]) == 1 and min(p[2], q[2]) - max(p[1], q[1]) > _CORNER
 
     return tuple(tuple(j for j, q in enumerate(spans) if j != i and touch(p, q)) for i, p in enumerate(spans))

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
-from plantar.formats.nominal_insole import CELL_AREA, DEFAULT_SIZE, nominal_insole
+from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
 from plantar.formats.text import blocks_of_lines, open_text
@@ -70,7 +70,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     geometry = corner_table(tail, len(columns), warnings) if layout is None else None
     feet: dict[Side, FootRecording] = {}
     for (side, span), values in zip(sides, rows.values, strict=True):
-        sole = _layout(path, side, columns[span.start : span.stop], layout, geometry, text, warnings)
+        sole = _layout(
+            path, side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size
+        )
         if unit.kind == "pressure":
             values *= unit.factor * sole.areas
         feet[side] = FootRecording(side, values, sole)
@@ -316,6 +318,7 @@ def _layout(
     geometry: NDArray[np.float64] | None,
     text: str,
     warnings: list[str],
+    insole_size: str | None = None,
 ) -> SoleLayout:
     """The layout of one foot, its taxels in the order of the columns."""
     if given is not None:
@@ -336,15 +339,28 @@ def _layout(
             f"{path}: its {len(cells)} cells are not those of a 99-cell insole, and the file holds no geometry; "
             "give one with --layout"
         )
-    size = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?=[-\s\d])") or "").lower()
-    assumed = "" if size in CELL_AREA else " (assumed: the file names no known size)"
-    size = size if size in CELL_AREA else DEFAULT_SIZE
+    size, assumed = _size(text, insole_size)
     warnings.append(
         f"the file holds no cell geometry: a nominal 99-cell insole of size {size.upper()}{assumed}, "
-        f"{CELL_AREA[size] * 1e6:.0f} mm2 a cell, is used; forces, areas and CoP rest on it (--layout overrides)"
+        f"{CELL_AREAS[size].mean() * 1e6:.0f} mm2 a cell, is used; forces, areas and CoP rest on it "
+        "(--layout overrides)"
     )
     sole = nominal_insole(size, side)
     return sole if len(cells) == 99 else subset(sole, _order(sole, cells))
+
+
+def _size(text: str, given: str | None) -> tuple[str, str]:
+    """The insole's size: the user's word, else the letters that begin the sensor type; and what to say of it."""
+    if given is not None:
+        return given, " (--insole-size)"
+    stated = (_field(text, r"sensor\s+type:?[ \t]*([a-z]{1,2})(?![a-z])") or "").lower()
+    if stated in CELL_AREAS:
+        return stated, ""
+    sizes, used = [float(areas.mean()) for areas in CELL_AREAS.values()], float(CELL_AREAS[DEFAULT_SIZE].mean())
+    return DEFAULT_SIZE, (
+        f" (assumed, the file names no known size: by the true one of {', '.join(CELL_AREAS)}, forces may be "
+        f"{min(sizes) / used:.2f} to {max(sizes) / used:.2f} times these; say it by --insole-size)"
+    )
 
 
 def _order(sole: SoleLayout, cells: list[int]) -> list[int]:

@@ -7,17 +7,27 @@ import itertools
 import numpy as np
 import pytest
 
-from plantar.formats.nominal_insole import CELL_AREA, ROWS, nominal_insole
-from plantar.geometry.polygon import signed_margin
+from plantar.formats.nominal_insole import CELL_AREAS, ROWS, WIDE_ROWS, nominal_insole
+from plantar.geometry.polygon import area, signed_margin
 
 
-@pytest.mark.parametrize("size", sorted(CELL_AREA))
+@pytest.mark.parametrize("size", sorted(CELL_AREAS))
 def test_areas_tile_the_outline(size: str) -> None:
     layout = nominal_insole(size, "left")
     assert len(layout) == sum(ROWS) == 99
     assert layout.areas.sum() == pytest.approx(layout.sole_area)
-    assert layout.areas.mean() == pytest.approx(CELL_AREA[size])
-    assert layout.areas.std() / layout.areas.mean() < 0.02
+    assert layout.areas == pytest.approx(CELL_AREAS[size])
+    drawn = [area(layout.cell_polygon(i)) for i in range(99)]
+    assert drawn == pytest.approx(layout.areas.tolist(), rel=0.12)  # cells in a row are trapezoids beside each other
+    if len(size) == 1:
+        assert layout.areas.std() / layout.areas.mean() < 0.02
+
+
+def test_rows_of_a_wide_insole_end_in_two_of_five() -> None:
+    assert sum(WIDE_ROWS) == 99
+    layout = nominal_insole("xw", "left")
+    assert len({round(float(x), 6) for x in layout.positions[-5:, 0]}) <= 5
+    assert layout.positions[-5:, 0].min() > layout.positions[-10:-5, 0].max()
 
 
 def test_numbering_runs_heel_to_toe_and_medial_to_lateral() -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plantar import FormatError, PlantarError, write_layout
-from plantar.formats import detect_format, read_recording
-from plantar.formats.nominal_insole import CELL_AREA, nominal_insole
+from plantar import FormatError, InputError, PlantarError, write_layout
+from plantar.formats import ReadOptions, detect_format, read_recording
+from plantar.formats.nominal_insole import CELL_AREAS, nominal_insole
 from plantar.formats.polygon_layout import polygon_layout
 
 
@@ -80,7 +80,7 @@ def test_two_insoles(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -
         layout = recording.feet[side].layout  # type: ignore[index]
         assert layout is not None
         assert layout.side == side
-        assert layout.areas.mean() == pytest.approx(193e-6)
+        assert layout.areas.mean() == pytest.approx(193e-6, rel=1e-3)
         assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)  # type: ignore[index]
     assert any("nominal 99-cell insole of size Y" in w for w in recording.warnings)
 
@@ -166,13 +166,37 @@ def test_masked_cells_keep_their_places(tmp_path: Path, pressures: tuple[np.ndar
     assert left.layout.positions == pytest.approx(whole.positions[[c - 1 for c in cells]])
 
 
-@pytest.mark.parametrize("size", sorted(CELL_AREA))
-def test_the_size_is_taken_from_the_sensor(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], size: str) -> None:
+@pytest.mark.parametrize("after", ["-12l-12r", "_v-1865l-1870r-pxf306", " 12", "_V2"])
+@pytest.mark.parametrize("size", sorted(CELL_AREAS))
+def test_the_size_is_taken_from_the_sensor(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], size: str, after: str
+) -> None:
+    """Whatever follows the letters of the size; the force is that of each cell's own area."""
     path = tmp_path / "walk.asc"
-    export(path, *pressures, sensor=f"{size.upper()}-12l-12r")
-    layout = read_recording(path).feet["right"].layout
-    assert layout is not None
-    assert layout.areas.mean() == pytest.approx(CELL_AREA[size])
+    export(path, *pressures, sensor=size.upper() + after)
+    recording = read_recording(path)
+    right = recording.feet["right"]
+    assert right.layout is not None
+    assert right.layout.areas == pytest.approx(CELL_AREAS[size])
+    assert right.vertical_force == pytest.approx(pressures[1] @ CELL_AREAS[size] * 1e3)
+    assert not any("assumed" in w for w in recording.warnings)
+
+
+def test_a_size_that_is_not_known_is_said_with_what_it_may_cost(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]
+) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, sensor="custom-12l-12r")
+    (warning,) = (w for w in read_recording(path).warnings if "nominal" in w)
+    assert "forces may be 0.73 to 1.25 times these" in warning
+    given = read_recording(path, options=ReadOptions(insole_size="UW"))
+    assert given.feet["left"].vertical_force == pytest.approx(pressures[0] @ CELL_AREAS["uw"] * 1e3)
+    with pytest.raises(InputError, match="unknown insole size 'q'; allowed: u, v, w"):
+        read_recording(path, options=ReadOptions(insole_size="q"))
+    table = tmp_path / "table.csv"
+    table.write_text("time,left_1 [N],left_2 [N]\n" + "".join(f"{i / 100},1,{i}\n" for i in range(9)))
+    with pytest.raises(InputError, match="--insole-size is for pedar recordings"):
+        read_recording(table, options=ReadOptions(insole_size="x"))
 
 
 def test_truncated_last_row_is_dropped_and_said(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
