@@ -24,6 +24,7 @@ from gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_o
 from gait.analysis.parameters import analyse_feet
 from gait.analysis.prints.platform import told_apart
 from gait.analysis.spread import Spread
+from gait.analysis.steps.baseline import without_baselines
 from gait.analysis.steps.foot_gait import FootGait
 from gait.analysis.steps.force_curve import landing_impact
 from plantar.atomic import output_folder
@@ -137,6 +138,7 @@ def analyse(
     """
     tell = progress or (lambda fraction, text: None)
     recording, prints = told_apart(read_recording(path, format, options=options))
+    recording = without_baselines(recording)
     tell(0.3, "finding steps")
     feet = analyse_feet(recording, prints)
     tell(0.5, "drawing")

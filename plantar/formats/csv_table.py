@@ -20,6 +20,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.side import side_of
+from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides, with_numbers
 from plantar.formats.text import blocks_of_lines, encoding_of, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
@@ -53,8 +54,13 @@ def _recognises(head: bytes) -> bool:
         return False
     delimiter = _delimiter(lines)
     rows = [x.split(delimiter) for x in lines[:50]]
-    good = [len(r) >= 3 and sum(number(c) is not None or not c.strip() for c in r) >= 0.9 * len(r) for r in rows]
+    good = [len(r) >= 3 and sum(_is_cell(c) for c in r) >= 0.9 * len(r) for r in rows]
     return sum(good) >= 0.9 * len(good)
+
+
+def _is_cell(text: str) -> bool:
+    """Whether a cell of a table holds a number, nothing, or the name of a foot."""
+    return number(text) is not None or not text.strip() or (len(text) < 12 and side_of(text.strip(' "')) is not None)
 
 
 def _delimiter(lines: list[str]) -> str | None:
@@ -78,7 +84,10 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         delimiter = _delimiter(head[1:])
         first = [c.strip().strip('"')[:_LONGEST_NAME] for c in head[0].split(delimiter)]
         named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
-        lines = chain(head[1:] if named else head, _content(stream, comments))
+        lines: Iterator[str] = chain(head[1:] if named else head, _content(stream, comments))
+        of_side = next((i for i, n in enumerate(first) if named and is_side_column(n)), None)
+        if of_side is not None:
+            lines = with_numbers(lines, delimiter, of_side)
         table = _table(path, lines, delimiter, len(first), warnings)
     facts = _facts(comments)
     names = first if named else []
@@ -88,6 +97,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     if at is None and (not named or not names[0]):
         column = table[:, 0]
         at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
+    if of_side is not None:
+        table, names = _side_by_side(table, names, at, of_side, warnings)
+        at = None if at is None else 0
     time, rate, notes = _times(table, names, at, facts, options, warnings)
     cells = [i for i in range(table.shape[1]) if i != at]
     feet = _feet(table, names, cells, facts, options, warnings)
@@ -104,6 +116,25 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         warnings=(*warnings, *notes),
         raw=raw,
     )
+
+
+def _side_by_side(
+    table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
+) -> tuple[NDArray[np.float64], list[str]]:
+    """A table of both feet in columns, from one whose rows are of either foot; the times come first where it has
+    them."""
+    rows = rows_of_sides(table[:, of_side], warnings)
+    cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
+    time = np.arange(len(table), dtype=float) if at is None else table[:, at]
+    if at is None:
+        for own in rows.values():
+            time[own] = np.arange(len(own))
+    time, feet, moved = on_one_time(time, rows, [table[:, i] for i in cells])
+    if moved:
+        warnings.append("the feet's rows have other times: the right foot's values are interpolated at the left one's")
+    head = [] if at is None else [names[at]]
+    found = [*head, *(f"{side} {names[i]}" for side in feet for i in cells)]
+    return np.column_stack([*([] if at is None else [time]), *feet.values()]), found
 
 
 def _facts(comments: list[str]) -> dict[str, str]:

@@ -30,6 +30,7 @@ __all__ = [
     "Levels",
     "find_contacts",
     "force_levels",
+    "smoothed",
 ]
 
 
@@ -131,8 +132,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
     measured = force[np.isfinite(force)]
     if len(measured) < 3:
         return None
-    # The middle one of five frames: a single damaged frame is not a peak.
-    smooth = np.median(np.lib.stride_tricks.sliding_window_view(np.pad(measured, 2, mode="edge"), 5), axis=1)
+    smooth = smoothed(measured)
     peak = _peak_above_noise(measured, smooth)
     if peak is None:
         return None
@@ -149,6 +149,11 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
         noise=noise,
         lift=rest + max(share.lift * span, _NOISE_RELEASE * noise),
     )
+
+
+def smoothed(force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The middle one of five frames of a force (n,): a single damaged frame is not a peak."""
+    return np.asarray(np.median(np.lib.stride_tricks.sliding_window_view(np.pad(force, 2, mode="edge"), 5), axis=1))
 
 
 def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]) -> float | None:

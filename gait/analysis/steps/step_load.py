@@ -80,6 +80,8 @@ def cell_threshold(
 ) -> NDArray[np.float64]:
     """Force above which each cell counts as loaded: its layout's threshold, and 3 standard deviations of its noise.
 
+    A cell that reads something in most frames of swing, such as one that a shoe presses on, counts above that reading.
+
     Args:
         recording: The recording.
         foot: One foot of it, n frames of k cells.
@@ -99,4 +101,5 @@ def cell_threshold(
     if len(steps) < 20:
         return np.full(k, base)
     noise = np.median(steps, axis=0) / (0.6745 * np.sqrt(2.0))
-    return np.asarray(np.maximum(base, 3.0 * noise))
+    rest = np.nan_to_num(np.nanmedian(foot.measured[pairs], axis=0))
+    return np.asarray(np.maximum(base, 3.0 * noise + np.where(rest > base, rest, 0.0)))

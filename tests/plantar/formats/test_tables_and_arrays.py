@@ -242,3 +242,28 @@ def test_damage(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
     np.savez_compressed(tmp_path / "walk.npz", time=np.arange(50) * 0.02, left=values, unit="kPa")
     survive_corruption(tmp_path / "walk.npz", options=options, trials=60)
     write_layout(layout, tmp_path / "layout.json")
+
+
+@pytest.mark.parametrize("words", [("left", "right"), ("L", "R"), ("0", "1"), ("1", "2")])
+@pytest.mark.parametrize("shift", [0.0, 0.004])
+def test_a_table_with_a_column_of_sides_is_two_feet(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray, words: tuple[str, str], shift: float
+) -> None:
+    """Rows of both feet in turn; with a shift, the right foot is measured between the left one's times."""
+    path = tmp_path / "soles.csv"
+    rows = ["time [s],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
+    smooth = np.cumsum(values, axis=0)
+    for k in range(50):
+        rows.append(f"{k / 100},{words[0]}," + ",".join(f"{v:.6g}" for v in smooth[k]))
+        rows.append(f"{k / 100 + shift},{words[1]}," + ",".join(f"{2.0 * v:.6g}" for v in smooth[k]))
+    path.write_text("\n".join(rows) + "\n")
+    assert detect_format(path).name == "csv"
+    recording = read_recording(path, layout=layout)
+    assert list(recording.feet) == ["left", "right"]
+    assert recording.rate_hz == pytest.approx(100.0)
+    assert recording.feet["left"].force == pytest.approx(smooth[-len(recording.time) :], rel=1e-4)
+    at = np.arange(50) / 100 + shift
+    truth = np.column_stack([np.interp(recording.time, at, 2.0 * column) for column in smooth.T])
+    assert recording.feet["right"].force == pytest.approx(truth, rel=1e-4)
+    assert any("interpolated" in w for w in recording.warnings) == (shift > 0.0)
+    assert any("smaller is taken as the left" in w for w in recording.warnings) == (words == ("1", "2"))

@@ -1,0 +1,242 @@
+"""What sensors read while the foot is in the air: offsets of a foot, and cells that a crease or a shoe keeps loaded.
+
+In swing nothing rests on a sole, yet capacitive cells have offsets that drift, a film in a shoe has creases, and
+single cells stick. A walk shows them: its force returns to the same flat level, for about half a second, again and
+again. Standing does not, whose force wanders about its mean. Only what is found so is taken off, and it is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.analysis.steps.events import MINIMUM_SWING, smoothed
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+__all__ = ["RestingLevel", "resting_level", "without_baselines"]
+
+OFFSET = 0.10
+"""A level in swing of more than so much of the walk's range of force is an offset; shoes press less on their
+insoles."""
+
+HOT = 0.5
+"""A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
+
+_WINDOWS = (12.0, 6.0)
+"""Lengths in s of the stretches in which the level in swing is looked for, ten strides or five where it drifts
+quickly."""
+
+_FLAT = 0.06
+"""Range of a level in swing, as a share of the range of force."""
+
+_LONGEST_SWING = 1.5
+"""Longest time in s at one level that is a swing and not standing on the other foot."""
+
+_SHARE = (0.15, 0.8)
+"""Share of a walk's time in which a foot is at its level in swing."""
+
+_ABOVE, _SPARSE = 0.30, 0.7
+"""A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
+a sine, as when weight is shifted from foot to foot, 1.3 times as much."""
+
+_FRAMES = 4000
+"""Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestingLevel:
+    """What a foot's force is in swing.
+
+    Attributes:
+        level: Its level (n,) in each frame, in the force's unit.
+        swing: Frames (n,) in which the foot is at that level for longer than `MINIMUM_SWING`.
+        span: Range of the force above the level.
+    """
+
+    level: NDArray[np.float64]
+    swing: NDArray[np.bool_]
+    span: float
+
+
+def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
+    """The level to which a walking foot's force returns, whatever the sensor's offset.
+
+    Args:
+        force: Vertical force (n,), NaN where it was not measured.
+        rate: Frames a second.
+
+    Returns:
+        The level; None where the force returns to no flat level, as in standing.
+
+    Example:
+        >>> time = np.arange(0.0, 12.0, 0.01)
+        >>> walk = 300.0 + 800.0 * np.clip(np.sin(2.0 * np.pi * time), 0.0, None)
+        >>> float(resting_level(walk, 100.0).level[0]), resting_level(500.0 + 20.0 * np.sin(time), 100.0)
+        (300.0, None)
+    """
+    n = len(force)
+    tried = []
+    for window in _WINDOWS:
+        edges = np.linspace(0, n, max(1, int(n / rate / window)) + 1).astype(int)
+        found = [_level(force[a:b], rate) for a, b in pairwise(edges)]
+        tried.append((sum(part is not None for part in found) / len(found), edges, found))
+    _, edges, found = max(tried, key=lambda one: one[0])
+    known = [i for i, part in enumerate(found) if part is not None]
+    if not known:
+        return None
+    levels, spans, swing = [], [], np.zeros(n, dtype=bool)
+    for i in known:
+        part = found[i]
+        assert part is not None
+        levels.append(part[0])
+        spans.append(part[1])
+        swing[edges[i] : edges[i + 1]] = part[2]
+    middles = 0.5 * (edges[:-1] + edges[1:])[known]
+    return RestingLevel(np.interp(np.arange(n), middles, levels), swing, float(np.median(spans)))
+
+
+def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArray[np.bool_]] | None:
+    """Level in swing, range above it and frames (n,) in swing of one stretch; None where it is no walk."""
+    measured = np.isfinite(force)
+    if measured.sum() < 20:
+        return None
+    course = np.full(len(force), np.inf)
+    course[measured] = smoothed(force[measured])
+    low, high = (float(v) for v in np.percentile(course[measured], (3.0, 92.0)))
+    if not high > low:
+        return None
+    near = course <= low + _FLAT * (high - low)
+    above = measured & ~near & (course <= low + _ABOVE * (high - low))
+    if above.sum() > _SPARSE * near.sum():
+        return None
+    runs = [(a, b) for a, b in _runs(near) if b - a >= MINIMUM_SWING * rate]
+    inner = [(a, b) for a, b in runs if a > 0 and b < len(force)]
+    swing = np.zeros(len(force), dtype=bool)
+    for a, b in runs:
+        edge = (b - a) // 5  # the level is reached and left slowly
+        swing[a + edge : b - edge] = True
+    if len(inner) < 2 or max(b - a for a, b in inner) > _LONGEST_SWING * rate:
+        return None
+    if not _SHARE[0] <= sum(b - a for a, b in runs) / len(force) <= _SHARE[1]:
+        return None
+    level = float(np.median(force[swing & measured]))
+    return level, high - level, swing & measured
+
+
+def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First frame of each run of true values, and the frame after its last one."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def without_baselines(recording: PressureRecording) -> PressureRecording:
+    """The recording without the offsets of its feet and without what creases and stuck cells read in swing.
+
+    Args:
+        recording: The recording; that of a platform, on which nothing rests, stays as it is.
+
+    Returns:
+        The recording, with a warning for everything that was taken off.
+    """
+    if recording.kind == "platform":
+        return recording
+    feet, notes = dict(recording.feet), list(recording.warnings)
+    for side, foot in recording.feet.items():
+        rest = resting_level(foot.vertical_force, recording.rate_hz)
+        if rest is None:
+            continue
+        offset = float(np.median(rest.level))
+        if np.abs(rest.level).max() > OFFSET * rest.span:
+            feet[side] = _without_offset(foot, rest)
+            drift = float(np.ptp(rest.level))
+            unit = "counts" if recording.raw else "N"
+            moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""
+            notes.append(
+                f"the {side} foot's sensor reads {offset:.4g} {unit} in swing{moving}: what each cell reads there "
+                "is taken "
+                "off as its baseline (--baseline keep leaves it)"
+            )
+        else:
+            hot = _hot_cells(foot, rest)
+            if len(hot):
+                feet[side] = _without_hot(foot, rest, hot)
+                names = foot.layout.ids[hot] if foot.layout is not None else hot + 1
+                notes.append(
+                    f"{_cells(names.tolist())} of the {side} foot read in swing more than half of what they read "
+                    "under load "
+                    "(a crease, or a cell that sticks): what they read in swing is taken off (--baseline keep "
+                    "leaves it)"
+                )
+    return replace(recording, feet=feet, warnings=tuple(notes))
+
+
+def _cells(ids: Sequence[int]) -> str:
+    """Names of a few cells, or how many there are."""
+    if len(ids) > 8:
+        return f"{len(ids)} cells"
+    return f"cell{'s' if len(ids) > 1 else ''} {', '.join(str(i) for i in ids)}"
+
+
+def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """Frames of a mask, of very many every n-th."""
+    index = np.flatnonzero(mask)
+    return index[:: -(-len(index) // _FRAMES) or 1]
+
+
+def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Mean reading (k,) of each cell in some frames; 0 of one that measured nothing there."""
+    part = foot.force[frames]
+    known = np.isfinite(part)
+    return np.asarray(np.where(known, part, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
+
+
+def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
+    """The foot without what each cell reads in swing, which follows the level where that drifts."""
+    total = None if foot.total is None else foot.total - rest.level
+    if foot.force.shape[1] == 0:
+        return replace(foot, total=total)
+    n = len(rest.level)
+    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
+    stretches = np.unique(np.linspace(0, n, 1 + (max(1, n // max(1, _per_stretch(rest))) if drifts else 1)).astype(int))
+    middles, means = [], []
+    for a, b in pairwise(stretches.tolist()):
+        frames = a + _frames(rest.swing[a:b])
+        if len(frames):
+            middles.append(0.5 * (a + b))
+            means.append(_in_swing(foot, frames))
+    at, table, index = np.array(middles), np.array(means), np.arange(n)
+    force = np.empty_like(foot.force)
+    for cell in range(force.shape[1]):
+        force[:, cell] = foot.force[:, cell] - (
+            table[0, cell] if len(at) == 1 else np.interp(index, at, table[:, cell])
+        )
+    return replace(foot, force=force, total=total)
+
+
+def _per_stretch(rest: RestingLevel) -> int:
+    """Frames of a stretch in which there are several swings: as many as hold a tenth of all, 20 at the most."""
+    begins = np.flatnonzero(np.diff(rest.swing.astype(np.int8)) == 1)
+    return len(rest.swing) // min(20, max(1, len(begins) // 5))
+
+
+def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
+    """Cells (k,) that read in swing more than a share of what they read under load, and more than their threshold."""
+    if foot.force.shape[1] == 0:
+        return np.zeros(0, dtype=np.int64)
+    air = _in_swing(foot, _frames(rest.swing))
+    with np.errstate(invalid="ignore"):
+        under = foot.force[_frames(foot.vertical_force > rest.level + 0.3 * rest.span)]
+    load = np.percentile(np.where(np.isfinite(under), under, 0.0), 95.0, axis=0) if len(under) else np.zeros(len(air))
+    least = 0.002 * rest.span if foot.layout is None else foot.layout.force_threshold
+    return np.flatnonzero((air > HOT * load) & (air > max(least, 0.002 * rest.span)))
+
+
+def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
+    """The foot without what some cells read in swing."""
+    force = foot.force.copy()
+    force[:, hot] = np.maximum(force[:, hot] - _in_swing(foot, _frames(rest.swing))[hot], 0.0)
+    return replace(foot, force=force)
