@@ -127,6 +127,17 @@ def analyze(
         str | None, Option(help="Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw.")
     ] = None,
     mm_per_pixel: Annotated[float | None, Option(help="Footprint images: size of a pixel in mm.")] = None,
+    steps: Annotated[
+        str | None, Option(help="Steps of each foot in the means: 3-14, all, or steady (without start and stop).")
+    ] = None,
+    begin: Annotated[float | None, Option("--from", help="Time in s before which no step is in the means.")] = None,
+    end: Annotated[float | None, Option("--to", help="Time in s after which no step is in the means.")] = None,
+    baseline: Annotated[
+        str, Option(help="auto takes off what sensors read in swing where that is an offset; keep leaves it.")
+    ] = "auto",
+    events: Annotated[
+        str, Option(help="own finds heel strikes and toe offs in the force; vendor takes the file's.")
+    ] = "own",
     output: Output = Path("out/analysis"),
     as_json: Json = False,
 ) -> None:
@@ -154,18 +165,28 @@ def analyze(
     if side not in (None, "left", "right"):
         raise InputError(f"--side is '{side}'; allowed: left, right")
     options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
+    from gait.analysis.options import AnalysisOptions, steps_of_text
+
+    choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), cast(Any, events))
     with progress_bar() as tell:
         if compare is not None:
             from gait.analysis.compare import compare_recordings
 
             if mm_per_pixel is not None:
                 raise InputError("--mm-per-pixel is for footprint images; --compare takes recordings over time")
-            result = compare_recordings(*compare, output, format, layout, tell, options=options)
+            result = compare_recordings(*compare, output, format, layout, tell, options=options, choices=choices)
         else:
             from gait.analysis.analyse import analyse_recording
 
             result = analyse_recording(
-                cast(Path, recording), output, format, layout, tell, options=options, mm_per_pixel=mm_per_pixel
+                cast(Path, recording),
+                output,
+                format,
+                layout,
+                tell,
+                options=options,
+                mm_per_pixel=mm_per_pixel,
+                choices=choices,
             )
     parts = {"": result} if compare is None else {"A": result["a"], "B": result["b"]}
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
+from gait.analysis.options import AnalysisOptions
 from gait.analysis.pages.figure_files import write_figures
 from gait.analysis.pages.footprint_report import analyse_image
 from gait.analysis.pages.force_figures import figure_force, figure_steps, figure_symmetry, figure_wrench
@@ -21,11 +22,12 @@ from gait.analysis.pages.player import player_data
 from gait.analysis.pages.report import report_page
 from gait.analysis.pages.sole_figures import figure_pressure, figure_regions
 from gait.analysis.pages.summary import gait_of_feet, regions_of_foot, summary_of_foot, symmetry
+from gait.analysis.pages.tables import EACH_STEP
 from gait.analysis.parameters import analyse_feet
 from gait.analysis.prints.platform import told_apart
 from gait.analysis.spread import Spread
 from gait.analysis.steps.baseline import without_baselines
-from gait.analysis.steps.foot_gait import FootGait
+from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.force_curve import landing_impact
 from plantar.atomic import output_folder
 from plantar.errors import InputError
@@ -61,6 +63,7 @@ def analyse_recording(
     *,
     options: ReadOptions | None = None,
     mm_per_pixel: float | None = None,
+    choices: AnalysisOptions | None = None,
 ) -> dict[str, Any]:
     """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
@@ -72,6 +75,7 @@ def analyse_recording(
         progress: Called with a fraction 0..1 and what is being done.
         options: What else the user knows about the file.
         mm_per_pixel: Size of an image's pixel in mm.
+        choices: Which steps are in the means, and whose events; a recording's only.
 
     Returns:
         What metrics.json holds, and "files": the paths written.
@@ -91,7 +95,7 @@ def analyse_recording(
         if image:
             metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side)
         else:
-            analysis = analyse(path, format, known, tell)
+            analysis = analyse(path, format, known, tell, choices)
             metrics = dict(analysis.metrics)
             write_analysis(analysis, folder, lambda fraction, text: tell(0.5 + 0.5 * fraction, text))
         names = sorted(p.name for p in folder.iterdir())
@@ -121,6 +125,7 @@ def analyse(
     format: str | None = None,
     options: ReadOptions | None = None,
     progress: Callable[[float, str], None] | None = None,
+    choices: AnalysisOptions | None = None,
 ) -> Analysis:
     """Read a recording and measure it; nothing is written.
 
@@ -129,6 +134,7 @@ def analyse(
         format: Name of the file's format; recognised from its content where None.
         options: What the user knows about the file.
         progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
+        choices: Which steps are in the means, and whose events.
 
     Returns:
         The recording, its feet and their measures.
@@ -138,9 +144,11 @@ def analyse(
     """
     tell = progress or (lambda fraction, text: None)
     recording, prints = told_apart(read_recording(path, format, options=options))
-    recording = without_baselines(recording)
+    chosen = choices or AnalysisOptions()
+    if chosen.baseline == "auto":
+        recording = without_baselines(recording)
     tell(0.3, "finding steps")
-    feet = analyse_feet(recording, prints)
+    feet = analyse_feet(recording, prints, chosen)
     tell(0.5, "drawing")
     return Analysis(recording, feet, metrics_of(recording, feet))
 
@@ -193,7 +201,8 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         feet: The gait of each of its feet.
 
     Returns:
-        format, kind, frames, rate_hz, duration_s, raw, grid, feet, gait, warnings; see docs/metrics.md. In a recording
+        format, kind, frames, rate_hz, duration_s, raw, grid, feet, not_given, gait, warnings; see docs/metrics.md. In
+        a recording
         of raw counts the keys end in "_raw" where they would else name a unit of force or pressure.
     """
     warnings = list(recording.warnings)
@@ -214,9 +223,26 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         "raw": recording.raw,
         "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
         "feet": {side: _foot(recording, gait) for side, gait in feet.items()},
+        "not_given": not_given(recording.kind),
         "gait": {**gait_of_feet(feet), "symmetry_percent": {named(key): value for key, value in indices.items()}},
         "warnings": list(dict.fromkeys(warnings)),
     }
+
+
+def not_given(kind: str) -> dict[str, str]:
+    """Measures that this kind of sensor cannot give, each with the reason.
+
+    Args:
+        kind: What measured.
+
+    Returns:
+        The reasons by key.
+    """
+    if kind not in ("insole", "robot"):
+        return {}
+    what = "an insole" if kind == "insole" else "a robot's sole"
+    reason = f"{what} does not see the outline of a foot: shoe and threshold decide which of its cells are loaded"
+    return dict.fromkeys(("arch_index", "foot_length_m", "foot_width_m"), reason)
 
 
 def _keys(raw: bool) -> Callable[[str], str]:
@@ -229,6 +255,10 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
     impacts = (landing_impact(recording.time, foot.vertical_force, strike) for strike in landings)
     return {
         "steps": len(gait.steps),
+        "steps_used": [step.number for step in gait.used],
+        "steps_unused": {str(step.number): step.unused for step in gait.steps if not step.used},
+        "steps_odd": {str(step.number): step.odd for step in gait.steps if step.odd},
+        "each_step": [_step(step, named) for step in gait.steps],
         "events": _events(gait, complete=True),
         "incomplete": _events(gait, complete=False),
         "landings_s": landings,
@@ -240,6 +270,13 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
         "measures": _spreads(summary_of_foot(gait), named),
         "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
     }
+
+
+def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:
+    """What the report's table shows of one step."""
+    out = {"number": step.number, "used": step.used, "note": step.unused or step.odd}
+    times = {"heel_strike_s": step.heel_strike_s, "toe_off_s": step.toe_off_s}
+    return {**out, **times, **{named(key): _plain(step[key]) for key in EACH_STEP}}
 
 
 def _events(gait: FootGait, complete: bool) -> list[dict[str, float | None]]:
@@ -268,8 +305,20 @@ def _plain(value: float) -> float | None:
 def _steps_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:
     """One row a complete step of either foot, in the order of time; empty where a value is not known."""
     steps = sorted((s for g in feet.values() for s in g.steps), key=lambda s: s.heel_strike_s)
-    rows = [[s.side, s.number, s.heel_strike_s, s.toe_off_s, *(s[name] for name in MEASURES)] for s in steps]
-    return _csv(["side", "number", "heel_strike_s", "toe_off_s", *(_keys(raw)(name) for name in MEASURES)], rows)
+    names = [_keys(raw)(name) for name in MEASURES]
+    rows = [
+        [
+            s.side,
+            s.number,
+            s.heel_strike_s,
+            s.toe_off_s,
+            *(s[name] for name in MEASURES),
+            int(s.used),
+            s.unused or s.odd,
+        ]
+        for s in steps
+    ]
+    return _csv(["side", "number", "heel_strike_s", "toe_off_s", *names, "used", "note"], rows)
 
 
 def _regions_csv(feet: Mapping[Side, FootGait], raw: bool) -> str:

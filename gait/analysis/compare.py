@@ -13,6 +13,7 @@ import numpy as np
 
 from gait.analysis.analyse import Analysis, analyse, with_layout, write_analysis
 from gait.analysis.measures import MEASURES
+from gait.analysis.options import AnalysisOptions
 from gait.analysis.pages.figure_files import write_figures
 from gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from gait.analysis.pages.report import comparison_page
@@ -50,6 +51,7 @@ def compare_recordings(
     progress: Callable[[float, str], None] | None = None,
     *,
     options: ReadOptions | None = None,
+    choices: AnalysisOptions | None = None,
 ) -> dict[str, Any]:
     """Analyse two recordings and write them side by side: comparison.json, figures, report.html, and a folder for each.
 
@@ -61,6 +63,7 @@ def compare_recordings(
         layout: Layout file for both.
         progress: Called with a fraction 0..1 and what is being done.
         options: What else the user knows about both files.
+        choices: Which steps are in the means, and whose events.
 
     Returns:
         "a" and "b": the metrics of each; "difference": of each foot that both have, or of A's foot and B's where each
@@ -79,7 +82,7 @@ def compare_recordings(
     with output_folder(out) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
             tell(0.4 * i, f"reading {key}")
-            analyses[key] = analyse(path, format, known)
+            analyses[key] = analyse(path, format, known, choices=choices)
             (folder / key).mkdir()
             write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
         if analyses["a"].recording.raw != analyses["b"].recording.raw:
@@ -173,7 +176,7 @@ def _figures(analyses: Mapping[str, Analysis], pairs: Mapping[str, tuple[Side, S
 
 
 def _curves(a: Analysis, b: Analysis, pairs: Mapping[str, tuple[Side, Side]]) -> Any | None:
-    shown = {n: p for n, p in pairs.items() if a.feet[p[0]].steps and b.feet[p[1]].steps}
+    shown = {n: p for n, p in pairs.items() if a.feet[p[0]].used and b.feet[p[1]].used}
     if not shown:
         return None
     figure, axes = new_figure(5.0 * len(shown), 3.6, columns=len(shown), sharey=True, squeeze=False)

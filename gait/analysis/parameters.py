@@ -9,12 +9,14 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.analysis.options import AnalysisOptions
 from gait.analysis.prints.platform import PlatformPrint
 from gait.analysis.prints.regions import REGIONS
 from gait.analysis.steps.cop_path import averaged_path
 from gait.analysis.steps.events import find_contacts, force_levels
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.pressure_measures import region_measures
+from gait.analysis.steps.steady import with_used_steps
 from gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
 from gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from gait.analysis.steps.step_measures import step_measures
@@ -32,16 +34,26 @@ BACKWARDS = -0.02
 """Median travel of the CoP in m over a step under which it looks as if the sensor were turned round."""
 
 
-def analyse_feet(recording: PressureRecording, prints: Sequence[PlatformPrint] = ()) -> dict[Side, FootGait]:
+def analyse_feet(
+    recording: PressureRecording, prints: Sequence[PlatformPrint] = (), options: AnalysisOptions | None = None
+) -> dict[Side, FootGait]:
     """Find the contacts of every foot and measure its complete steps.
 
     Args:
         recording: The recording; that of a platform as `told_apart` gives it.
         prints: The footprints of a platform.
+        options: Which steps are in the means.
 
     Returns:
         The gait of each foot, with the lengths that need both.
     """
+    known = options or AnalysisOptions()
+    feet = _measured_feet(recording, prints)
+    return {side: with_used_steps(gait, known, recording.kind, recording.raw) for side, gait in feet.items()}
+
+
+def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]) -> dict[Side, FootGait]:
+    """The gait of each foot, all of whose steps are in the means."""
     feet = {side: analyse_foot(recording, side, prints) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
@@ -135,8 +147,9 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
         return out
     if gait.footprint is not None and gait.footprint.toe_line is None:
         out.append(
-            f"no valley of pressure tells the {side} foot's toes from its forefoot: its arch index is that of the "
-            "whole print, and its toe regions begin at 82 % of the sole's length"
+            f"no valley of pressure tells the {side} foot's toes from its forefoot: its toe regions begin at 82 % "
+            "of the "
+            "sole's length"
         )
     travel = _travel_of_steps(gait)
     if len(gait.steps) >= 2 and travel and float(np.median(travel)) < BACKWARDS:

@@ -13,20 +13,22 @@ __all__ = ["Spread", "spread"]
 
 @dataclass(frozen=True)
 class Spread:
-    """Mean, standard deviation (n - 1) and coefficient of variation in percent over n steps; None where not defined."""
+    """Mean, standard deviation (n - 1), coefficient of variation in percent and median of n steps; None where
+    undefined."""
 
     mean: float | None
     sd: float | None
     cv_percent: float | None
     n: int
+    median: float | None = None
 
 
 def spread(values: Sequence[float] | NDArray[np.float64]) -> Spread:
-    """Mean, standard deviation and coefficient of variation of the values that are known.
+    """Mean, standard deviation, coefficient of variation and median of the values that are known.
 
     Example:
         >>> spread([1.0, 2.0, 3.0, float("nan")])
-        Spread(mean=2.0, sd=1.0, cv_percent=50.0, n=3)
+        Spread(mean=2.0, sd=1.0, cv_percent=50.0, n=3, median=2.0)
     """
     known = np.asarray(values, dtype=float)
     known = known[np.isfinite(known)]
@@ -35,6 +37,6 @@ def spread(values: Sequence[float] | NDArray[np.float64]) -> Spread:
         return Spread(None, None, None, 0)
     mean = float(known.mean())
     if n == 1:
-        return Spread(mean, None, None, 1)
+        return Spread(mean, None, None, 1, mean)
     sd = float(known.std(ddof=1))
-    return Spread(mean, sd, 100.0 * sd / abs(mean) if mean != 0.0 else None, n)
+    return Spread(mean, sd, 100.0 * sd / abs(mean) if mean != 0.0 else None, n, float(np.median(known)))

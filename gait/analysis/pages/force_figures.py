@@ -102,16 +102,16 @@ def _shade_cut_contacts(panel: Any, recording: PressureRecording, gait: FootGait
 
 
 def figure_steps(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Any | None:
-    """Force curves of the complete steps over the stance, with their mean and standard deviation.
+    """Force curves of the steps in the means over the stance, with their mean and standard deviation.
 
     Args:
         recording: The recording.
         feet: The gait of its feet.
 
     Returns:
-        The figure, or None where no foot has a complete step.
+        The figure, or None where no foot has a step in the means.
     """
-    shown = {side: gait for side, gait in feet.items() if gait.steps}
+    shown = {side: gait for side, gait in feet.items() if gait.used}
     if not shown:
         return None
     figure, axes = new_figure(10.0, 3.6, columns=len(shown), sharey=True, squeeze=False)
@@ -143,7 +143,7 @@ def draw_sd(panel: Any, curves: NDArray[np.float64], **look: Any) -> None:
 
 
 def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
-    """Vertical force of each complete step over its stance.
+    """Vertical force of each step that is in the means over its stance.
 
     Args:
         recording: The recording.
@@ -154,7 +154,7 @@ def stance_curves(recording: PressureRecording, gait: FootGait) -> NDArray[np.fl
     """
     known = np.isfinite(gait.foot.vertical_force)
     time, force = recording.time[known], gait.foot.vertical_force[known]
-    moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.steps]
+    moments = [s.heel_strike_s + 0.01 * STANCE * (s.toe_off_s - s.heel_strike_s) for s in gait.used]
     return np.array([np.interp(m, time, force) for m in moments]).reshape(-1, len(STANCE))
 
 

@@ -8,13 +8,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from gait.analysis.measures import MEASURES
 from gait.analysis.pages.page import Section, asset, figures_of, number, page, warning_list
-from gait.analysis.pages.tables import comparison_table, measures_table, regions_tables
+from gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
 
 __all__ = ["comparison_page", "report_page"]
 
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
+    ("steady_cadence_steps_per_min", "Cadence, steps in the means", "steps/min", 1.0),
     ("stride_time_s", "Stride time", "s", 1.0),
     ("double_support_percent", "Double support", "% of stride", 1.0),
     ("single_support_percent", "Single support", "% of stride", 1.0),
@@ -46,7 +48,10 @@ def report_page(
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
     if player is not None:
         sections.append(Section("frames", "Frames", _player(player)))
-    sections.append(Section("measures", "Measures of the complete steps", measures_table(metrics)))
+    sections.append(Section("measures", "Measures of the steps", measures_table(metrics) + _not_given(metrics)))
+    steps = steps_table(metrics)
+    if steps:
+        sections.append(Section("steps", "Each step", steps))
     regions = regions_tables(metrics)
     if regions:
         sections.append(Section("regions", "Regions of the foot", regions))
@@ -57,6 +62,15 @@ def report_page(
     )
     script = "" if player is None else f"<script>{asset('report.js')}</script>"
     return page(f"Gait analysis: {title}", about, sections, script)
+
+
+def _not_given(metrics: Mapping[str, Any]) -> str:
+    """Why some measures are not given."""
+    reasons: dict[str, list[str]] = {}
+    for key, reason in metrics.get("not_given", {}).items():
+        reasons.setdefault(reason, []).append(MEASURES[key].title.lower())
+    lines = (f"Not given: {', '.join(names)}, since {reason}." for reason, names in reasons.items())
+    return "".join(f'<p class="about">{html.escape(line)}</p>' for line in lines)
 
 
 def comparison_page(

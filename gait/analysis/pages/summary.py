@@ -16,20 +16,15 @@ __all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
 
 
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
-    """Each measure of a foot over its complete steps; an insole's footprint is that of its mean picture (n is 1)."""
-    out = {name: spread([step[name] for step in gait.steps]) for name in MEASURES}
-    if gait.footprint is not None and gait.footprint_measured and gait.steps:
-        print_ = gait.footprint
-        of_print = {"arch_index": print_.arch_index(), "foot_length_m": print_.length, "foot_width_m": print_.width}
-        out |= {name: spread([value]) for name, value in of_print.items()}
-    return out
+    """Each measure of a foot over the steps that are in the means."""
+    return {name: spread([step[name] for step in gait.used]) for name in MEASURES}
 
 
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
-    """Each measure of each region over the complete steps of a foot; regions that no step has are left out."""
+    """Each measure of each region over the steps in the means; regions that no step has are left out."""
     out: dict[str, dict[str, Spread]] = {}
     for region in REGIONS:
-        rows = [step.regions[region] for step in gait.steps if region in step.regions]
+        rows = [step.regions[region] for step in gait.used if region in step.regions]
         if rows:
             out[region] = {name: spread([row.get(name, np.nan) for row in rows]) for name in REGION_MEASURES}
     return out
@@ -42,15 +37,19 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
         feet: The feet that were recorded.
 
     Returns:
-        landings (heel strikes of all feet), stride_time_s (mean), cadence_steps_per_min (two steps in the mean stride),
+        landings (heel strikes of all feet), stride_time_s (mean of all complete steps, as vendors give it),
+        cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
+        means),
         double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
         walking_speed_m_s (means); None where the recording cannot tell.
     """
-    stride = _mean(feet, "stride_time_s")
+    stride = spread([step["stride_time_s"] for gait in feet.values() for step in gait.steps]).mean
+    steady = _mean(feet, "stride_time_s")
     return {
         "landings": sum(c.heel_strike is not None for g in feet.values() for c in g.contacts),
         "stride_time_s": stride,
         "cadence_steps_per_min": None if stride is None else 120.0 / stride,
+        "steady_cadence_steps_per_min": None if steady is None else 120.0 / steady,
         "double_support_percent": _mean(feet, "double_support_percent"),
         "single_support_percent": _mean(feet, "single_support_percent"),
         "step_length_m": _mean(feet, "step_length_m"),
@@ -61,8 +60,8 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
-    """Mean of a measure over the complete steps of all feet; None where no step has it."""
-    return spread([step[key] for gait in feet.values() for step in gait.steps]).mean
+    """Mean of a measure over the steps in the means of all feet; None where no step has it."""
+    return spread([step[key] for gait in feet.values() for step in gait.used]).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:

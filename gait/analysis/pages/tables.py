@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -9,7 +10,13 @@ from gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
 from gait.analysis.pages.page import group_row, number, row, scaled, table, titled
 from gait.analysis.prints.regions import REGIONS
 
-__all__ = ["comparison_table", "measures_table", "regions_tables"]
+__all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "steps_table"]
+
+EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
+"""Measures that are shown of each step."""
+
+_MOST_STEPS = 80
+"""Steps that the table shows."""
 
 _UNITS_OF_COUNTS = {"_Ns": "counts·s", "_Pas": "counts·s", "_N_s": "counts/s", "_Nm": "counts·m"}
 """Unit of a measure of raw counts by the end of the key that it has in SI; counts for all others."""
@@ -36,7 +43,7 @@ def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
 
 
 def measures_table(metrics: Mapping[str, Any]) -> str:
-    """Every measure of the complete steps of each foot, with its spread and the symmetry of both feet.
+    """Every measure of the steps in the means of each foot, with its spread and the symmetry of both feet.
 
     Args:
         metrics: What `analyse_recording` returns.
@@ -49,9 +56,9 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
     rows = list(_rows_of_measures(metrics, both))
     if not rows:
         return "<p>The recording holds no complete step.</p>"
-    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "CV (%)"))]
+    head = ["Measure", *(name for side in feet for name in (f"{side}: mean ± SD", "median", "CV (%)"))]
     note = "; symmetry index 100 (L − R) / ((L + R) / 2), 0 is symmetric" if both else ""
-    caption = f"Over the complete steps: mean, standard deviation, coefficient of variation{note}."
+    caption = f"Over the steps in the means: mean, standard deviation, median, coefficient of variation{note}."
     return table("Measures", caption, [*head, "Symmetry index (%)"] if both else head, rows)
 
 
@@ -66,15 +73,50 @@ def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
             continue
         if measure.group != group:
             group = measure.group
-            yield group_row(group, 2 * len(feet) + 1 + both)
+            yield group_row(group, 3 * len(feet) + 1 + both)
         cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
         yield row(title, [*cells, number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else cells)
 
 
-def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str]:
+def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str]:
     if spread is None or spread["mean"] is None:
-        return "–", "–"
-    return _mean_and_sd(spread, factor), number(spread["cv_percent"], 2)
+        return "–", "–", "–"
+    return (
+        _mean_and_sd(spread, factor),
+        number(scaled(spread.get("median"), factor)),
+        number(spread["cv_percent"], 2),
+    )
+
+
+def steps_table(metrics: Mapping[str, Any]) -> str:
+    """The complete steps of all feet in the order of time, each with its main measures and whether it is in the means.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        HTML, empty where there is no step.
+    """
+    raw = bool(metrics.get("raw"))
+    steps = [(side, step) for side, foot in metrics["feet"].items() for step in foot.get("each_step", ())]
+    steps.sort(key=lambda one: one[1]["heel_strike_s"])
+    if not steps:
+        return ""
+    shown = [_shown(key, MEASURES[key], raw) for key in EACH_STEP]
+    rows = [
+        row(
+            f"{side} {step['number']}",
+            [
+                number(step["heel_strike_s"], 4),
+                *(number(scaled(step[s.key], s.factor)) for s in shown),
+                ("" if step["used"] else "not in the means: ") + html.escape(step["note"]),
+            ],
+        )
+        for side, step in steps[:_MOST_STEPS]
+    ]
+    more = "" if len(steps) <= _MOST_STEPS else f" The first {_MOST_STEPS} of {len(steps)}; steps.csv has all."
+    head = ("Step", "Heel strike (s)", *(s.title for s in shown), "Note")
+    return table("Steps", f"The complete steps in the order of time.{more}", head, rows)
 
 
 def regions_tables(metrics: Mapping[str, Any]) -> str:

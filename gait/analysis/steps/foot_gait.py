@@ -30,6 +30,9 @@ class Step:
         regions: Measures of each region of the foot.
         footprint: The footprint that lengths, arch index and regions are of; None without geometry.
         region: Index (k,) into `REGIONS` of each cell, -1 for none; None without geometry.
+        used: Whether it is in the means.
+        unused: Why not; empty where it is.
+        odd: What is odd about it; empty for nothing.
     """
 
     side: Side
@@ -41,6 +44,9 @@ class Step:
     regions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     footprint: Footprint | None = None
     region: NDArray[np.int64] | None = None
+    used: bool = True
+    unused: str = ""
+    odd: str = ""
 
     def __getitem__(self, key: str) -> float:
         return self.measures.get(key, float("nan"))
@@ -62,7 +68,8 @@ class FootGait:
             platform the largest of all; None without geometry.
         footprint: The footprint of that picture in an insole or sole; None without geometry, and of platforms.
         region: Index (k,) into `REGIONS` of each cell of the picture, -1 for none; None without geometry.
-        footprint_measured: Whether the footprint is one of a foot, of which an arch index means something.
+        sole: The whole sole as a footprint, of which widths do not depend on what is loaded; None without geometry, and
+            of platforms.
         warnings: What was found odd.
     """
 
@@ -75,5 +82,10 @@ class FootGait:
     picture: NDArray[np.float64] | None = None
     footprint: Footprint | None = None
     region: NDArray[np.int64] | None = None
-    footprint_measured: bool = False
+    sole: Footprint | None = None
     warnings: tuple[str, ...] = ()
+
+    @property
+    def used(self) -> tuple[Step, ...]:
+        """The steps that are in the means."""
+        return tuple(step for step in self.steps if step.used)

@@ -29,7 +29,7 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
         loads: What its cells carried.
 
     Returns:
-        The same with `picture`, `footprint`, `region` and `footprint_measured`, as far as there is geometry.
+        The same with `picture`, `footprint`, `sole` and `region`, as far as there is geometry.
     """
     layout = gait.foot.layout
     if layout is None:
@@ -46,7 +46,8 @@ def with_picture(recording: PressureRecording, gait: FootGait, loads: StepLoads)
     insole = recording.kind == "insole"
     of_sole = float(layout.outline[:, 0].max() - print_.origin[0]) if insole else None
     print_, region = _with_regions(print_, loaded, of_sole)
-    return replace(gait, footprint=print_, region=region, footprint_measured=insole)
+    whole = footprint_of_cells(layout, np.ones(len(layout)), np.ones(len(layout), dtype=bool), gait.foot.side)
+    return replace(gait, footprint=print_, region=region, sole=whole)
 
 
 def _highest_of_steps(recording: PressureRecording, gait: FootGait, loads: StepLoads) -> NDArray[np.float64]:

@@ -58,8 +58,9 @@ def _cop_measures(
     kind, layout = recording.kind, gait.foot.layout
     # On a platform the foot's own axis is forward, in a sole the sole's.
     out = cop_measures(load.time, print_.in_foot(cop) if print_ is not None and kind == "platform" else cop)
-    if print_ is not None and kind != "robot":
-        out["cpei_percent"] = excursion_index(print_, cop)
+    across = gait.sole if kind == "insole" else print_
+    if across is not None and kind != "robot":
+        out["cpei_percent"] = excursion_index(across, cop)
     if layout is not None:
         inside = cop[np.isfinite(cop[:, 0])]
         if kind in ("insole", "robot") and len(inside):

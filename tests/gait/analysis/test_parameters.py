@@ -9,11 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gait.analysis.analyse import not_given
 from gait.analysis.measures import MEASURES
 from gait.analysis.pages.summary import gait_of_feet, summary_of_foot, symmetry
-from gait.analysis.parameters import analyse_foot
+from gait.analysis.parameters import analyse_feet, analyse_foot
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+from .walks import made_walk
 
 
 def rolling(steps: int = 4, rate: float = 200.0, peak: float = 800.0) -> PressureRecording:
@@ -114,3 +117,16 @@ def test_a_foot_without_geometry_gives_forces_only(walk: Callable[..., Any]) -> 
     step = analyse_foot(recording, "left").steps[0]
     assert step["peak_force_N"] == pytest.approx(made.weight, rel=1e-6)
     assert np.isnan([step["peak_pressure_Pa"], step["contact_area_m2"], step["cop_path_m"], step["cop_margin_m"]]).all()
+
+
+@pytest.mark.parametrize("forefoot", [1.0, 0.4, 0.1, 0.02])
+def test_an_insole_gives_no_outline_of_a_foot(forefoot: float) -> None:
+    """Which of its cells pass the threshold would decide: nothing of that is a measure, and the CPEI takes the sole."""
+    gait = analyse_feet(made_walk(forefoot=forefoot).recording)["left"]
+    assert not set(gait.steps[2].measures) & {"arch_index", "foot_length_m", "foot_width_m"}
+    assert set(not_given("insole")) == {"arch_index", "foot_length_m", "foot_width_m"}
+    assert not_given("platform") == {}
+    assert gait.sole is not None
+    layout = gait.foot.layout
+    assert layout is not None
+    assert gait.sole.length == pytest.approx(float(np.ptp(layout.outline[:, 0])), rel=1e-6)

@@ -1,0 +1,66 @@
+"""What a reader of an analysis may decide: which steps count, whose events, and whether baselines are taken off."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Literal
+
+from plantar.errors import InputError
+
+__all__ = ["AnalysisOptions", "steps_of_text"]
+
+
+@dataclass(frozen=True)
+class AnalysisOptions:
+    """Decisions of an analysis.
+
+    Attributes:
+        steps: First and last number of the steps of each foot that are in the means; "steady" for those of steady
+        walking,
+            "all" for all complete ones.
+        begin: Time in s before which no step counts.
+        end: Time in s after which no step counts.
+        baseline: "auto" takes off what sensors read in swing where that is an offset; "keep" leaves it.
+        events: "own" finds the events in the force; "vendor" takes those that the file states.
+    """
+
+    steps: tuple[int, int] | Literal["steady", "all"] = "steady"
+    begin: float | None = None
+    end: float | None = None
+    baseline: Literal["auto", "keep"] = "auto"
+    events: Literal["own", "vendor"] = "own"
+
+    def __post_init__(self) -> None:
+        for name, allowed in (("baseline", ("auto", "keep")), ("events", ("own", "vendor"))):
+            if getattr(self, name) not in allowed:
+                raise InputError(f"--{name} is {getattr(self, name)!r}; allowed: {', '.join(allowed)}")
+        if self.begin is not None and self.end is not None and not self.begin < self.end:
+            raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
+
+
+def steps_of_text(text: str | None) -> tuple[int, int] | Literal["steady", "all"]:
+    """Which steps a text names.
+
+    Args:
+        text: "3-14", "5", "steady" or "all"; None for "steady".
+
+    Returns:
+        The first and the last step, or the word.
+
+    Raises:
+        InputError: If it is none of these.
+
+    Example:
+        >>> steps_of_text("3-14"), steps_of_text("5"), steps_of_text(None)
+        ((3, 14), (5, 5), 'steady')
+    """
+    if text is None or text == "steady":
+        return "steady"
+    if text == "all":
+        return "all"
+    match = re.fullmatch(r"\s*(\d{1,6})\s*(?:-\s*(\d{1,6})\s*)?", text)
+    first, last = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
+    if not 1 <= first <= last:
+        raise InputError(f"--steps is {text!r}; allowed: a number or a range such as 3-14 from 1 on, steady, all")
+    return first, last
