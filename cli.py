@@ -136,7 +136,7 @@ def analyze(
         str, Option(help="auto takes off what sensors read in swing where that is an offset; keep leaves it.")
     ] = "auto",
     events: Annotated[
-        str, Option(help="own finds heel strikes and toe offs in the force; vendor takes the file's.")
+        str, Option(help="own finds heel strikes and toe offs in the force; vendor takes the file's; or name a file.")
     ] = "own",
     output: Output = Path("out/analysis"),
     as_json: Json = False,
@@ -167,7 +167,7 @@ def analyze(
     options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
     from gait.analysis.options import AnalysisOptions, steps_of_text
 
-    choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), cast(Any, events))
+    choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), events)
     with progress_bar() as tell:
         if compare is not None:
             from gait.analysis.compare import compare_recordings

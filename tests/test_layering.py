@@ -32,7 +32,10 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "controller"),
         "controller_tables",
     ),
-    "gait.analysis": ("measures", "spread", "prints", "steps", "parameters", "pages", "analyse", "compare"),
+    "gait.analysis": (
+        *("measures", "options", "spread", "prints", "steps", "body_weight", "parameters", "pages"),
+        *("analyse", "compare", "exports", "study"),
+    ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
         *("terrain", "robots", "plant", "model", "judging", "sensing", "body_skin", "contact_models", "figures"),

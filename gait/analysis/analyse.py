@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gait.analysis.body_weight import implied_weight, weight_doubts
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
 from gait.analysis.options import AnalysisOptions
 from gait.analysis.pages.figure_files import write_figures
@@ -29,14 +30,16 @@ from gait.analysis.spread import Spread
 from gait.analysis.steps.baseline import without_baselines
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.force_curve import landing_impact
+from gait.analysis.steps.stated import stated_beside_own
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format, read_recording
+from plantar.formats.stated_events import read_events
 from plantar.layouts.layout import Side
 from plantar.layouts.layout_file import read_layout
 from plantar.recordings.pressure_recording import PressureRecording
 
-__all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "with_layout", "write_analysis"]
+__all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "not_given", "with_layout", "write_analysis"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,6 +148,8 @@ def analyse(
     tell = progress or (lambda fraction, text: None)
     recording, prints = told_apart(read_recording(path, format, options=options))
     chosen = choices or AnalysisOptions()
+    if chosen.events not in ("own", "vendor"):
+        recording = dataclasses.replace(recording, events=read_events(chosen.events))
     if chosen.baseline == "auto":
         recording = without_baselines(recording)
     tell(0.3, "finding steps")
@@ -212,6 +217,8 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         elif not gait.steps:
             warnings.append(f"the {side} foot has no complete step: each contact is cut by the recording")
         warnings += gait.warnings
+    weight = implied_weight(recording, feet)
+    warnings += weight_doubts(recording, weight)
     named = _keys(recording.raw)
     indices = symmetry(feet)
     return {
@@ -224,7 +231,11 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
         "feet": {side: _foot(recording, gait) for side, gait in feet.items()},
         "not_given": not_given(recording.kind),
-        "gait": {**gait_of_feet(feet), "symmetry_percent": {named(key): value for key, value in indices.items()}},
+        "gait": {
+            **gait_of_feet(feet),
+            "implied_weight_N": weight,
+            "symmetry_percent": {named(key): value for key, value in indices.items()},
+        },
         "warnings": list(dict.fromkeys(warnings)),
     }
 
@@ -263,6 +274,7 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
         "incomplete": _events(gait, complete=False),
         "landings_s": landings,
         named("landing_impacts_N"): [_plain(impact) for impact in impacts],
+        "stated_events": stated_beside_own(recording.events.get(foot.side), gait),
         "cells": foot.force.shape[1],
         "cell_area_m2": None if foot.layout is None else float(foot.layout.areas.mean()),
         "missing_percent": 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()),

@@ -59,6 +59,7 @@ MEASURES: Mapping[str, Measure] = {
     "mean_pressure_Pa": Measure("Mean pressure, largest of a frame", "kPa", 1e-3, _PRESSURE),
     "pressure_time_integral_Pas": Measure("Pressure-time integral, of each frame's peak", "kPa·s", 1e-3, _PRESSURE),
     "pressure_time_integral_cell_Pas": Measure("Pressure-time integral, largest of a cell", "kPa·s", 1e-3, _PRESSURE),
+    "force_time_integral_area_Pas": Measure("Force-time integral over footprint area", "kPa·s", 1e-3, _PRESSURE),
     "contact_area_m2": Measure("Contact area, largest of a frame", "cm²", 1e4, _PRESSURE),
     "footprint_area_m2": Measure("Footprint area, all of the contact", "cm²", 1e4, _PRESSURE),
     "support_polygon_area_m2": Measure("Support polygon, largest of a frame", "cm²", 1e4, _PRESSURE),

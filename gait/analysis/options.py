@@ -22,19 +22,19 @@ class AnalysisOptions:
         begin: Time in s before which no step counts.
         end: Time in s after which no step counts.
         baseline: "auto" takes off what sensors read in swing where that is an offset; "keep" leaves it.
-        events: "own" finds the events in the force; "vendor" takes those that the file states.
+        events: "own" finds the events in the force; "vendor" takes those that the file states; else the path of a file
+            of events, such as a vendor's report (see `plantar.formats.stated_events`).
     """
 
     steps: tuple[int, int] | Literal["steady", "all"] = "steady"
     begin: float | None = None
     end: float | None = None
     baseline: Literal["auto", "keep"] = "auto"
-    events: Literal["own", "vendor"] = "own"
+    events: str = "own"
 
     def __post_init__(self) -> None:
-        for name, allowed in (("baseline", ("auto", "keep")), ("events", ("own", "vendor"))):
-            if getattr(self, name) not in allowed:
-                raise InputError(f"--{name} is {getattr(self, name)!r}; allowed: {', '.join(allowed)}")
+        if self.baseline not in ("auto", "keep"):
+            raise InputError(f"--baseline is {self.baseline!r}; allowed: auto, keep")
         if self.begin is not None and self.end is not None and not self.begin < self.end:
             raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
 

@@ -13,15 +13,17 @@ from gait.analysis.options import AnalysisOptions
 from gait.analysis.prints.platform import PlatformPrint
 from gait.analysis.prints.regions import REGIONS
 from gait.analysis.steps.cop_path import averaged_path
-from gait.analysis.steps.events import find_contacts, force_levels
+from gait.analysis.steps.events import Contact, find_contacts, force_levels
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.pressure_measures import region_measures
+from gait.analysis.steps.stated import stated_contacts
 from gait.analysis.steps.steady import with_used_steps
 from gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
 from gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from gait.analysis.steps.step_measures import step_measures
 from gait.analysis.steps.step_times import OtherFoot, stride_times, time_measures
 from gait.analysis.steps.walk_geometry import Place, step_geometry
+from plantar.errors import InputError
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side, other_side
 
@@ -48,13 +50,19 @@ def analyse_feet(
         The gait of each foot, with the lengths that need both.
     """
     known = options or AnalysisOptions()
-    feet = _measured_feet(recording, prints)
+    if known.events != "own" and not set(recording.feet) <= set(recording.events):
+        raise InputError(
+            f"{recording.path.name} states no events of "
+            f"{' and '.join(s for s in recording.feet if s not in recording.events)}"
+            "; --events allows own, or a file of events of each foot"
+        )
+    feet = _measured_feet(recording, prints, known.events != "own")
     return {side: with_used_steps(gait, known, recording.kind, recording.raw) for side, gait in feet.items()}
 
 
-def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint]) -> dict[Side, FootGait]:
+def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
     """The gait of each foot, all of whose steps are in the means."""
-    feet = {side: analyse_foot(recording, side, prints) for side in recording.feet}
+    feet = {side: analyse_foot(recording, side, prints, stated) for side in recording.feet}
     places = {side: [_place(recording, gait, step, prints) for step in gait.steps] for side, gait in feet.items()}
     known = {side: [p for p in own if p is not None] for side, own in places.items()}
     if known != places:  # a step without a place would be taken for a longer stride
@@ -69,21 +77,24 @@ def _with_measures(gait: FootGait, extra: Sequence[Mapping[str, float]]) -> Foot
     return replace(gait, steps=tuple(steps))
 
 
-def analyse_foot(recording: PressureRecording, side: Side, prints: Sequence[PlatformPrint] = ()) -> FootGait:
+def analyse_foot(
+    recording: PressureRecording, side: Side, prints: Sequence[PlatformPrint] = (), stated: bool = False
+) -> FootGait:
     """Find the contacts of one foot and measure its complete steps.
 
     Args:
         recording: The recording.
         side: A foot that it has.
         prints: The footprints of a platform.
+        stated: Whether the events that the file states are taken.
 
     Returns:
         The foot's gait. Measures that need the other foot use its contacts where it was recorded.
     """
-    gait = _with_events(recording, side)
+    gait = _with_events(recording, side, stated)
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
-    others = _other_foot(recording, side)
+    others = _other_foot(recording, side, stated)
     strides = iter(stride_times(gait.contacts))
     steps: list[Step] = []
     for contact, previous in zip(gait.contacts, [None, *gait.contacts], strict=False):
@@ -98,24 +109,32 @@ def analyse_foot(recording: PressureRecording, side: Side, prints: Sequence[Plat
     return replace(gait, steps=tuple(steps), warnings=tuple(_doubts(recording, gait)))
 
 
-def _with_events(recording: PressureRecording, side: Side) -> FootGait:
+def _with_events(recording: PressureRecording, side: Side, stated: bool) -> FootGait:
     """One foot with its contacts and its CoP; no step is measured yet."""
     foot = recording.feet[side]
     force = foot.vertical_force
     levels = force_levels(force, recording.kind)
-    contacts = find_contacts(recording.time, force, levels) if levels is not None else []
+    contacts = _contacts(recording, side, stated)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
     if cop is not None:
         cop = averaged_path(cop, np.where(np.isfinite(force), force, 1.0), round(COP_WINDOW * recording.rate_hz))
     return FootGait(foot, levels, tuple(contacts), (), cop, cell_threshold(recording, foot, contacts))
 
 
-def _other_foot(recording: PressureRecording, side: Side) -> OtherFoot | None:
+def _other_foot(recording: PressureRecording, side: Side, stated: bool) -> OtherFoot | None:
     """The contacts of the foot across; None where it was not recorded."""
     if other_side(side) not in recording.feet:
         return None
-    force = recording.feet[other_side(side)].vertical_force
-    return OtherFoot(recording, find_contacts(recording.time, force, force_levels(force, recording.kind)))
+    return OtherFoot(recording, _contacts(recording, other_side(side), stated))
+
+
+def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Contact]:
+    """The contacts of a foot: found in its force, or those that the file states."""
+    if stated:
+        return stated_contacts(recording.time, recording.events[side])
+    force = recording.feet[side].vertical_force
+    levels = force_levels(force, recording.kind)
+    return [] if levels is None else find_contacts(recording.time, force, levels)
 
 
 def _regions(load: StepLoad, region: NDArray[np.int64] | None, duration: float) -> dict[str, dict[str, float]]:

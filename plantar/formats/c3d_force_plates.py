@@ -20,8 +20,8 @@ from plantar.files.confined import confined
 from plantar.files.input_file import check_input, open_input
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.units import FORCES, LENGTHS
-from plantar.layouts.layout import Side
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents, possible_rate
+from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT", "plates_of_file"]
 
@@ -81,7 +81,14 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         metadata={"plates": count},
         warnings=tuple(dict.fromkeys(warnings)),
         kind="plate",
+        events=_stated_events(held),
     )
+
+
+def _stated_events(held: Mapping[str, NDArray[Any]]) -> dict[Side, StatedEvents]:
+    """The foot strikes and foot offs that the group EVENT states, in the frames' time."""
+    found = {side: StatedEvents(held[f"strikes_{side}"], held[f"lifts_{side}"]) for side in SIDES}
+    return {side: own for side, own in found.items() if len(own.heel_strikes) or len(own.toe_offs)}
 
 
 def _cut_short(head: bytes, held: Mapping[str, NDArray[Any]]) -> list[str]:
@@ -182,12 +189,32 @@ def plates_of_file(path: Path) -> dict[str, Any]:
     content = ezc3d.c3d(str(path), extract_forceplat_data=True)
     plates = content["data"]["platform"]
     out: dict[str, Any] = {"rate": float(content["header"]["analogs"]["frame_rate"]), "plates": len(plates)}
+    out |= _events_of(content)
     for i, plate in enumerate(plates):
         out[f"force_{i}"] = np.asarray(plate["force"], dtype=float)
         out[f"cop_{i}"] = np.asarray(plate["center_of_pressure"], dtype=float)
         out[f"tz_{i}"] = np.asarray(plate["Tz"], dtype=float)
         out[f"corners_{i}"] = np.asarray(plate["corners"], dtype=float)
         out[f"units_{i}"] = np.array([plate["unit_force"], plate["unit_moment"], plate["unit_position"]])
+    return out
+
+
+def _events_of(content: Any) -> dict[str, NDArray[np.float64]]:
+    """Times in s of the strikes and lifts of each foot, from the first frame that the file holds."""
+    out = {f"{kind}_{side}": np.zeros(0) for kind in ("strikes", "lifts") for side in SIDES}
+    group = content["parameters"].get("EVENT", {})
+    if not all(key in group for key in ("LABELS", "CONTEXTS", "TIMES")):
+        return out
+    points = content["header"]["points"]
+    rate = float(points["frame_rate"])
+    begin = float(points["first_frame"]) / rate if rate > 0.0 else 0.0
+    times = np.asarray(group["TIMES"]["value"], dtype=float).reshape(2, -1)
+    for i, (label, context) in enumerate(zip(group["LABELS"]["value"], group["CONTEXTS"]["value"], strict=False)):
+        word, side = str(label).lower(), str(context).strip().lower()
+        kind = "strikes" if "strike" in word or "contact" in word else "lifts" if "off" in word else ""
+        if kind and side in SIDES and i < times.shape[1]:
+            key = f"{kind}_{side}"
+            out[key] = np.sort(np.append(out[key], 60.0 * times[0, i] + times[1, i] - begin))
     return out
 
 

@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
 
-__all__ = ["RATES", "FootRecording", "Kind", "PressureRecording", "layout_for", "possible_rate", "sampling"]
+__all__ = [
+    "RATES",
+    "FootRecording",
+    "Kind",
+    "PressureRecording",
+    "StatedEvents",
+    "layout_for",
+    "possible_rate",
+    "sampling",
+]
 
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
@@ -121,6 +130,19 @@ class FootRecording:
 
 
 @dataclass(frozen=True, eq=False)
+class StatedEvents:
+    """Events of one foot that a file states.
+
+    Attributes:
+        heel_strikes: Times (m,) in s, in order.
+        toe_offs: Times (k,) in s, in order.
+    """
+
+    heel_strikes: NDArray[np.float64]
+    toe_offs: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
 class PressureRecording:
     """A recording of one or two feet on one time base.
 
@@ -136,6 +158,7 @@ class PressureRecording:
         kind: What measured.
         raw: Whether the values are counts that nobody calibrated: no force or pressure follows from them.
         grid: Rows and columns of the sensor's matrix, where it is one.
+        events: Heel strikes and toe offs of each foot that the file itself states.
     """
 
     path: Path
@@ -148,6 +171,7 @@ class PressureRecording:
     kind: Kind = "insole"
     raw: bool = False
     grid: tuple[int, int] | None = None
+    events: Mapping[Side, StatedEvents] = field(default_factory=dict)
 
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:

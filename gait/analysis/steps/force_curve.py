@@ -13,6 +13,9 @@ IMPACT_WINDOW = 0.05
 _DEPTH = 0.02
 """How deep a valley has to be, as a share of the lower peak, to tell two peaks apart."""
 
+_HUMP = 0.75
+"""Share of the largest force of its half of the stance that a peak has; the transient of a heel strike has less."""
+
 _UNKNOWN = dict.fromkeys(
     (
         "first_peak_N",
@@ -66,15 +69,40 @@ def force_measures(
     early, late = np.flatnonzero(share <= 0.5), np.flatnonzero(share > 0.5)
     rise = top
     if len(early) >= 3 and len(late) >= 3:
-        first, second = int(early[np.argmax(force[early])]), int(late[np.argmax(force[late])])
-        low = first + int(np.argmin(force[first : second + 1]))
-        if force[low] < (1.0 - _DEPTH) * min(force[first], force[second]) and first < low < second:
+        first = _first_hump(force, _HUMP * float(force[early].max()))
+        second = len(force) - 1 - _first_hump(force[::-1], _HUMP * float(force[late].max()))
+        low = first + int(np.argmin(force[first : second + 1])) if first < second else first
+        if share[first] <= 0.5 < share[second] and first < low < second:
             rise = first
             for name, at in (("first_peak", first), ("valley", low), ("second_peak", second)):
                 out[f"{name}_N"] = float(force[at])
                 out[f"{name}_percent"] = 100.0 * float(share[at])
     out |= _loading(time[: rise + 1], force[: rise + 1], strike)
     return out
+
+
+def _first_hump(force: NDArray[np.float64], least: float) -> int:
+    """The first place from which a force falls by a share before it rises above it.
+
+    Args:
+        force: Forces (m,).
+        least: What the hump has at least: lower ones, such as the transient of a heel strike, are passed.
+
+    Returns:
+        Its index; that of the largest force where there is none.
+    """
+    width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
+    even = np.convolve(np.pad(force, width // 2, mode="edge"), np.full(width, 1.0 / width), mode="valid")
+    top = 0
+    for i in range(1, len(even)):
+        if even[i] > even[top]:
+            top = i
+        elif even[i] < (1.0 - _DEPTH) * even[top]:
+            if even[top] >= least:
+                begin = max(0, top - width)
+                return begin + int(np.argmax(force[begin : top + width + 1]))
+            top = i
+    return int(np.argmax(force))
 
 
 def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> dict[str, float]:

@@ -51,10 +51,13 @@ def pressure_measures(load: StepLoad, layout: SoleLayout | None) -> dict[str, fl
     pressure = np.divide(force.sum(axis=1), area, out=np.zeros(len(area)), where=area > 0.0)
     every = -(-len(area) // _MOST_FRAMES)
     polygons = support_polygons(layout, force[::every], 0.0).area
+    footprint = float(load.areas[load.loaded.any(axis=0)].sum())
+    if footprint > 0.0:
+        out["force_time_integral_area_Pas"] = float(_integral(load.force.sum(axis=1), load.time)) / footprint
     return out | {
         "mean_pressure_Pa": float(pressure.max()),
         "contact_area_m2": float(area.max()),
-        "footprint_area_m2": float(load.areas[load.loaded.any(axis=0)].sum()),
+        "footprint_area_m2": footprint,
         "support_polygon_area_m2": float(polygons.max()),
         "support_polygon_mean_m2": float(polygons.mean()),
     }

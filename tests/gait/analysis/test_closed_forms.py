@@ -197,3 +197,21 @@ def test_force_curve_of_a_trapezoid_and_of_two_humps() -> None:
     assert got["valley_N"] == pytest.approx(300.0)
     assert got["valley_percent"] == pytest.approx(50.0, abs=0.2)
     assert got["impulse_Ns"] == pytest.approx((600.0 + 100.0) * 2 / np.pi, rel=1e-3)
+
+
+@pytest.mark.parametrize("noise", [0.0, 3.0])
+@pytest.mark.parametrize("later", [0.9, 1.0, 1.03])
+def test_a_later_hump_of_slow_gait_is_not_the_first_peak(later: float, noise: float) -> None:
+    """Loading to 700 N at 20 % of the stance, a hump in mid-stance that may be higher, push-off at 80 %."""
+    time = np.linspace(0.0, 1.2, 121)
+    places = [0.0, 0.03, 0.05, 0.2, 0.32, 0.44, 0.6, 0.8, 1.0]
+    heights = [0.0, 400.0, 330.0, 700.0, 600.0, 700.0 * later, 560.0, 760.0, 0.0]
+    force = np.interp(time / 1.2, places, heights)
+    force += np.random.default_rng(1).normal(0.0, noise, len(time)) if noise else 0.0
+    measures = force_measures(time, force, 0.0, 1.2)
+    assert measures["first_peak_percent"] == pytest.approx(20.0, abs=1.5)
+    assert measures["first_peak_N"] == pytest.approx(700.0, rel=0.015)
+    assert measures["second_peak_percent"] == pytest.approx(80.0, abs=1.5)
+    at = [0.2 * 0.24, 0.8 * 0.24]
+    low, high = np.interp(at, 1.2 * np.array(places), heights)
+    assert measures["loading_rate_N_s"] == pytest.approx((high - low) / (at[1] - at[0]), rel=0.05)

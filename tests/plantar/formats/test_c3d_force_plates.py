@@ -17,7 +17,14 @@ ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed: pip install
 RATE = 1000.0
 
 
-def write_c3d(path: Path, forces: list[np.ndarray], sign: float = -1.0, unit: str = "mm", used: bool = True) -> None:
+def write_c3d(
+    path: Path,
+    forces: list[np.ndarray],
+    sign: float = -1.0,
+    unit: str = "mm",
+    used: bool = True,
+    events: tuple[tuple[str, str, float], ...] = (),
+) -> None:
     """Plates of 600 x 400 mm, one after the other, to the left and to the right in turns; forces (n,) in N.
 
     The load moves 0.1 m forward over each plate, in the plate's own axes: C3D plates have z down.
@@ -57,6 +64,11 @@ def write_c3d(path: Path, forces: list[np.ndarray], sign: float = -1.0, unit: st
         plates[name]["value"] = value
     file["data"]["points"] = np.zeros((4, 1, n // 10))
     file["data"]["analogs"] = channels[None]
+    if events:
+        labels, contexts, times = zip(*events, strict=True)
+        file.add_parameter("EVENT", "LABELS", list(labels))
+        file.add_parameter("EVENT", "CONTEXTS", list(contexts))
+        file.add_parameter("EVENT", "TIMES", np.array([[t // 60.0 for t in times], [t % 60.0 for t in times]]))
     file.write(str(path))
 
 
@@ -87,6 +99,17 @@ def test_two_plates_are_two_feet(tmp_path: Path, sign: float, unit: str) -> None
     text = " ".join(analysis.metrics["warnings"])
     assert "no cells" in text
     assert ("point down" in text) == (sign < 0)
+
+
+def test_events_of_the_file_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "walk.c3d"
+    stated = (("Foot Strike", "Left", 0.21), ("Foot Off", "Left", 0.89), ("Foot Strike", "Right", 0.82))
+    write_c3d(path, [stance(0.2, 0.9, 800.0), stance(0.8, 1.5, 700.0)], events=(*stated, ("General", "General", 1.0)))
+    events = analyse(path).recording.events
+    assert events["left"].heel_strikes == pytest.approx([0.21])
+    assert events["left"].toe_offs == pytest.approx([0.89])
+    assert events["right"].heel_strikes == pytest.approx([0.82])
+    assert len(events["right"].toe_offs) == 0
 
 
 def test_one_plate_and_other_files(tmp_path: Path) -> None:
