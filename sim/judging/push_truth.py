@@ -19,7 +19,7 @@ from plantar.gravity import GRAVITY
 from plantar.sides import Side, other_side
 from sim.judging.step_count import Stand
 
-__all__ = ["AGREEMENT", "CHANGED", "PushTruth", "Pushed", "step_changes"]
+__all__ = ["AGREEMENT", "CHANGED", "PushTruth", "Pushed", "Stride", "step_changes", "strides"]
 
 CHANGED = 1 / 20
 """Distance in leg lengths by which a step has to be off its plan to count as changed: 30 mm for H1. A swing foot that
@@ -48,6 +48,18 @@ class Pushed(NamedTuple):
     end: float
     impulse: NDArray[np.float64]
     small: bool
+
+
+class Stride(NamedTuple):
+    """The way of a foot with one step.
+
+    Attributes:
+        true: From where it stood to where it stood next (x, y) in m.
+        planned: The same as planned at the start.
+    """
+
+    true: tuple[float, float]
+    planned: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -82,6 +94,30 @@ def step_changes(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: 
         way = (stand.place[0] - true[other][0], stand.place[1] - true[other][1])
         asked = (step.x - planned[other].x, step.y - planned[other].y)
         found.append(math.dist(way, asked))
+        planned[step.side], true[step.side] = step, stand.place[:2]
+    return found
+
+
+def strides(stands: Sequence[Stand], feet: Mapping[Side, Footstep], steps: Sequence[Footstep]) -> list[Stride]:
+    """The way that each foot went with its step.
+
+    Args:
+        stands: The stands of the feet in order, sides in turn.
+        feet: Where the feet stood at the start.
+        steps: The footsteps as planned at the start.
+
+    Returns:
+        The strides in order; they end where the feet no longer came in their turn.
+    """
+    found: list[Stride] = []
+    planned: dict[Side, Footstep] = dict(feet)
+    true: dict[Side, tuple[float, float]] = {side: (foot.x, foot.y) for side, foot in feet.items()}
+    for stand, step in zip(stands, steps, strict=False):
+        if stand.side != step.side or stand.place is None:
+            break
+        (x, y), before = true[step.side], planned[step.side]
+        way = (stand.place[0] - x, stand.place[1] - y)
+        found.append(Stride(way, (step.x - before.x, step.y - before.y)))
         planned[step.side], true[step.side] = step, stand.place[:2]
     return found
 
@@ -186,6 +222,27 @@ class PushTruth:
                 text = f"{impulse:.1f} N s changed no step by more than {most:.3f} m; a large push needs {limit:.3f} m"
                 found.append({"criterion": "stepped", **told, "text": text})
         return found
+
+    def stride_reasons(self, pushes: Sequence[Pushed], ways: Sequence[Stride]) -> list[dict[str, Any]]:
+        """Criteria that failed of a scene in which each push makes its step longer.
+
+        Args:
+            pushes: The pushes.
+            ways: The strides (`strides`).
+
+        Returns:
+            As `sim.judging.verdict.reasons` gives them.
+        """
+        limit, reacted = CHANGED * self._leg, 0
+        for push in pushes:
+            if push.step < len(ways):
+                true, planned = (np.array(way) for way in ways[push.step])
+                along = push.impulse / max(float(np.hypot(*push.impulse)), 1e-9)
+                reacted += bool((true - planned) @ along > limit)
+        if reacted == len(pushes):
+            return []
+        text = f"{reacted} of {len(pushes)} pushed steps became longer along their push by {limit:.3f} m or more"
+        return [{"criterion": "strides", "value": reacted, "limit": len(pushes), "text": text}]
 
     def acceleration_reasons(self, pushes: Sequence[Pushed]) -> list[dict[str, Any]]:
         """Criteria that failed of a scene in which the CoM is to be accelerated as the model of K says.

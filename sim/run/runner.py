@@ -19,13 +19,14 @@ from gait.controller import Command, Start, WalkingController
 from gait.plan.footsteps import Footstep, straight_plan
 from gait.plan.walk_plan import vrp_of_step
 from gait.propose.velocity_command import Legs, VelocityCommand
+from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.sides import SIDES
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
-from sim.judging.push_truth import Pushed, PushTruth, step_changes
+from sim.judging.push_truth import Pushed, PushTruth, Stride, step_changes, strides
 from sim.judging.recovery import Recovery
 from sim.judging.velocity_truth import VelocityTruth
 from sim.judging.verdict import Ending, reasons
@@ -39,6 +40,7 @@ from sim.partner.touch import Partner, Touch
 from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
+from sim.run.box_plan import box_plan
 from sim.run.controller_settings import controller_settings
 from sim.run.hand_pushing import hand_pushes, upper_body_skin_of
 from sim.run.log import RunLog
@@ -92,14 +94,7 @@ class Simulation:
         self.scene = scene = scene.for_body(self.body)
         walk = scene.walk
         self.velocities = walk.velocities(seed)
-        self.feet, self.steps = straight_plan(
-            walk.steps if self.velocities is None else 0,
-            length=walk.length,
-            sideways=walk.sideways,
-            width=walk.stance_width or robot.stance_width,
-            first="left" if walk.first == "left" else "right",
-            height=scene.terrain.height,
-        )
+        self.feet, self.steps = self._plan()
         skin = upper_body_skin_of(scene, robot, self.legs.model, self.body)
         self.settings = controller_settings(
             scene,
@@ -153,6 +148,19 @@ class Simulation:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
         self.pushed: PushTruth | None = None if self.hands is None else PushTruth(self.body.mass, self.body.leg)
         self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps, self.body.leg))
+
+    def _plan(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
+        """Where the feet stand, and the footsteps that are planned at the start."""
+        walk = self.scene.walk
+        steps = walk.steps if self.velocities is None else 0
+        width, height = walk.stance_width or self.robot.stance_width, self.scene.terrain.height
+        first: Side = "left" if walk.first == "left" else "right"
+        if walk.pattern == "box":
+            try:
+                return box_plan(steps, stride=walk.length, width=width, first=first, height=height)
+            except InputError as error:
+                raise SceneError(f"scene '{self.scene.name}': [walk] {error}") from None
+        return straight_plan(steps, length=walk.length, sideways=walk.sideways, width=width, first=first, height=height)
 
     def _commands(self) -> tuple[VelocityCommand, ...]:
         """Who commands the walk while it is walked."""
@@ -426,12 +434,18 @@ class Simulation:
         """How far each step came to be from its plan in m."""
         return step_changes(self.judge.steps.last_stands(), self.feet, self.steps)
 
+    def _strides(self) -> list[Stride]:
+        """The way that each foot truly went with its step."""
+        return strides(self.judge.steps.last_stands(), self.feet, self.steps)
+
     def _push_reasons(self) -> list[dict[str, Any]]:
         """What failed of what a scene asks of pushes by hands."""
         if self.pushed is None or self.scene.push.verdict == "walk":
             return []
         if self.scene.push.verdict == "steps":
             return self.pushed.steps_reasons(self._pushes(), self._changes())
+        if self.scene.push.verdict == "stride":
+            return self.pushed.stride_reasons(self._pushes(), self._strides())
         return self.pushed.acceleration_reasons(self._pushes())
 
     def _of_hands(self) -> dict[str, Any]:
@@ -447,6 +461,7 @@ class Simulation:
                 "dv_m_s": round(self.scene.push.strength / self.body.mass, 4),
                 "direction": direction_name(self.scene.push, self.seed),
                 "step_changes_m": [round(change, 4) for change in self._changes()],
+                "strides_m": [[round(v, 4) for v in stride.true] for stride in self._strides()],
                 **told,
             }
         }

@@ -54,6 +54,7 @@ class Walk(Settings):
 
     Attributes:
         steps: Number of steps; the last one closes the feet.
+        pattern: Where the steps go: "straight", or in a "box" of six steps a round whose side is `length`.
         length: Distance by which a step leads the other foot.
         sideways: Lateral distance by which each opening step leads, positive to the left.
         stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
@@ -82,6 +83,7 @@ class Walk(Settings):
     """
 
     steps: int = whole(20, "steps", 0, 100000)
+    pattern: str = choice("straight", "box")
     length: float = share(1 / 3, "leg", -0.5, 0.5)
     sideways: float = number(0.0, "m", -0.3, 0.3)
     stance_width: float = number(0.0, "m", 0, 0.6)
@@ -168,7 +170,8 @@ class Push(Settings):
         height: Height in m above the torso's centre of mass at which it is pushed; 0.6 is about the neck.
         place: Where hands push: at `height`, or at the height of the CoM, the hips or the shoulders.
         verdict: What the judge asks for beside a completed walk: "steps", that small pushes change no step and others
-            do; "acceleration", that the CoM is accelerated as a force at that height has to. Of pushes by hands.
+            do; "stride", that each pushed step becomes longer along its push; "acceleration", that the CoM is
+            accelerated as a force at that height has to. Of pushes by hands.
     """
 
     dv: float = number(0.0, "m/s", 0, 10)
@@ -188,7 +191,7 @@ class Push(Settings):
     sideways: float = number(1.0, "1", 0, 1)
     height: float = number(0.0, "m", -1, 1)
     place: str = choice("height", "com", "hip", "shoulder")
-    verdict: str = choice("walk", "steps", "acceleration")
+    verdict: str = choice("walk", "steps", "stride", "acceleration")
 
     @property
     def strength(self) -> float:

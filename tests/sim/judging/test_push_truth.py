@@ -9,7 +9,7 @@ import pytest
 
 from gait.plan.footsteps import straight_plan
 from plantar.gravity import GRAVITY
-from sim.judging.push_truth import CHANGED, Pushed, PushTruth, step_changes
+from sim.judging.push_truth import CHANGED, Pushed, PushTruth, Stride, step_changes, strides
 from sim.judging.step_count import Stand
 
 FEET, STEPS = straight_plan(6, length=0.0)
@@ -91,3 +91,19 @@ def test_an_acceleration_that_nothing_explains_is_told() -> None:
         truth.update(time, np.array([0.0, 0.0, 0.8]), np.zeros(2), np.array([force, 0.0, 0.0, 0.0, 0.8 * force, 0.0]))
     (reason,) = truth.acceleration_reasons([Pushed(0, 0.1, 0.3, np.array([20.0, 0.0]), small=False)])
     assert reason["criterion"] == "com_acceleration"
+
+
+def test_a_stride_is_the_way_of_the_foot_itself() -> None:
+    found = strides(stands((0.05, 0.0), (0.0, 0.0), (0.15, 0.01)), FEET, STEPS)
+    assert [s.true for s in found] == [pytest.approx(way) for way in ((0.05, 0.0), (0.0, 0.0), (0.1, 0.01))]
+    assert all(s.planned == (0.0, 0.0) for s in found)
+
+
+def test_a_step_reacts_that_grows_along_its_push() -> None:
+    ways = [Stride((0.0, 0.06), (0.0, 0.0)), Stride((0.0, 0.0), (0.0, 0.0))]
+    pushes = [Pushed(k, 1.0 + k, 1.2 + k, np.array([0.0, 12.0]), small=False) for k in range(2)]
+    truth = PushTruth(86.0, LEG)
+    assert truth.stride_reasons(pushes[:1], ways) == []
+    (reason,) = truth.stride_reasons(pushes, ways)
+    assert (reason["criterion"], reason["value"], reason["limit"]) == ("strides", 1, 2)
+    assert truth.stride_reasons([pushes[0]._replace(impulse=np.array([0.0, -12.0]))], ways)
