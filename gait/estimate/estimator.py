@@ -9,7 +9,7 @@ Position: the material point of each loaded sole that lies at its centre of pres
 by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
 
 Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as input and the kinematic
-CoM as measurement, so that no encoder is differentiated.
+CoM as measurement, so that no encoder is differentiated. A push on the body, felt or estimated, is another input.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from gait.estimate.encoder_offsets import standing_base
 from gait.estimate.gyro_bias import GyroBias
+from gait.estimate.push_estimate import PushEstimate
 from gait.estimate.steady_load import SteadyLoad
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
@@ -116,6 +117,8 @@ class FloatingBaseEstimator:
         gains: Gains.
         gyro_bias: Identifies the gyro's bias; None takes the gyro at its word.
         steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
+        push: Estimates a push on the body from the soles and the IMU; None expects none.
+        push_acceleration: Acceleration (2,) of the CoM in m/s^2 that a push gives it at this tick.
     """
 
     kinematics: LegKinematics
@@ -125,6 +128,7 @@ class FloatingBaseEstimator:
     gains: EstimatorGains = field(default_factory=EstimatorGains)
     gyro_bias: GyroBias | None = None
     steady: SteadyLoad | None = None
+    push: PushEstimate | None = None
 
     def __post_init__(self) -> None:
         self._rotation: NDArray[np.float64] | None = None
@@ -137,6 +141,7 @@ class FloatingBaseEstimator:
         self._last_rotation = np.eye(3)
         self._heading: dict[Side, float | None] = {"left": None, "right": None}
         self._astray = 0.0
+        self.push_acceleration = np.zeros(2)
 
     def update(
         self,
@@ -146,6 +151,7 @@ class FloatingBaseEstimator:
         soles: Mapping[Side, SoleLoad],
         planned_acceleration: NDArray[np.float64] | None = None,
         airborne: Side | None = None,
+        felt: NDArray[np.float64] | None = None,
     ) -> BaseState:
         """One control tick.
 
@@ -156,6 +162,7 @@ class FloatingBaseEstimator:
             soles: What each sole carries.
             planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
             airborne: Foot that is high in the air by plan: what it reads there becomes its tare.
+            felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body feels; None goes by the soles.
 
         Returns:
             The estimated state.
@@ -185,6 +192,7 @@ class FloatingBaseEstimator:
             cop = cops[s]
             points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
         zmp = zmp_of_feet(points, [loads[s] for s in SIDES])
+        self._feel(rotation.dot(accelerometer)[:2], zmp, felt)
         self._observe(self._position + rotation.dot(posture.com), zmp)
         return BaseState(
             rotation,
@@ -317,11 +325,25 @@ class FloatingBaseEstimator:
             # No foot carries: the body goes on as it went.
             self._position = self._position + self.period * self._velocity
 
+    def _feel(
+        self,
+        acceleration: NDArray[np.float64],
+        zmp: NDArray[np.float64] | None,
+        felt: NDArray[np.float64] | None,
+    ) -> None:
+        """The push at this tick: what skin on the body feels of it, else what the soles tell."""
+        if self.push is not None:
+            pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
+            self.push_acceleration = self.push.update(acceleration, pendulum)
+        if felt is not None:
+            self.push_acceleration = felt
+
     def _observe(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> None:
         acceleration = np.zeros(3)
         if zmp is not None:
             # Predicted by the pendulum over the measured ZMP; the kinematics corrects it.
             acceleration[:2] = self.omega**2 * (self._com[:2] - zmp)
+        acceleration[:2] += self.push_acceleration
         self._com = self._com + self.period * self._velocity
         self._velocity = self._velocity + self.period * acceleration
         error = com - self._com
