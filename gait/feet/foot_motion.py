@@ -32,6 +32,7 @@ _RETAKE_HEIGHT = 1 / 15  # above what the foot met that a step taken once more r
 _CLOSE_BY = 0.1  # before its place from which a swing turns its sole to the ground
 _NEARLY_THERE = 0.02  # before its place from which a swing judges the ground that it will land on
 _TOUCHING = 1 / 60  # from the ground that it sees within which less than a blind foot's load is taken for a touch
+_SAME_PLACE = 1 / 6000  # between two places that are one
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
 
 
@@ -250,6 +251,17 @@ class FootMotion:
         share = min(1.0, self._period / self._landing.relax_time)
         self.footholds[side] = (position + np.array([0.0, 0.0, share * (stands - position.item(2))]), yaw)
 
+    def stand_at(self, side: Side, place: NDArray[np.float64], yaw: float) -> None:
+        """Command a foot that has landed to another place than the one that it was swung to.
+
+        Args:
+            side: Which foot.
+            place: Where it stands (2,) in the command frame in m.
+            yaw: Its heading in rad.
+        """
+        x, y = place.tolist()
+        self.footholds[side] = (np.array([x, y, self.footholds[side][0].item(2)]), yaw)
+
     def _advance(self, phase: Phase, time: float, load: float) -> None:
         """Advance a foot that does not see the ground."""
         assert self._swing is not None
@@ -280,7 +292,11 @@ class FootMotion:
         if not moves and (self.landed or abs(phase.touchdown - self._start - self._swing.duration) < SAME_TIME):
             return
         if self.landed:
-            self._retake(time, phase.touchdown, target, frame)
+            here = self.footholds[self._side][0]
+            if math.dist(frame.to_command(target.position[:2]), here[:2]) < _SAME_PLACE * self._leg:
+                self._target = target  # the plan has only taken over where it stands
+            else:
+                self._retake(time, phase.touchdown, target, frame)
             return
         self._target = target
         place = frame.to_command(target.position[:2]) if moves else self._swing.end[:2]
