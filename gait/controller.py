@@ -37,9 +37,11 @@ from gait.estimate.estimator import (
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.identification import IdentificationRules
 from gait.estimate.identified_body import IdentifiedBody
+from gait.estimate.push_estimate import PushEstimate, PushRules
 from gait.estimate.skin_load import at_its_limit
 from gait.estimate.sole_slope import SoleSlope
 from gait.estimate.steady_load import SteadyLoad
+from gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.ground_conformity import ConformityGains, GroundConformity
@@ -60,6 +62,8 @@ from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
 from gait.propose.proposer import Pendulum, Proposer, Tick
 from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
+from gait.propose.ssp_opt import StepRegionRules, StepWeights
+from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from gait.propose.step_timing import StepTiming, StepTimingRules
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
@@ -114,6 +118,11 @@ class ControllerSettings(Settings):
         contact: How contact polygons are found from the taxels.
         foothold: When what is found moves the plan.
         step_timing: When a single support ends sooner or later than planned; None keeps the plan's times.
+        step_adjustment: When a footstep moves for balance, in place of `step_timing`; None keeps the footsteps.
+        step_region: Where a footstep may move to.
+        step_weights: What a change of a footstep is weighed by in K 31.
+        push: When the soles and the IMU tell of a push on the body; None expects none.
+        push_expected: How a push is expected to go on.
         feedback: False walks the plan in open loop, for comparison.
         zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
         ankles: Force-torque sensor of each ankle, where the robot has them.
@@ -147,6 +156,11 @@ class ControllerSettings(Settings):
     contact: ContactSettings = field(default_factory=ContactSettings)
     foothold: FootholdRules = field(default_factory=FootholdRules)
     step_timing: StepTimingRules | None = None
+    step_adjustment: StepAdjustmentRules | None = None
+    step_region: StepRegionRules = field(default_factory=StepRegionRules)
+    step_weights: StepWeights = field(default_factory=StepWeights)
+    push: PushRules | None = None
+    push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
     ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
@@ -229,7 +243,9 @@ class WalkingController:
             stands,
             settings.estimator,
             *self._gyro_bias(),
+            None if settings.push is None else PushEstimate(settings.push, period),
         )
+        self._push = WrenchFilter(settings.push_expected, self.omega, period)
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
         if gains is not None:
@@ -300,8 +316,11 @@ class WalkingController:
         if self.settings.compliance is not None and self.settings.footholds == "off":
             drop = _NO_GROUND * self.settings.ground_map.sensing_range
             on_ground.append(EdgeBeside(self.layouts, drop, rules.largest_shift))
-        if self.settings.step_timing is not None:
-            on_ground.append(StepTiming(self.settings.step_timing, self.settings.period))
+        s = self.settings
+        if s.step_adjustment is not None:
+            on_ground.append(StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.period))
+        elif s.step_timing is not None:
+            on_ground.append(StepTiming(s.step_timing, s.period))
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 
     @property
@@ -343,9 +362,8 @@ class WalkingController:
         xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
         tick = self._perceive(sensed, state, feet, inward, feedback)
         region = self._zmp_region(tick.phase, feet)
-        if feedback and self.settings.step_timing is not None:
-            goal = self.plan.dcm_after(tick.phase)
-            tick = tick._replace(pendulum=Pendulum(self.omega, xi, self.plan.at(time), goal, region))
+        if feedback and (self.settings.step_timing is not None or self.settings.step_adjustment is not None):
+            tick = tick._replace(pendulum=self._pendulum(tick.phase, time, xi, region))
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
@@ -432,6 +450,7 @@ class WalkingController:
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
         heights = {s: state.positions_sole[s].item(2) for s in SIDES}
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press(), heights)
+        self._stand_beside(state)
         feet, slope = self.motion.view, self.settings.slope
         if feet.lift_off and feet.side is not None:
             self._compensation.start()
@@ -444,6 +463,15 @@ class WalkingController:
             if inward:
                 self.contacts.bear_inside(feet.side, inward)
         return feet, inward
+
+    def _stand_beside(self, state: BaseState) -> None:
+        """Command a foot that has landed beside its place to where it stands, where steps move for balance."""
+        feet, rules = self.motion.view, self.settings.step_adjustment
+        if rules is None or not feet.touchdown or feet.side is None:
+            return
+        place = self._frame.to_command(state.positions_sole[feet.side][:2])
+        if math.dist(place, feet.footholds[feet.side][0][:2]) > rules.misplaced:
+            self.motion.stand_at(feet.side, place, heading(state.rotations_sole[feet.side]) - self._frame.turn)
 
     def _press(self) -> float | None:
         """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains. A foot that
@@ -470,6 +498,14 @@ class WalkingController:
             seen=self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None,
             inward=inward,
         )
+
+    def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
+        """The pendulum now, with what a push is expected to do until the phase ends."""
+        offset = np.zeros(2)
+        if self.settings.push is not None:
+            self._push.update(self.estimator.push_acceleration / self.omega**2)
+            offset = self._push.mean(max(0.0, phase.end - time)) if self._push.acts and phase.swing else offset
+        return Pendulum(self.omega, dcm, self.plan.at(time), self.plan.dcm_after(phase), region, offset)
 
     def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
         """Turn a foot that comes down blindly, or has just landed, parallel to the one that stands."""

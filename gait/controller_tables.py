@@ -11,12 +11,16 @@ from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.estimate.estimator import EstimatorGains
 from gait.estimate.identification import IdentificationRules
+from gait.estimate.push_estimate import PushRules
+from gait.estimate.wrench_filter import WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
+from gait.propose.ssp_opt import StepRegionRules, StepWeights
+from gait.propose.step_adjustment import StepAdjustmentRules
 from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, PlantarError
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
@@ -33,6 +37,11 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "contact": (ContactSettings,),
     "foothold": (FootholdRules,),
     "step_timing": (StepTimingRules,),
+    "step_adjustment": (StepAdjustmentRules,),
+    "step_region": (StepRegionRules,),
+    "step_weights": (StepWeights,),
+    "push_estimate": (PushRules,),
+    "push_expected": (WrenchFilterRules,),
     "compliance": (ComplianceGains,),
     "touchdown": (TouchdownGains,),
     "ground_map": (GroundMapSettings,),

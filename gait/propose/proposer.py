@@ -23,6 +23,7 @@ from gait.plan.phases import Phase
 from gait.plan.plan_change import PlanChange
 from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
+from plantar.arrays import read_only
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
@@ -51,6 +52,7 @@ class Pendulum(NamedTuple):
         reference: The plan now.
         goal: Where the plan has the DCM (2,) at the end of the phase in m.
         zmp_region: Convex polygon (k, 2) in the world in m in which the ZMP may lie, counter-clockwise.
+        offset: u_w (2,) in m by which a push is expected to move the VRP off the ZMP until the phase ends (K 18).
     """
 
     omega: float
@@ -58,6 +60,7 @@ class Pendulum(NamedTuple):
     reference: LipReference
     goal: NDArray[np.float64]
     zmp_region: NDArray[np.float64]
+    offset: NDArray[np.float64] = read_only(np.zeros(2))
 
 
 class Tick(NamedTuple):

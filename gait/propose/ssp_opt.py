@@ -55,7 +55,8 @@ class StepRegionRules(Settings):
     """Where the swing foot may land beside the stance foot, and when (K 32-33).
 
     The paper's numbers are for a leg of 0.6 m with 0.15 m between the legs: 0.2 m forward and backward, 0 to 0.12 m out
-    beyond those 0.15 m, 0.7 to 1.7 s.
+    beyond those 0.15 m, 0.7 to 1.7 s. Such a leg with its knee bent by 15 degrees reaches 0.33 m aside, and a walk with
+    steps of 0.2 m could not lengthen them at all: 0.25 m forward and 0.33 m outside are allowed here.
 
     Attributes:
         forward: Farthest forward in m.
@@ -66,10 +67,10 @@ class StepRegionRules(Settings):
         longest: Longest single support in s.
     """
 
-    forward: float = share(0.333, "leg", 0, 1)
+    forward: float = share(0.417, "leg", 0, 1)
     backward: float = share(0.333, "leg", 0, 1)
     inside: float = share(0.25, "leg", 0, 1)
-    outside: float = share(0.45, "leg", 0, 1)
+    outside: float = share(0.55, "leg", 0, 1)
     shortest: float = share(2.83, "beat", 0.01, 10)
     longest: float = share(6.87, "beat", 0.01, 100)
 
@@ -240,7 +241,7 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
         ... )
         >>> found = solve_ssp(pushed, StepWeights())
         >>> found.place.round(3).tolist(), round(found.time, 3), found.residual < 1e-8
-        ([0.0, 0.17], 0.621, True)
+        ([0.0, 0.204], 0.65, True)
     """
     region: list[list[float]] = array(problem.region, "region", ("k", 2), finite=True).tolist()
     if not region:

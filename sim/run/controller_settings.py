@@ -15,6 +15,8 @@ from gait.controller import ControllerSettings
 from gait.estimate.ankle_sensor import AnkleSensor
 from gait.estimate.estimator import EstimatorGains
 from gait.estimate.identification import IdentificationRules
+from gait.estimate.push_estimate import PushRules
+from gait.estimate.wrench_filter import WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
@@ -22,6 +24,8 @@ from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.slope_inside import SlopeRules
+from gait.propose.ssp_opt import StepRegionRules, StepWeights
+from gait.propose.step_adjustment import StepAdjustmentRules
 from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side
@@ -78,6 +82,7 @@ def controller_settings(
     partial = control.footholds != "off" or control.conform
     crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
     approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
+    adjusts = control.step_adjustment and not robot.rocks
     yaw = {"yaw": _YAW_ON_UNKNOWN_GROUND} if control.pfc else {}
 
     def made(kind: type[T], name: str, **given: Any) -> T:
@@ -107,6 +112,11 @@ def controller_settings(
         foothold=made(FootholdRules, "foothold"),
         # A robot that rocks keeps its own time, which its soles' edges make and no plan of the ZMP.
         step_timing=made(StepTimingRules, "step_timing") if control.step_timing and not robot.rocks else None,
+        step_adjustment=made(StepAdjustmentRules, "step_adjustment") if adjusts else None,
+        step_region=made(StepRegionRules, "step_region"),
+        step_weights=made(StepWeights, "step_weights"),
+        push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
+        push_expected=made(WrenchFilterRules, "push_expected"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
         feedback=control.feedback,
         zmp_source=control.zmp_source,
@@ -165,6 +175,14 @@ def _refuse_unused(scene: Scene) -> None:
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
+        **dict.fromkeys(
+            ("step_adjustment", "step_region", "step_weights"),
+            (control.step_adjustment, "control.step_adjustment = true"),
+        ),
+        **dict.fromkeys(
+            ("push_estimate", "push_expected"),
+            (control.push_estimate != "off", "control.push_estimate = 'soles' or 'skin'"),
+        ),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
         "conformity": (control.conform, "control.conform = true"),
         **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),

@@ -215,6 +215,10 @@ class Control(Settings):
         identify: The controller identifies how robot and sensors differ from its model, such as the gyro's bias.
         step_timing: The controller ends a single support sooner or later than planned where the DCM asks for it; not of
             a robot that rocks.
+        step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
+            foot may stand anywhere.
+        push_estimate: What tells of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
+            "skin" on the upper body, and the soles where that feels nothing.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -228,6 +232,8 @@ class Control(Settings):
     conform: bool = switch(False)
     identify: bool = switch(True)
     step_timing: bool = switch(True)
+    step_adjustment: bool = switch(False)
+    push_estimate: str = choice("off", "soles", "skin")
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

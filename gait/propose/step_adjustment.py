@@ -1,0 +1,296 @@
+"""Step elsewhere, or sooner, when the ZMP alone cannot bring the DCM to where the next step begins (K 4.1-4.2).
+
+With the ZMP at p for the rest T of a single support the DCM xi comes to p + e^(w T) (xi - p). What the plan wants of
+it, xi_s, moves with the footstep: by (1 - a) d where the footstep and all after it move by d, and the VRP still takes
+the share a of the double support's way from the old foot (K 23-24). A push that is expected to go on moves p by -u_w
+(K 9).
+
+Two ways to the best footstep and time:
+
+- "search" takes time after time, for each the ZMP of the support polygon that brings the DCM nearest, and the footstep
+  that makes up for the rest, as far as the foot can get by then. How far that is grows with the time, which no convex
+  program says; one number is searched for, the others are in closed form.
+- "ssp_opt" solves K 31 (`gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
+
+A foot that lands while its step is adjusted ends the single support, whatever the plan's time is: the DCM does not
+wait. One that stands beside its place stands there from then on; legs that pull it back would make it slip.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gait.plan.footsteps import Footstep
+from gait.plan.plan_change import PlanChange
+from gait.propose.proposer import Pendulum, Priority, Tick
+from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
+from plantar.geometry.polygon import closest_point, convex_hull, signed_margin
+from plantar.settings.schema import Settings, choice, number, share
+from plantar.sides import Side, other_side
+
+__all__ = ["StepAdjustment", "StepAdjustmentRules"]
+
+_PEAK = 5.774  # largest acceleration of a minimum-jerk motion over its way and time: 10 / sqrt(3) way / time^2
+_COARSE, _FINE = 10, 4  # times that are tried first, and how often the best one's neighbourhood is halved
+
+
+class StepAdjustmentRules(Settings):
+    """When a footstep moves for balance, and how far.
+
+    Attributes:
+        method: How the footstep is found: "search" or "ssp_opt".
+        confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
+        least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
+        acceleration: Largest acceleration in m/s^2 of the swing foot. (With twice as much h1's hip, 71 N m, throws its
+            torso about, and the foot lands 60 mm beside its place.)
+        shortest: Share of what is left of a single support by which it becomes shorter at most.
+        longest: Share of a single support by which it becomes longer at most.
+        least_left: Time in s until touchdown from which a foot is not aimed any more.
+        pause: Time in s between two changes.
+        price_time: What a second costs in m/s of DCM error.
+        price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
+        misplaced: Distance in m from its place at which a foot that has landed stands elsewhere.
+    """
+
+    method: str = choice("search", "ssp_opt")
+    confidence: float = number(0.0, "1", 0, 1)
+    least_error: float = share(0.0433, "sole", 0, 0.2)
+    acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
+    shortest: float = number(0.45, "1", 0, 0.9)
+    longest: float = number(0.3, "1", 0, 5)
+    least_left: float = share(0.404, "beat", 0, 5)
+    pause: float = share(0.081, "beat", 0, 5)
+    price_time: float = share(0.0206, "leg/beat", 0, 10)
+    price_place: float = number(0.5, "1", 0, 10)
+    misplaced: float = share(0.0333, "leg", 0.001, 1)
+
+
+class _Foot(NamedTuple):
+    """The foot that swings: which step it takes, where (2,) in m it is and with which velocity (2,) in m/s."""
+
+    step: int
+    place: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+
+
+class _Choice(NamedTuple):
+    """A footstep: the time in s until it, by how much (2,) in m it moves, and what it costs in m."""
+
+    left: float
+    move: NDArray[np.float64]
+    cost: float
+
+
+class StepAdjustment:
+    """Proposes another footstep, and another time of it.
+
+    Args:
+        rules: When, and how far.
+        region: Where a foot may land beside the other one.
+        weights: Weights of "ssp_opt".
+        period: Control period in s, the unit of a change of time.
+    """
+
+    priority = Priority.TIMING
+
+    def __init__(
+        self, rules: StepAdjustmentRules, region: StepRegionRules, weights: StepWeights, period: float
+    ) -> None:
+        self._rules = rules
+        self._box = region
+        self._weights = weights
+        self._period = period
+        self._changed = -math.inf
+        self._adjusted = -1
+        self._stands = -1
+        self._foot: _Foot | None = None
+
+    def propose(self, tick: Tick) -> PlanChange | None:
+        """Another footstep where that helps, or where it is now (see `gait.propose.proposer.Proposer`)."""
+        pendulum = tick.pendulum
+        if pendulum is None or tick.feet.side is None:
+            return None
+        if tick.feet.landed:
+            return self._landed(tick, tick.feet.side)
+        swing = tick.phase.swing
+        if swing is None or tick.phase.wait:
+            return None
+        foot = self._follow(tick, swing)
+        if tick.time < self._changed + self._rules.pause or not len(pendulum.zmp_region):
+            return None
+        left = tick.phase.end - tick.time
+        # An error grows at most as without any feedback.
+        off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(*pendulum.offset.tolist())
+        if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
+            return None
+        if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
+            return None
+        region = self._region(tick, swing)
+        find = self._solved if self._rules.method == "ssp_opt" else self._searched
+        return self._change(tick, find(tick, pendulum, foot, left, region), left)
+
+    def _follow(self, tick: Tick, swing: Side) -> _Foot:
+        """Where the swing foot is commanded and how fast."""
+        place, before = tick.place(swing).position[:2], self._foot
+        velocity = np.zeros(2)
+        if before is not None and before.step == tick.phase.step:
+            velocity = (place - before.place) / self._period
+        self._foot = _Foot(tick.phase.step, place, velocity)
+        return self._foot
+
+    def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
+        """The change of the plan, where it is worth one."""
+        if found is None:
+            return None
+        # A whole number of ticks, so that phases begin at ticks.
+        longer = round((found.left - left) / self._period) * self._period
+        step, move = tick.phase.step, found.move
+        if abs(longer) < 1.5 * self._period and math.hypot(*move.tolist()) < 0.5 * self._rules.least_error:
+            return None
+        self._changed, self._adjusted = tick.time, step
+        return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
+
+    def _landed(self, tick: Tick, side: Side) -> PlanChange | None:
+        """The end of the single support with the landing of a step that was adjusted, and where the foot stands."""
+        phase = tick.phase
+        step = phase.step if phase.swing == side else phase.step - 1
+        if step < tick.plan.first or step == self._stands or tick.plan.foothold(step).side != side:
+            return None
+        self._stands = step
+        place, planned = tick.place(side), tick.plan.foothold(step)
+        move = place.position[:2] - planned.position[:2]
+        if math.hypot(*move.tolist()) < self._rules.misplaced:
+            move, place = np.zeros(2), planned
+        # Down to its last tick: a phase has to have a length.
+        longer = min(0.0, tick.time + self._period - phase.end) if phase.swing and self._adjusted == step else 0.0
+        if longer > -1.5 * self._period and not move.any():
+            return None
+        reason = "landed beside its place" if move.any() else "landed early"
+        return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
+
+    def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
+        """Where the swing foot may land (k, 2) in the world in m; the place where it is planned to among it."""
+        stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
+        region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw))
+        # A walk may have longer steps than are allowed for balance; those it keeps.
+        inside = len(region) and signed_margin(region, planned) >= 0.0
+        return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))
+
+    def _searched(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
+    ) -> _Choice | None:
+        """The best footstep by search over its time."""
+        rules = self._rules
+        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
+        latest = max(left, (1.0 + rules.longest) * usual - begun)
+        soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
+        target = tick.plan.foothold(tick.phase.step).position[:2]
+        slope = _slope(tick, pendulum)
+        price = rules.price_place * (0.1 + 0.9 * rules.confidence)
+
+        def tried(time: float) -> _Choice:
+            missed = _missed(pendulum, time)
+            wanted = closest_point(region, target + missed / slope)
+            assert wanted is not None
+            move = self._reached(foot, wanted, time) - target
+            cost = math.dist(missed, slope * move) + rules.price_time * abs(time - left)
+            return _Choice(time, move, cost + price * math.hypot(*move.tolist()))
+
+        step = (latest - soonest) / _COARSE
+        best = tried(left)
+        for k in range(_COARSE + 1):
+            best = min(best, tried(soonest + k * step), key=_cost)
+        for _ in range(_FINE):
+            step *= 0.5
+            times = (max(soonest, best.left - step), min(latest, best.left + step))
+            best = min(best, *map(tried, times), key=_cost)
+        return best
+
+    def _solved(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
+    ) -> _Choice | None:
+        """The best footstep by K 31, whose places are those of the VRP."""
+        plan, step, rules = tick.plan, tick.phase.step, self._rules
+        vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
+        following = plan.schedule.following(tick.phase)
+        last = step + 1 >= plan.count
+        begun = tick.time - tick.phase.start
+        usual = plan.schedule.timing.single_support
+        kept = _kept(pendulum, left)
+        found = solve_ssp(
+            SspProblem(
+                omega=pendulum.omega,
+                dcm=pendulum.dcm,
+                vrp=kept,
+                offset=pendulum.offset,
+                stance=plan.stance_vrp(step),
+                elapsed=begun,
+                target=(*vrp.tolist(), begun + left),
+                nominal=(*vrp.tolist(), usual),
+                region=region + (vrp - target),
+                shortest=begun + min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun))),
+                longest=max(begun + left, (1.0 + rules.longest) * usual),
+                next_stride=np.zeros(2) if last else plan.vrp(step + 1) - vrp,
+                next_duration=usual,
+                double_support=following.end - following.start,
+                confidence=rules.confidence,
+            ),
+            self._weights,
+        )
+        if found is None:
+            return None
+        time = found.time - begun
+        move = self._reached(foot, found.place - vrp + target, time) - target
+        return _Choice(time, move, 0.0)
+
+    def _reached(self, foot: _Foot, wanted: NDArray[np.float64], time: float) -> NDArray[np.float64]:
+        """The place (2,) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
+
+        From rest a minimum-jerk motion gets a t^2 / 5.77 far with a peak of a. A foot that moves at v gets v t / 2
+        farther and, for braking, v^2 / 5.77 a less far: as with a constant acceleration, whose numbers are 1/4.
+        """
+        most, v = self._rules.acceleration, foot.velocity
+        middle = foot.place + (0.5 * time) * v
+        reach = max(0.0, most * time * time - float(v @ v) / most) / _PEAK
+        way = wanted - middle
+        far = math.hypot(*way.tolist())
+        return wanted if far <= reach else middle + way * (reach / far)
+
+
+def _cost(choice: _Choice) -> float:
+    return choice.cost
+
+
+def _moved(planned: Footstep, step: int, move: NDArray[np.float64], reason: str, longer: float) -> PlanChange:
+    """A change that moves a footstep and all after it."""
+    dx, dy = move.tolist()
+    place = replace(planned, x=planned.x + dx, y=planned.y + dy)
+    return PlanChange(reason, step, foothold=place, shift=(dx, dy), longer=longer, resets=True)
+
+
+def _kept(pendulum: Pendulum, left: float) -> NDArray[np.float64]:
+    """The ZMP (2,) of the support polygon that brings the DCM nearest to its goal in some time in s (K 25-27)."""
+    growth = math.expm1(pendulum.omega * left)
+    wanted = pendulum.dcm + (pendulum.dcm - pendulum.goal) / growth + pendulum.offset
+    nearest = closest_point(pendulum.zmp_region, wanted)
+    assert nearest is not None
+    return nearest
+
+
+def _missed(pendulum: Pendulum, left: float) -> NDArray[np.float64]:
+    """By how much (2,) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
+    vrp = _kept(pendulum, left) - pendulum.offset
+    return vrp + math.exp(pendulum.omega * left) * (pendulum.dcm - vrp) - pendulum.goal
+
+
+def _slope(tick: Tick, pendulum: Pendulum) -> float:
+    """By how much the DCM that is wanted at the end of the single support moves with the footstep: 1 less the share of
+    the double support's VRP that stays with the foot before, which moves linearly from the one to the other."""
+    following = tick.plan.schedule.following(tick.phase)
+    growth = pendulum.omega * (following.end - following.start)
+    return -math.expm1(-growth) / growth

@@ -1,0 +1,205 @@
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from gait.plan.plan_change import PlanChange
+from gait.plan.walk_plan import WalkPlan
+from gait.propose.proposer import Pendulum, Tick
+from gait.propose.ssp_opt import StepRegionRules, StepWeights
+from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
+from plantar.sides import other_side
+
+PERIOD = 0.005
+RULES = StepAdjustmentRules()
+REGION = StepRegionRules()
+SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+ROOM = 0.03 * SQUARE  # m about the stance's VRP
+NOW = 3.4 + 0.45  # s: half-way through the second single support of the plan
+METHODS = ["search", "ssp_opt"]
+
+
+@pytest.fixture
+def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Callable[..., tuple[WalkPlan, Tick]]:
+    """Makes a plan, and the tick at a time of it at which the DCM is pushed aside."""
+
+    def made(by: Any, time: float = NOW, room: np.ndarray = ROOM, **known: Any) -> tuple[WalkPlan, Tick]:
+        plan = plan_of()
+        reference, goal = plan.at(time), plan.dcm_after(plan.schedule.at(time))
+        pendulum = Pendulum(3.5, reference.dcm + np.asarray(by), reference, goal, reference.vrp + room, **known)
+        tick = tick_at(plan, time, pendulum=pendulum)
+        phase = plan.schedule.at(time)
+        swing = phase.swing
+        assert swing is not None
+        step, stance = plan.view.foothold(phase.step), plan.view.foothold(phase.step - 1)
+        # The stance foot stands at its place, the other one is on its way over the last 50 mm.
+        feet = {
+            swing: (np.array([step.x - 0.05, step.y, 0.03]), step.yaw),
+            other_side(swing): (stance.position, stance.yaw),
+        }
+        return plan, tick._replace(feet=tick.feet._replace(footholds=feet, side=swing, landed=False))
+
+    return made
+
+
+def adjustment(**rules: Any) -> StepAdjustment:
+    return StepAdjustment(replace(RULES, **rules), REGION, StepWeights(), PERIOD)
+
+
+def proposed(tick: Tick, **rules: Any) -> PlanChange | None:
+    return adjustment(**rules).propose(tick)
+
+
+def ends(tick: Tick, left: float) -> shapely.Polygon:
+    """Every place of the DCM after some time that a constant ZMP of the region brings about."""
+    pendulum, grown = tick.pendulum, math.exp(3.5 * left)
+    assert pendulum is not None
+    return shapely.Polygon(grown * pendulum.dcm - (grown - 1.0) * (pendulum.zmp_region - pendulum.offset))
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("by", [(0.1, 0.0), (-0.1, 0.0), (0.0, -0.08), (0.05, -0.05)])
+def test_a_push_moves_the_step_its_way(method: str, by: Any, pushed: Any) -> None:
+    plan, tick = pushed(by)
+    sign = 1.0 if tick.phase.swing == "left" else -1.0
+    by = (by[0], -sign * by[1])  # out to the side of the foot that swings
+    plan, tick = pushed(by)
+    change = proposed(tick, method=method)
+    assert change is not None
+    assert change.reason == "step adjusted"
+    assert float(np.dot(change.shift, by)) > 0.0
+    moved = plan.apply(change, NOW, tick.pendulum.zmp_region).moved
+    before = tick.plan.foothold(tick.phase.step)
+    assert math.dist((moved[0].x, moved[0].y), (before.x, before.y)) == pytest.approx(math.hypot(*change.shift))
+    # What the ZMP has to leave is less than before.
+    end = plan.schedule.at(NOW)
+    missed = ends(tick, end.end - NOW).distance(shapely.Point(plan.dcm_after(end)))
+    assert missed < 0.8 * ends(tick, tick.phase.end - NOW).distance(shapely.Point(tick.pendulum.goal))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_the_zmp_can_do_is_left_to_it(method: str, pushed: Any) -> None:
+    for by in ((0.0, 0.0), (0.01, 0.0), (0.0, 0.015)):
+        assert proposed(pushed(by)[1], method=method) is None
+    assert proposed(pushed((0.0, 0.1), room=0.5 * SQUARE)[1], method=method) is None
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed: Any, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    time = NOW + float(rng.uniform(-0.4, 0.35))
+    method = METHODS[seed % 2]
+    _, tick = pushed(rng.normal(0.0, 0.08, 2), time)
+    change = proposed(tick, method=method)
+    if change is None:
+        return
+    swing = tick.phase.swing
+    assert swing is not None
+    left = tick.phase.end + (change.longer or 0.0) - time
+    place = np.array([change.foothold.x, change.foothold.y])
+    planned = tick.plan.foothold(tick.phase.step).position[:2]
+    here = tick.place(swing).position[:2]
+    assert math.dist(place, here) <= RULES.acceleration * (left + PERIOD) ** 2 / 5.77 + 1e-9
+    stance = tick.place("right" if swing == "left" else "left")
+    near, far = sorted((1.0 if swing == "left" else -1.0) * d for d in (REGION.inside, REGION.outside))
+    box = shapely.box(stance.x - REGION.backward, stance.y + near, stance.x + REGION.forward, stance.y + far)
+    # Towards its place the foot may still be on its way into the box, from where it is.
+    allowed = box.union(shapely.Point(planned)).union(shapely.Point(here)).convex_hull
+    assert allowed.distance(shapely.Point(place)) < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> None:
+    """Over all times in periods, with distances of GEOS."""
+    rng = np.random.default_rng(seed)
+    _, tick = pushed(rng.normal(0.0, 0.06, 2))
+    rules = replace(RULES, acceleration=100.0)  # the foot gets everywhere
+    change = StepAdjustment(rules, REGION, StepWeights(), PERIOD).propose(tick)
+    left, usual, begun = tick.phase.end - NOW, 0.9, NOW - tick.phase.start
+    slope = (1.0 - math.exp(-3.5 * 0.3)) / (3.5 * 0.3)  # the plan's double support lasts 0.3 s
+    price = 0.1 * rules.price_place
+
+    def cost(time: float, move: np.ndarray) -> float:
+        goal = tick.pendulum.goal + slope * move
+        missed = ends(tick, time).distance(shapely.Point(goal))
+        return missed + rules.price_time * abs(time - left) + price * float(np.hypot(*move))
+
+    least = max(rules.least_left, (1.0 - rules.shortest) * (usual - begun))
+    times = np.arange(least, (1.0 + rules.longest) * usual - begun, PERIOD)
+    # Without a footstep's change; moves only ever help where that misses.
+    still = min(cost(float(t), np.zeros(2)) for t in times)
+    if change is None:
+        assert still < rules.least_error + rules.price_time * usual
+        return
+    found = cost(left + change.longer, np.array(change.shift))
+    assert found <= still + 2e-3
+    assert found < cost(left, np.zeros(2))
+
+
+def test_a_push_that_goes_on_is_reckoned_with(pushed: Any) -> None:
+    assert proposed(pushed((0.0, 0.0))[1]) is None
+    change = proposed(pushed((0.0, 0.0), offset=np.array([0.08, 0.0]))[1])
+    assert change is not None
+    assert change.shift[0] > 0.0
+
+
+def test_a_confident_robot_moves_its_steps_less(pushed: Any) -> None:
+    tick = pushed((0.045, 0.0))[1]
+    moves = [proposed(tick, confidence=c, price_place=2.0) for c in (0.0, 1.0)]
+    sizes = [0.0 if change is None else math.hypot(*change.shift) for change in moves]
+    assert sizes[1] < sizes[0]
+
+
+def test_a_foot_in_flight_gets_farther_its_way(pushed: Any) -> None:
+    _, tick = pushed((0.15, 0.0))
+    still, moving = adjustment(), adjustment()
+    swing = tick.phase.swing
+    position, yaw = tick.feet.footholds[swing]
+    back = dict(tick.feet.footholds) | {swing: (position - np.array([0.005, 0.0, 0.0]), yaw)}  # 1 m/s
+    calm = tick.pendulum._replace(dcm=tick.pendulum.reference.dcm)
+    earlier = tick._replace(time=NOW - PERIOD, feet=tick.feet._replace(footholds=back), pendulum=calm)
+    assert moving.propose(earlier) is None
+    first, second = still.propose(tick), moving.propose(tick)
+    assert first is not None
+    assert second is not None
+    assert second.foothold.x > first.foothold.x + 0.01
+
+
+def test_a_foot_that_lands_early_ends_the_single_support(pushed: Any) -> None:
+    plan, tick = pushed((0.1, 0.0))
+    steps = adjustment()
+    change = steps.propose(tick)
+    assert change is not None
+    plan.apply(change, NOW, tick.pendulum.zmp_region)
+    down = tick._replace(time=NOW + 0.05, plan=plan.view, phase=plan.schedule.at(NOW + 0.05))
+    place = plan.view.foothold(tick.phase.step)
+    standing = {s: (np.array([f[0][0], f[0][1], 0.0]), f[1]) for s, f in tick.feet.footholds.items()}
+    standing[tick.phase.swing] = (np.array([place.x - 0.05, place.y, 0.0]), 0.1)
+    down = down._replace(feet=tick.feet._replace(footholds=standing, landed=True))
+    landed = steps.propose(down)
+    assert landed is not None
+    assert landed.reason == "landed beside its place"
+    assert landed.shift == pytest.approx((-0.05, 0.0), abs=1e-12)
+    assert landed.foothold.yaw == pytest.approx(0.1)
+    assert down.phase.end + landed.longer == pytest.approx(NOW + 0.05 + PERIOD)
+    assert steps.propose(down) is None  # told once
+
+
+def test_a_step_that_nobody_adjusted_keeps_its_time(pushed: Any) -> None:
+    _, tick = pushed((0.0, 0.0), NOW + 0.3)
+    place = tick.plan.foothold(tick.phase.step)
+    standing = dict(tick.feet.footholds) | {tick.phase.swing: (np.array([place.x, place.y, 0.0]), place.yaw)}
+    assert proposed(tick._replace(feet=tick.feet._replace(footholds=standing, landed=True))) is None
+
+
+def test_it_rests_between_two_changes_and_needs_feedback(pushed: Any) -> None:
+    _, tick = pushed((0.1, 0.0))
+    steps = adjustment()
+    assert steps.propose(tick._replace(pendulum=None)) is None
+    assert steps.propose(tick) is not None
+    assert steps.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
+    assert steps.propose(tick._replace(time=NOW + 1.01 * RULES.pause)) is not None
