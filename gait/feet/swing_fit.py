@@ -1,0 +1,219 @@
+"""The swing foot's path as a polynomial that is fitted anew at every tick to where and when it shall land (K 13-16).
+
+A footstep that is moved at every tick wants a path that does not pass on each jump. K fits a polynomial of the time to
+more conditions than it has coefficients: rest at lift-off and touchdown, the path of the tick before, what is measured
+of the foot, and two heights on the way; ridge regression weighs them against each other (K 14), and only the two ends
+are kept exactly. K 16 puts those in after the fit, by overwriting two coefficients; here the fit is made under them, so
+that it is the best of all polynomials that pass through both.
+
+Time is counted in shares of the swing, so conditions and damping weigh alike for a child's and for a grown robot's
+step, and a swing of 100 s is as well conditioned as one of 0.1 s. Conditions on velocity and acceleration are weighed
+by the control period in these units and its square, as in K Table 1.
+
+A polynomial may swing past. Horizontally, the reference stays between where it was and where it shall land; vertically,
+it rises, and from some moment on it falls (K 2.4, monotonicity).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arguments import number as checked_number
+from plantar.arrays import array
+from plantar.errors import InputError
+from plantar.settings.schema import Settings, number, share, whole
+
+__all__ = ["SwingFit", "SwingFitRules", "SwingPoint"]
+
+_LEAST_SHARE = 1e-6  # of a swing: what is left of it at least, for a duration that has passed
+
+
+class SwingFitRules(Settings):
+    """What the path of a swing foot is fitted to (K Table 1).
+
+    Attributes:
+        order: n: order of the polynomial.
+        damping: lambda: weight of the coefficients' squares. With the paper's 0.01 a foot lands at 0.15 m/s, as the
+            damping outweighs its rest, and jumps by 10 mm where its goal jumps by 100; with this at 2 mm/s, by 3 mm.
+        position: sigma_pos: weight of conditions on the position; those on velocity and acceleration weigh as much
+            times the control period, counted in swings, and its square.
+        observation: sigma_obs: weight of what is measured of the foot.
+        height: Delta z: how high in m the foot is lifted.
+        height_share: gamma: share of the swing after which, and before whose end, it is that high.
+    """
+
+    order: int = whole(6, "1", 5, 9)
+    damping: float = number(1e-6, "1", 1e-9, 1e3)
+    position: float = number(1.0, "1", 1e-9, 1e3)
+    observation: float = number(1e-4, "1", 0, 1e3)
+    height: float = share(0.0833, "leg", 0, 0.5)
+    height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
+
+
+class SwingPoint(NamedTuple):
+    """Where the swing foot shall be now.
+
+    Attributes:
+        position: (3,) in m.
+        velocity: (3,) in m/s.
+        acceleration: (3,) in m/s^2.
+    """
+
+    position: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+
+
+class SwingFit:
+    """The path of one swing, from lift-off on.
+
+    Args:
+        rules: What it is fitted to.
+        start: Position (3,) at lift-off in m.
+        period: Control period in s.
+
+    Raises:
+        InputError: If the position is not three finite numbers, or the period not a finite number above 0.
+
+    Example:
+        A step of 0.2 m whose goal moves by 0.1 m to the side half-way:
+
+        >>> fit, path = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], 0.005), []
+        >>> for k in range(1, 161):
+        ...     path.append(fit.aim([0.2, 0.0 if k < 80 else 0.1, 0.0], 0.005 * k, 0.8).position)
+        >>> path[-1].round(4).tolist(), round(float(np.max(path, axis=0)[2]), 3)
+        ([0.2, 0.1, 0.0], 0.063)
+    """
+
+    def __init__(self, rules: SwingFitRules, start: ArrayLike, period: float) -> None:
+        self._period = checked_number(period, "control period", finite=True)
+        if self._period <= 0.0:
+            raise InputError(f"control period is {period} s; allowed: above 0")
+        self._rules = rules
+        self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
+        self._last = SwingPoint(self._start.copy(), np.zeros(3), np.zeros(3))
+        self._seen: tuple[NDArray[np.float64], float] | None = None
+        self._falls = False
+        n = rules.order
+        # Conditions that every swing has, in shares of it: rest at both ends, and for z the two heights. With both ends
+        # kept, a_n is the way less all others, which leaves a_1 to a_(n-1).
+        g, weight = rules.height_share, rules.position
+        rests = [np.array([_rows(s, n)[d] for s in (0.0, 1.0)]) for d in (1, 2)]
+        heights = np.array([_rows(s, n)[0] for s in (g, 1.0 - g)])
+        self._high = weight * _reduced(heights).T @ _reduced(heights)
+        # What the heights pull z by, for each metre of top and of way.
+        self._high_top, self._high_way = (weight * _reduced(heights).T @ v for v in (np.ones(2), -heights[:, n]))
+        # Damping, rest and no acceleration at the ends: their share of the matrix, and how they pull at a_n.
+        same = [rules.damping * (np.eye(n - 1) + 1.0), *(weight * _reduced(r).T @ _reduced(r) for r in rests)]
+        pulls = [np.full(n - 1, rules.damping), *(-weight * _reduced(r).T @ r[:, n] for r in rests)]
+        self._same = np.array([np.append(m, pull) for m, pull in zip(same, pulls, strict=True)])
+        self._matrix, self._right = np.empty((2, n - 1, n - 1)), np.empty((2, n - 1, 3))
+
+    def aim(self, goal: ArrayLike, elapsed: float, duration: float, observed: ArrayLike | None = None) -> SwingPoint:
+        """The reference now, of a path to a goal (K 13-16).
+
+        Args:
+            goal: Where the foot shall land (3,) in m.
+            elapsed: T_c: time since lift-off in s; one control period more at each call.
+            duration: T_s in s, from lift-off to touchdown.
+            observed: Where the foot was at the tick before (3,) in m, by the joints; None does without.
+
+        Returns:
+            Where the foot shall be; the goal, at rest, once the duration is over.
+
+        Raises:
+            InputError: If goal or observation is not three finite numbers, or a time not a finite number.
+        """
+        end = array(goal, "goal of the swing", (3,), finite=True)
+        now = checked_number(elapsed, "time since lift-off", finite=True)
+        lasts = checked_number(duration, "duration of the swing", finite=True)
+        seen = None if observed is None else array(observed, "observed position", (3,), finite=True)
+        if now >= lasts or lasts <= 0.0:
+            self._last = SwingPoint(end.copy(), np.zeros(3), np.zeros(3))
+            return self._last
+        found = self._fitted(end, now, lasts, seen)
+        self._seen = None if seen is None else (seen, now - self._period)
+        self._last = self._monotone(found, end, now / lasts)
+        return self._last
+
+    def _fitted(
+        self, end: NDArray[np.float64], now: float, lasts: float, seen: NDArray[np.float64] | None
+    ) -> SwingPoint:
+        """The reference now of the polynomial by ridge regression through both ends."""
+        rules, n, (place, velocity, acceleration) = self._rules, self._rules.order, self._last
+        start, tick, way = self._start, self._period / lasts, end - self._start
+        square = lasts * lasts
+        before = max(now - self._period, 0.0) / lasts
+        rows = [*_rows(now / lasts, n), *_rows(before, n)]
+        values = [place - start, velocity * lasts, acceleration * square]
+        weights = [rules.position, rules.position * tick, rules.position * tick * tick]
+        if seen is not None and rules.observation > 0.0:
+            # What is measured is of the same moments as the path of before: one condition each, weighed together.
+            part = rules.observation / (rules.observation + rules.position)
+            values[0] += part * (seen - place)
+            weights[0] += rules.observation
+            if self._seen is not None:
+                values[1] += part * ((seen - self._seen[0]) / tick - values[1])
+                weights[1] += rules.observation * tick
+                rows.append(_powers(max(self._seen[1], 0.0) / lasts, n))
+                values.append(self._seen[0] - start)
+                weights.append(rules.observation)
+        # y - y_i = s^n way + sum a_k (s^k - s^n), in which both ends are kept.
+        full = np.array(rows)
+        ends = full[:, n:]
+        free, along = full[:, 1:n] - ends, ends * way
+        conditions = free[3:]
+        weighed = conditions.T * np.array(weights)
+        same = np.array((1.0, tick, tick * tick)) @ self._same
+        matrix, right, m = self._matrix, self._right, (n - 1) * (n - 1)
+        np.add(weighed @ conditions, same[:m].reshape(n - 1, n - 1), out=matrix[0])
+        np.add(matrix[0], self._high, out=matrix[1])
+        np.add(weighed @ (np.array(values) - along[3:]), same[m:, None] * way, out=right[0])
+        right[1] = right[0]
+        rise = float(way[2])
+        right[1, :, 2] += (max(0.0, rise) + rules.height) * self._high_top + rise * self._high_way
+        level, upright = free[:3] @ np.linalg.solve(matrix, right)
+        level[:, 2] = upright[:, 2]
+        level += along[:3]
+        return SwingPoint(level[0] + start, level[1] / lasts, level[2] / square)
+
+    def _monotone(self, found: SwingPoint, end: NDArray[np.float64], s: float) -> SwingPoint:
+        """A reference that neither turns round nor passes its goal; vertically one that rises, and later falls."""
+        self._falls = self._falls or s >= 0.5
+        for k, (at, was, to) in enumerate(
+            zip(found.position.tolist(), self._last.position.tolist(), end.tolist(), strict=True)
+        ):
+            if k == 2:
+                kept = min(at, was) if self._falls else max(at, was)
+                kept = max(kept, to) if self._falls and was >= to else kept
+            else:
+                kept = min(max(at, min(was, to)), max(was, to))
+            if kept != at:
+                found.position[k] = kept
+                found.velocity[k] = (kept - was) / self._period
+                found.acceleration[k] = 0.0
+        return found
+
+
+def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:
+    """phi(s) = [1, s, ..., s^n] (K 13, corrected: one name for the basis), and its first and second derivative."""
+    powers = _powers(s, order)
+    first = [0.0] + [k * p for k, p in enumerate(powers[:-1], 1)]
+    return powers, first, [0.0] + [k * p for k, p in enumerate(first[:-1], 1)]
+
+
+def _powers(s: float, order: int) -> list[float]:
+    """phi(s)."""
+    powers, power = [1.0], 1.0
+    for _ in range(order):
+        power *= s
+        powers.append(power)
+    return powers
+
+
+def _reduced(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Conditions (m, n + 1) on all coefficients as those (m, n - 1) on the ones that the ends leave free."""
+    return np.asarray(rows[:, 1:-1] - rows[:, -1:])
