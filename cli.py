@@ -26,7 +26,7 @@ from shoes.order import FootSource, ShoeOrder
 app = typer.Typer(
     name="plantar",
     no_args_is_help=True,
-    add_completion=False,
+    add_completion=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
@@ -467,6 +467,21 @@ def bench(
     failed = "contact" in result and not result["contact"]["holds"]
     failures = ["the chosen contact model is not as right as it must be"] if failed else []
     end_command(result, as_json, "\n".join(texts) + file_lines(result["files"]), failures, failed)
+
+
+@app.command()
+def doctor(as_json: Json = False) -> None:
+    """Say what is installed of what Plantar can use, what is missing or broken, and how to get it.
+
+    Exit code 1 if something that is always needed is missing, or something that is installed cannot be loaded.
+
+    Example: plantar doctor
+    """
+    from plantar import doctor as examination
+
+    found = examination.examine()
+    failures = ["a library is missing or broken: see above"] if not found["holds"] else []
+    end_command(found, as_json, examination.doctor_text(found), failures, not found["holds"])
 
 
 def main() -> None:

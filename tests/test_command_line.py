@@ -37,6 +37,11 @@ def test_the_version_is_the_packages(monkeypatch: pytest.MonkeyPatch, capsys: py
     assert capsys.readouterr().out == f"plantar {plantar.__version__}\n"
 
 
+def test_a_shell_completes_commands() -> None:
+    asked = {"_PLANTAR_COMPLETE": "complete_bash", "COMP_WORDS": "plantar sw", "COMP_CWORD": "1"}
+    assert shell("plantar", **asked).stdout.split() == ["sweep"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

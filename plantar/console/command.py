@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -48,6 +49,8 @@ def run_command(app: typer.Typer) -> int:
     """
     usage_error = cast(type[Exception], typer.BadParameter.__base__)  # typer exports it under no name of its own
     command = typer.main.get_command(app)
+    if "_PLANTAR_COMPLETE" in os.environ:  # a shell asks how a word goes on; click answers it and ends
+        command.main(prog_name="plantar")
     try:
         with command.make_context("plantar", sys.argv[1:]) as context:
             command.invoke(context)

@@ -1,0 +1,126 @@
+"""What is installed of what Plantar can use, what is missing or broken, and how to get it."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from collections.abc import Mapping
+from ctypes.util import find_library
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from plantar.errors import DependencyError
+from plantar.optional_library import optional_library
+
+__all__ = ["LIBRARIES", "doctor_text", "examine"]
+
+LIBRARIES: dict[str, dict[str, str]] = {
+    "": {
+        "numpy": "numpy",
+        "shapely": "shapely",
+        "typer": "typer",
+        "rich": "rich",
+        "mcap": "mcap",
+        "matplotlib": "matplotlib",
+    },
+    "shoes": {
+        "cadquery": "cadquery",
+        "ezdxf": "ezdxf",
+        "fonttools": "fontTools",
+        "trimesh": "trimesh",
+        "scipy": "scipy",
+    },
+    "sim": {"mujoco": "mujoco", "scipy": "scipy", "opencv-contrib-python-headless": "cv2", "daqp": "daqp"},
+    "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
+    "cluster": {"distributed": "distributed"},
+}
+"""Distribution and module of the libraries that each extra brings; those without an extra are always needed."""
+
+PURPOSES = {
+    "": "reading, perception and analysis of recordings",
+    "shoes": "plantar shoe: printable shoes",
+    "sim": "plantar sim, sweep, robot, demo: walking in MuJoCo",
+    "formats": "ROS bags, C3D files and images of footprints",
+    "cluster": "plantar sweep --scheduler: workers on other machines",
+}
+"""What each extra is for."""
+
+
+def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str, Any]:
+    """Load every library that Plantar can use, and see how things stand.
+
+    Args:
+        libraries: Distribution and module of what each extra brings.
+
+    Returns:
+        Versions of Plantar and Python, the platform, whether the kernels are compiled, whether pictures can be drawn
+        without a display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why
+        it cannot be loaded. `holds` is False where one that is always needed is missing, or an installed one is broken.
+    """
+    found: list[dict[str, str | None]] = [
+        {"extra": extra, "library": name, **_state(name, module, extra or "all")}
+        for extra, modules in libraries.items()
+        for name, module in modules.items()
+    ]
+    wrong = [f for f in found if f["problem"] is not None and (f["problem"] != "missing" or not f["extra"])]
+    return {
+        "plantar": import_module("plantar").__version__,
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "compiled": _kernels_are_compiled(),
+        "opengl": sys.platform != "linux" or any(find_library(name) is not None for name in ("EGL", "OSMesa")),
+        "libraries": found,
+        "holds": not wrong,
+    }
+
+
+def doctor_text(found: Mapping[str, Any]) -> str:
+    """What `examine` found, for people: an extra a paragraph, and what to do.
+
+    Args:
+        found: The result of `examine`.
+
+    Returns:
+        The text.
+    """
+    kernels = (
+        "compiled" if found["compiled"] else "plain Python, slower: install a C compiler and Cython, then Plantar again"
+    )
+    lines = [f"plantar {found['plantar']}, Python {found['python']}, {found['platform']}", f"kernels: {kernels}"]
+    if not found["opengl"]:
+        lines.append("pictures and videos: no EGL; on Debian or Ubuntu: sudo apt-get install libegl1")
+    for extra in dict.fromkeys(f["extra"] for f in found["libraries"]):
+        own = [f for f in found["libraries"] if f["extra"] == extra]
+        lines.append(f"{extra or 'always needed'} ({PURPOSES.get(extra, '')})")
+        lines += [f"    {f['library']} {f['version'] or ''}{_told(f['problem'])}".rstrip() for f in own]
+        if any(f["problem"] == "missing" for f in own):
+            wanted = f"'plantar[{extra}]'" if extra else "plantar"
+            lines.append(f"    get them: pip install {wanted}")
+    return "\n".join(lines)
+
+
+def _state(name: str, module: str, extra: str) -> dict[str, str | None]:
+    """Version and problem of a library."""
+    try:
+        installed = version(name)
+    except PackageNotFoundError:
+        installed = None
+    try:
+        with optional_library(module, extra):
+            import_module(module)
+    except DependencyError as error:
+        return {"version": installed, "problem": "missing" if installed is None else str(error)}
+    return {"version": installed, "problem": None}
+
+
+def _kernels_are_compiled() -> bool:
+    """Whether the kernels run compiled."""
+    return bool(import_module("plantar.kernels").compiled)
+
+
+def _told(problem: str | None) -> str:
+    """A problem behind a library's name."""
+    if problem is None:
+        return ""
+    return "missing" if problem == "missing" else f": cannot be loaded: {problem}"
