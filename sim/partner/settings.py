@@ -1,0 +1,41 @@
+"""Settings of the partner that walks with a robot, as a scene's `[partner]` table says them."""
+
+from __future__ import annotations
+
+from plantar.settings.schema import Settings, choice, number, share
+
+__all__ = ["PartnerSettings"]
+
+
+class PartnerSettings(Settings):
+    """A mobile robot that stands before the robot and is pushed by it, or pushes it (K, appendix B).
+
+    The numbers of K's Table 2 are those of H1; they go with weight, mass and leg.
+
+    Attributes:
+        kind: Whether there is one.
+        role: What the partner is: a "leader" has a built-in force, a "follower" has none.
+        virtual_mass: M of K 39.
+        virtual_damping: D of K 39.
+        virtual_stiffness: K of K 39.
+        stride: S of K 41: how far it goes from where it rests before it rests there.
+        built_in_force: f_in of K 39, of a leader alone.
+        starts: Time in s from which a leader's force acts, and a follower is moved.
+        gap: Distance in m of its hand from the robot's skin at the start.
+        body_mass: Mass of its body; TIAGo's of 70 kg beside H1.
+        drive_force: Largest force of its drive.
+        force_noise: Noise (1 sigma) in N of the force-torque sensor in its hand.
+    """
+
+    kind: str = choice("none", "mobile_robot")
+    role: str = choice("follower", "leader")
+    virtual_mass: float = share(0.581, "mass", 0.01, 1e4)
+    virtual_damping: float = share(0.1725, "weight beat/leg", 0.0, 1e5)
+    virtual_stiffness: float = share(0.1422, "weight/leg", 0.0, 1e6)
+    stride: float = share(1 / 6, "leg", 0.001, 10)
+    built_in_force: float = share(0.01778, "weight", 0.0, 1e4)
+    starts: float = number(2.0, "s", 0.0, 600)
+    gap: float = share(0.05, "leg", 0.0, 1)
+    body_mass: float = share(0.814, "mass", 0.01, 1e4)
+    drive_force: float = share(0.3, "weight", 0.1, 1e5)
+    force_noise: float = share(0.0006, "weight", 0.0, 100)
