@@ -42,7 +42,8 @@ def upper_body_skin_of(scene: Scene, robot: Robot, model: Any, body: BodyScale) 
     Returns:
         The skin, in the base frame.
     """
-    if scene.push.by != "hands" or scene.push.strength <= 0.0:
+    pushed = scene.push.by == "hands" and scene.push.strength > 0.0
+    if not pushed and scene.partner.kind == "none":
         return None
     base = int(model.body_rootid[model.body(robot.torso_body).id])
     return upper_body_skin(model, base, leg=body.leg, weight=body.weight)

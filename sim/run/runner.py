@@ -26,6 +26,7 @@ from plantar.sides import SIDES
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
+from sim.judging.partner_truth import partner_reasons
 from sim.judging.push_truth import Pushed, PushTruth, Stride, step_changes, strides
 from sim.judging.recovery import Recovery
 from sim.judging.velocity_truth import VelocityTruth
@@ -36,6 +37,7 @@ from sim.model.ankle_limits import ankle_limits
 from sim.model.body import body_of
 from sim.model.world import World, build_leg_model, build_world, check_stable
 from sim.partner.hand_pushes import HandPushes
+from sim.partner.mobile_robot import MobileRobot
 from sim.partner.touch import Partner, Touch
 from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
@@ -45,7 +47,7 @@ from sim.run.controller_settings import controller_settings
 from sim.run.hand_pushing import hand_pushes, upper_body_skin_of
 from sim.run.log import RunLog
 from sim.run.pushing import Pusher, direction_name
-from sim.run.scene import Push, Scene
+from sim.run.scene import SECTIONS, Push, Scene
 from sim.run.servos import LegServos
 from sim.run.shares import body_told, shares_told
 from sim.run.standing import stand
@@ -111,7 +113,12 @@ class Simulation:
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
         partners: list[Partner] = []
         self.hands: HandPushes | None = None
-        if skin is not None and scene.push.by == "hands":
+        self.partner: MobileRobot | None = None
+        if skin is not None and scene.partner.kind == "mobile_robot":
+            height = scene.terrain.height + self.settings.com_height
+            self.partner = MobileRobot(scene.partner, skin, self.body, height, seed)
+            partners.append(self.partner)
+        if skin is not None and scene.push.by == "hands" and scene.push.strength > 0.0:
             plan = (self.feet, self.steps)
             self.hands = hand_pushes(scene.push, lambda: self.controller.schedule, plan, skin, self.body, seed)
             partners.append(self.hands)
@@ -303,10 +310,7 @@ class Simulation:
             "seed": self.seed,
             "mass_kg": self.legs.mass,
             "ground": self.ground.seen_from_above(),
-            "settings": {
-                name: asdict(getattr(self.scene, name))
-                for name in ("terrain", "walk", "sensing", "push", "control", "plant")
-            },
+            "settings": {name: asdict(getattr(self.scene, name)) for name in SECTIONS},
         }
 
     def _summary(self, result: _Result) -> dict[str, Any]:
@@ -333,6 +337,8 @@ class Simulation:
         if self.speeds is not None:
             why += self.speeds.reasons(landings)
         why += self._push_reasons()
+        if self.partner is not None:
+            why += partner_reasons(self.scene.partner.role, self._way(), self.partner.moved)
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         late = self.servos.out_of_reach_since
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in SIDES}
@@ -409,6 +415,10 @@ class Simulation:
         if self.controller.guard is not None:
             found |= self.controller.guard.summary()
         found |= self._of_hands()
+        if self.partner is not None:
+            start = 0.5 * sum(self.feet[side].x + self._centers[side][0] for side in SIDES)
+            walked = float(self.world.data.subtree_com[self.world.torso, 0]) - start
+            found["partner"] = {**self.partner.summary(), "robot_moved_m": round(walked, 4)}
         if self.pusher.step is not None:
             found["push"] = {
                 "impulse_Ns": round(self.scene.push.strength, 4),
@@ -447,6 +457,11 @@ class Simulation:
         if self.scene.push.verdict == "stride":
             return self.pushed.stride_reasons(self._pushes(), self._strides())
         return self.pushed.acceleration_reasons(self._pushes())
+
+    def _way(self) -> float:
+        """How far forward in m the middle between the feet is planned to go."""
+        last = dict(self.feet) | {step.side: step for step in self.steps}
+        return 0.5 * sum(last[side].x - self.feet[side].x for side in SIDES)
 
     def _of_hands(self) -> dict[str, Any]:
         """What hands did, and what came of it."""

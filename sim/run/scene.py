@@ -24,6 +24,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
+from sim.partner.settings import PartnerSettings
 from sim.plant.settings import Plant
 from sim.sensing.settings import Sensing
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
@@ -244,6 +245,7 @@ SECTIONS: dict[str, type[Settings]] = {
     "walk": Walk,
     "sensing": Sensing,
     "push": Push,
+    "partner": PartnerSettings,
     "control": Control,
     "plant": Plant,
 }
@@ -277,6 +279,7 @@ class Scene:
         control: Switches.
         controller: Settings of the controller's parts by table and name (`gait.controller_tables`), as far as given.
         plant: In what the true robot and ground differ from what the controller takes them for.
+        partner: Who walks with the robot.
     """
 
     name: str
@@ -289,6 +292,7 @@ class Scene:
     control: Control
     controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     plant: Plant = field(default_factory=Plant)
+    partner: PartnerSettings = field(default_factory=PartnerSettings)
 
     def for_body(self, body: BodyScale) -> Scene:
         """The scene for a robot: what it states as shares of a body is told for this one.
