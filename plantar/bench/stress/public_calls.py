@@ -28,6 +28,8 @@ from plantar.sensing import (
     force,
     ground_plane,
     health,
+    link_skin,
+    net_wrench,
     partial_contact,
     pressure_wrench,
     proximity,
@@ -49,7 +51,7 @@ INNER: frozenset[str] = frozenset(
         *(f"rotation.{name}" for name in ("heading", "orthonormalised", "rotation_error", "rotation_from_vector")),
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
         *("wrench.wrench_in_frame", "wrench.Wrench.of", "contact.Contact", "contact.Contact.wrench_in_world"),
-        *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches"),
+        *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches", "net_wrench.NetWrench"),
         *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),
         *(f"wrench_distribution.WrenchDistribution.{name}" for name in ("program", "solve")),
         *("wrench_distribution.Program", "wrench_distribution.WrenchShare"),
@@ -598,7 +600,23 @@ def _of_wrenches(sole: SoleLayout) -> list[Call]:
                 "signal": Argument(_force(n), (..., "n"), "signal", nan=True),
             },
         ),
+        _of_net_wrench(),
     ]
+
+
+def _of_net_wrench() -> Call:
+    patch = link_skin.SkinPatch("chest", "torso", np.zeros((1, 3)), np.eye(3)[None], np.full(1, 1e-3))
+    return Call(
+        "net_wrench.net_wrench",
+        net_wrench.net_wrench,
+        {"point": Argument(np.array([0.5, 0.25, 1.0]), (3,), "point")},
+        {
+            "skin": link_skin.BodySkin([patch]),
+            "reading": link_skin.SkinReading(0.0, np.full(1, 4.0), np.full(1, np.inf)),
+            "poses": {"torso": (np.zeros(3), np.eye(3))},
+            "rules": net_wrench.NetWrenchRules(),
+        },
+    )
 
 
 def _plane(sole: SoleLayout) -> ground_plane.GroundPlane:

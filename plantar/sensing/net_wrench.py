@@ -1,0 +1,102 @@
+"""The net wrench of all that touches a body, or is about to, about one point: from every taxel of its skin (K 2-5).
+
+A taxel counts where it feels force OR sees something near (K 2, corrected: with the printed AND nothing could count
+before it touches). Its pseudo-force is its force plus what its proximity adds (K 3), so a push is answered a moment
+before it arrives; the wrench is summed taxel by taxel, link by link, and carried to the point, with K the CoM (K 4-5).
+K's taxels deliver a share of full scale, which its weight of 99 turns into newtons; a `SkinReading` is in newtons.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from plantar.arrays import array
+from plantar.errors import ReadingError
+from plantar.mechanics.wrench import wrench_in_frame
+from plantar.sensing.body_skin import active_cells, pseudo_force
+from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
+from plantar.settings.schema import Settings, number, share
+
+__all__ = ["NetWrench", "NetWrenchRules", "net_wrench"]
+
+
+class NetWrenchRules(Settings):
+    """What counts as a push, beside each patch's own threshold of force.
+
+    Attributes:
+        near: theta_prox: share of its range by which something has to be nearer than the range's end (K Table 1).
+        proximity_force: w_prox: force in N that a taxel adds for something that is about to touch it: 1 N in K Table 1,
+            for a robot of 86 kg; 0 counts what touches alone.
+    """
+
+    near: float = number(0.05, "1", 0, 1)
+    proximity_force: float = share(0.00119, "weight", 0, 100)
+
+
+class NetWrench(NamedTuple):
+    """What pushes a body.
+
+    Attributes:
+        wrench: Wrench (6,) about the point in the world's axes in N and N m, exerted by the world on the robot.
+        taxels: Indices of the taxels that count.
+    """
+
+    wrench: NDArray[np.float64]
+    taxels: NDArray[np.int64]
+
+
+def net_wrench(
+    skin: BodySkin,
+    reading: SkinReading,
+    poses: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]],
+    point: ArrayLike,
+    rules: NetWrenchRules,
+) -> NetWrench:
+    """Sum what all taxels feel and see (K 2-5, corrected).
+
+    Args:
+        skin: The skin.
+        reading: One reading of it. A taxel that reads NaN is silent.
+        poses: Origin (3,) in the world in m and rotation (3, 3) to the world of each link that has skin, by its name;
+            links whose taxels are all silent may be left out.
+        point: Point (3,) in the world that moments are taken about in m, with K the CoM.
+        rules: What counts.
+
+    Returns:
+        The wrench; zeros where nothing counts.
+
+    Raises:
+        ReadingError: If the reading is of another skin, the point not three finite numbers, or a pose missing.
+
+    Example:
+        >>> from plantar.sensing.link_skin import SkinPatch
+        >>> inward = np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]])  # z into the body: back to front
+        >>> skin = BodySkin([SkinPatch("back", "torso", np.array([[-0.1, 0.0, 0.3]]), inward, np.array([1e-3]))])
+        >>> torso = {"torso": (np.array([0.0, 0.0, 1.0]), np.eye(3))}
+        >>> pushed = SkinReading(0.0, np.array([40.0]), np.array([0.0]))
+        >>> net_wrench(skin, pushed, torso, [0.0, 0.0, 0.9], NetWrenchRules(proximity_force=0.0)).wrench.tolist()
+        [-40.0, 0.0, 0.0, 0.0, -16.0, 0.0]
+    """
+    about = array(point, "point", (3,), ReadingError, finite=True)
+    if reading.force.shape != (len(skin),) or reading.distance.shape != (len(skin),):
+        raise ReadingError(
+            f"reading has forces {reading.force.shape} and distances {reading.distance.shape}; the skin has "
+            f"{len(skin)} taxels"
+        )
+    # 0 at the end of its range or beyond, 1 at contact; a patch that does not see has no range.
+    seen = np.isfinite(reading.distance) & (skin.ranges > 0.0)
+    near = np.zeros(len(skin))
+    near[seen] = np.clip(1.0 - reading.distance[seen] / skin.ranges[seen], 0.0, 1.0)
+    active = active_cells(reading.force - skin.thresholds, near, 0.0, rules.near)
+    signal = pseudo_force(reading.force, near, 1.0, rules.proximity_force, active)
+    total = np.zeros(6)
+    for link, wrench, _ in link_wrenches(skin, signal, active):
+        if link not in poses:
+            raise ReadingError(f"link '{link}' feels something and has no pose; given: {', '.join(poses) or 'none'}")
+        origin, rotation = poses[link]
+        total += wrench_in_frame(wrench, rotation, origin - about)
+    return NetWrench(total, active.nonzero()[0])
