@@ -14,8 +14,8 @@ exhaustively on a grid and refined; so is where between the feet the ZMP is in a
 unknowns. Nothing that a controller could do within the limits is left out, so the search's only error is that of the
 grid, which makes the limit too small by less than the step of the grid matters.
 
-Swing speed is bounded by a polygon of 16 edges around its circle, at most 2 % too far. Angular momentum is none: hips
-and arms are not swung.
+How far feet swing is bounded by polygons of 16 edges around a circle, at most 2 % too far. Angular momentum is none:
+hips and arms are not swung.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ import daqp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from plantar.arrays import array
+from plantar.arrays import array, own
 from plantar.errors import InputError
 from plantar.geometry.polygon import convex_hull
 from plantar.gravity import GRAVITY
@@ -39,6 +39,8 @@ __all__ = ["CaptureLimit", "CaptureLimits", "Instant", "LandedStep", "capture_li
 _MOST = 2.0  # m of DCM: no robot comes near
 _ROUND = np.array([(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange(16) / 16])
 _AXES = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+_REST = own(np.zeros(2))
+_PEAK = 10.0 / math.sqrt(3.0)  # largest acceleration of a minimum-jerk motion over its way and time^2
 _FLAT = 1e-9  # weight of the steps beside that of the push: of all steps that capture as much, the shortest are taken
 
 
@@ -71,6 +73,8 @@ class CaptureLimits:
         longest: Longest one in s.
         double_support: How long a double support lasts between two steps in s.
         swing_speed: Largest mean speed of the swing foot over the ground in m/s.
+        swing_acceleration: Largest acceleration of the swing foot over the ground in m/s^2, on a minimum-jerk path:
+            from rest it gets a t^2 / 5.77 far.
         landing: How long a foot takes at least from the push until it touches down in s.
         lasts: How long the push lasts in s, at constant force; 0 for one that takes no time.
         height: How far above the CoM it acts in m.
@@ -90,6 +94,7 @@ class CaptureLimits:
     longest: float
     double_support: float = 0.0
     swing_speed: float = math.inf
+    swing_acceleration: float = math.inf
     landing: float = 0.0
     lasts: float = 0.0
     height: float = 0.0
@@ -104,7 +109,7 @@ class CaptureLimits:
             if not len(hull):
                 raise InputError(f"{name} has no vertices; it needs one at least")
             object.__setattr__(self, name, hull)
-        for name in ("mass", "omega", "swing_speed"):
+        for name in ("mass", "omega", "swing_speed", "swing_acceleration"):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} is {getattr(self, name)}; allowed: above 0")
         for name in ("shortest", "double_support", "landing", "lasts"):
@@ -130,6 +135,7 @@ class Instant(NamedTuple):
         swing: The other foot's origin (2,) from it in m.
         elapsed: Time since the single support began in s; 0 in double support.
         double_left: Time until it begins in s; 0 in single support.
+        velocity: Velocity (2,) of the other foot in m/s.
     """
 
     side: str
@@ -137,6 +143,7 @@ class Instant(NamedTuple):
     swing: NDArray[np.float64]
     elapsed: float = 0.0
     double_left: float = 0.0
+    velocity: NDArray[np.float64] = _REST
 
 
 class LandedStep(NamedTuple):
@@ -217,7 +224,9 @@ def capture_limit(limits: CaptureLimits, instant: Instant, direction: ArrayLike)
     if instant.side not in ("left", "right"):
         raise InputError(f"side of an instant is {instant.side!r}; allowed: left, right")
     flip = np.array((1.0, 1.0 if instant.side == "left" else -1.0))
-    seen = instant._replace(side="left", dcm=instant.dcm * flip, swing=instant.swing * flip)
+    seen = instant._replace(
+        side="left", dcm=instant.dcm * flip, swing=instant.swing * flip, velocity=instant.velocity * flip
+    )
     programs = [_Program(limits, seen, toward / length * flip, count) for count in range(limits.steps + 1)]
     best = _connected(programs)
     if best is None:
@@ -286,7 +295,7 @@ class _Program:
             rows.append(row)
             upper.append((edges @ regions[(j + 1) % 2].T).max(axis=1))
         self._circles = sum(len(r) for r in rows)
-        if math.isfinite(limits.swing_speed):
+        for _ in range(math.isfinite(limits.swing_speed) + math.isfinite(limits.swing_acceleration)):
             for j in range(count):
                 row = np.zeros((len(_ROUND), size))
                 row[:, 1 + 2 * j : 3 + 2 * j] = _ROUND
@@ -344,16 +353,13 @@ class _Program:
             for j in range(n):
                 np.multiply(self._normals, -leads[b, j], out=rows[:k, 1 + 2 * j : 3 + 2 * j])
             upper[1 : 1 + k] = self._upper[1 : 1 + k] + supports[b]
-            if circles is not None:
-                upper[1 + self._circles :] = self._upper[1 + self._circles :] + circles[b]
+            upper[1 + self._circles :] = self._upper[1 + self._circles :] + circles[b]
             z, _, flag, _ = daqp.solve(self._hessian, gradient, rows, upper, self._lower, primal_tol=1e-9)
             if flag == 1:
                 found.append(_Found(float(z[0]), z[1:].reshape(n, 2), sequences.times[b], sequences.shares[b]))
         return found
 
-    def _terms(
-        self, sequences: _Sequences
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]:
+    def _terms(self, sequences: _Sequences) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Support function (b, k) of all soles together, weight (b, n) of each step, and how far feet swing (b, r)."""
         limits, instant, n = self._limits, self._instant, self._count
         times, shares, w = sequences.times, sequences.shares, limits.omega
@@ -378,10 +384,24 @@ class _Program:
             at = end
         if n == 0:  # it stays as it is
             total = np.tile(self._by_both if instant.double_left > 0.0 else self._by_side[0], (count, 1))
-        if not math.isfinite(limits.swing_speed):
-            return total, leads, None
-        airborne = times - np.where(np.arange(n) == 0, instant.elapsed, 0.0)
-        return total, leads, np.repeat(limits.swing_speed * airborne, len(_ROUND), axis=1)
+        return total, leads, self._swings(times - np.where(np.arange(n) == 0, instant.elapsed, 0.0))
+
+    def _swings(self, airborne: NDArray[np.float64]) -> NDArray[np.float64]:
+        """How far feet get (b, r) in the times (b, n) that they swing, along each edge of their circles.
+
+        A foot that already moves at v gets v t / 2 farther, and for braking v^2 / (5.77 a) less far.
+        """
+        limits, v = self._limits, self._instant.velocity
+        found = [np.zeros((len(airborne), 0))]
+        if math.isfinite(limits.swing_speed):
+            found.append(np.repeat(limits.swing_speed * airborne, len(_ROUND), axis=1))
+        if math.isfinite(limits.swing_acceleration) and self._count:
+            reach = limits.swing_acceleration * airborne**2
+            reach[:, :1] -= float(v @ v) / limits.swing_acceleration
+            edges = np.repeat(np.maximum(reach, 0.0) / _PEAK, len(_ROUND), axis=1)
+            edges[:, : len(_ROUND)] += 0.5 * airborne[:, :1] * (_ROUND @ v)
+            found.append(edges)
+        return np.hstack(found)
 
 
 def _normals(polygon: NDArray[np.float64]) -> NDArray[np.float64]:

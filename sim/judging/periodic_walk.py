@@ -71,13 +71,15 @@ class PeriodicWalk:
         before = np.array((-self.length, -self.width))
         if time < self.double:
             dcm, swing, elapsed, left = self._swayed(time), before, 0.0, self.double - time
+            velocity = np.zeros(2)
         else:
             elapsed, left = time - self.double, 0.0
             zmp = np.array(self.zmp)
             dcm = zmp + math.exp(self.omega * elapsed) * (self._begin() - zmp)
             after = np.array((self.length, -self.width))
-            swing = before + minimum_jerk(elapsed / self.single)[0] * (after - before)
-        return Instant(side, dcm * flip, swing * flip, elapsed, left)
+            share, rate = minimum_jerk(elapsed / self.single)
+            swing, velocity = before + share * (after - before), rate / self.single * (after - before)
+        return Instant(side, dcm * flip, swing * flip, elapsed, left, velocity * flip)
 
     def _begin(self) -> NDArray[np.float64]:
         """DCM (2,) when the left foot's single support begins, from that foot, that repeats itself a step later.

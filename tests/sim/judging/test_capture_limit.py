@@ -21,7 +21,7 @@ OMEGA, MASS = 3.5, 50.0
 
 
 def robot(**changes) -> CaptureLimits:
-    usual = {"double_support": 0.1, "swing_speed": 1.5, "steps": 2, "times": 5}
+    usual = {"double_support": 0.1, "swing_speed": 1.5, "swing_acceleration": 20.0, "steps": 2, "times": 5}
     return CaptureLimits(MASS, OMEGA, SOLE, REGION, 0.35, 0.9, **(usual | changes))
 
 
@@ -86,6 +86,10 @@ def written_out(limits: CaptureLimits, instant: Instant, toward: np.ndarray, ste
             row = {places[i + 1][k]: u[k] for k in (0, 1)}
             row |= {places[i][k]: u[k] for k in (0, 1)} if i else {}
             rows_le.append((row, limits.swing_speed * single + (0.0 if i else u @ instant.swing)))
+            v = np.zeros(2) if i else instant.velocity
+            reach = limits.swing_acceleration * single**2 - v @ v / limits.swing_acceleration
+            centre = 0.5 * single * v + (0.0 if i else instant.swing)
+            rows_le.append((row, max(reach, 0.0) * math.sqrt(3.0) / 10.0 + u @ centre))
     last = pressed(steps[-1].share, len(steps) - 1)
     for k in (0, 1):
         row, right = {}, 0.0
@@ -169,7 +173,7 @@ def brute_force(limits: CaptureLimits, instant: Instant, toward: np.ndarray, imp
 
 @pytest.mark.parametrize("angle", [0.0, 1.2, 2.5, 4.0, 5.2])
 def test_trying_everything_captures_a_little_less(angle: float) -> None:
-    limits, instant = robot(steps=1, times=9, shares=9), WALK.instant(0.5)
+    limits, instant = robot(steps=1, times=9, shares=9, swing_acceleration=math.inf), WALK.instant(0.5)
     toward = np.array([math.cos(angle), math.sin(angle)])
     most = capture_limit(limits, instant, toward).impulse
     tried = brute_force(limits, instant, toward, most * np.array([0.3, 0.6, 0.9, 1.001, 1.02]))
@@ -177,7 +181,7 @@ def test_trying_everything_captures_a_little_less(angle: float) -> None:
 
 
 def test_random_plans_never_capture_more() -> None:
-    limits, instant, rng = robot(), WALK.instant(0.6), np.random.default_rng(0)
+    limits, instant, rng = robot(swing_acceleration=math.inf), WALK.instant(0.6), np.random.default_rng(0)
     toward = np.array([0.6, -0.8])
     most, caught = capture_limit(limits, instant, toward).impulse, 0
     soles, regions = (limits.sole, mirrored(limits.sole)), (mirrored(limits.region), limits.region)
@@ -206,9 +210,14 @@ def test_random_plans_never_capture_more() -> None:
 def test_more_of_anything_captures_no_less() -> None:
     instant, toward = WALK.instant(0.4), np.array([0.5, -0.5])
     usual = capture_limit(robot(), instant, toward).impulse
-    for change in ({"swing_speed": 3.0}, {"steps": 3, "times": 3}, {"double_support": 0.0}, {"landing": 0.0}):
+    for change in (
+        {"swing_speed": 3.0},
+        {"swing_acceleration": 40.0},
+        {"steps": 3, "times": 3},
+        {"landing": 0.0},
+    ):
         assert capture_limit(robot(**change), instant, toward).impulse >= usual * 0.999, change
-    for change in ({"swing_speed": 0.5}, {"landing": 0.35}, {"steps": 0}, {"height": 0.3}):
+    for change in ({"swing_speed": 0.5}, {"swing_acceleration": 5.0}, {"landing": 0.35}, {"steps": 0}, {"height": 0.3}):
         assert capture_limit(robot(**change), instant, toward).impulse < usual, change
 
 
