@@ -46,8 +46,9 @@ class StepAdjustmentRules(Settings):
         method: How the footstep is found: "search" or "ssp_opt".
         confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
         least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
-        acceleration: Largest acceleration in m/s^2 of the swing foot. (With twice as much h1's hip, 71 N m, throws its
-            torso about, and the foot lands 60 mm beside its place.)
+        acceleration: Largest acceleration in m/s^2 of the swing foot.
+        sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
+            pelvis, whose other hip bears the body at its limit already; the foot sinks, and lands 95 mm beside its place.)
         shortest: Share of what is left of a single support by which it becomes shorter at most.
         longest: Share of a single support by which it becomes longer at most.
         least_left: Time in s until touchdown from which a foot is not aimed any more.
@@ -61,6 +62,7 @@ class StepAdjustmentRules(Settings):
     confidence: float = number(0.0, "1", 0, 1)
     least_error: float = share(0.0433, "sole", 0, 0.2)
     acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
+    sideways: float = number(0.5, "1", 0.01, 1)
     shortest: float = number(0.45, "1", 0, 0.9)
     longest: float = number(0.3, "1", 0, 5)
     least_left: float = share(0.404, "beat", 0, 5)
@@ -71,10 +73,12 @@ class StepAdjustmentRules(Settings):
 
 
 class _Foot(NamedTuple):
-    """The foot that swings: which step it takes, where (2,) in m it is and with which velocity (2,) in m/s."""
+    """The foot that swings: which step it takes, where (2,) in m it is, its heading in rad and its velocity (2,) in
+    m/s."""
 
     step: int
     place: NDArray[np.float64]
+    yaw: float
     velocity: NDArray[np.float64]
 
 
@@ -136,11 +140,12 @@ class StepAdjustment:
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
         """Where the swing foot is commanded and how fast."""
-        place, before = tick.place(swing).position[:2], self._foot
+        step, before = tick.place(swing), self._foot
+        place = step.position[:2]
         velocity = np.zeros(2)
         if before is not None and before.step == tick.phase.step:
             velocity = (place - before.place) / self._period
-        self._foot = _Foot(tick.phase.step, place, velocity)
+        self._foot = _Foot(tick.phase.step, place, step.yaw, velocity)
         return self._foot
 
     def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
@@ -254,12 +259,18 @@ class StepAdjustment:
         From rest a minimum-jerk motion gets a t^2 / 5.77 far with a peak of a. A foot that moves at v gets v t / 2
         farther and, for braking, v^2 / 5.77 a less far: as with a constant acceleration, whose numbers are 1/4.
         """
-        most, v = self._rules.acceleration, foot.velocity
-        middle = foot.place + (0.5 * time) * v
-        reach = max(0.0, most * time * time - float(v @ v) / most) / _PEAK
-        way = wanted - middle
-        far = math.hypot(*way.tolist())
-        return wanted if far <= reach else middle + way * (reach / far)
+        most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity.tolist(), foot.place.tolist()
+        c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
+        # In the foot's axes, those to the side stretched: what it reaches is a circle then.
+        ahead, aside = c * vx + s * vy, (c * vy - s * vx) / narrow
+        reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / _PEAK
+        wx, wy = (wanted - foot.place).tolist()
+        dx, dy = c * wx + s * wy - 0.5 * time * ahead, (c * wy - s * wx) / narrow - 0.5 * time * aside
+        far = math.hypot(dx, dy)
+        if far <= reach:
+            return wanted
+        dx, dy = 0.5 * time * ahead + dx * (reach / far), narrow * (0.5 * time * aside + dy * (reach / far))
+        return np.array((x + c * dx - s * dy, y + s * dx + c * dy))
 
 
 def _cost(choice: _Choice) -> float:
