@@ -1,0 +1,145 @@
+"""Every example runs, says what it is about in its first line, and finds what it claims."""
+
+from __future__ import annotations
+
+import ast
+import re
+import runpy
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+PICTURES = ("gallery", "walk_picture", "beam_picture")
+"""Scripts that draw the documents' pictures; they are longer."""
+
+
+class Example(NamedTuple):
+    """What an example is run with, what it has to print, and what else must hold of the numbers in that."""
+
+    pattern: str
+    arguments: tuple[str, ...] = ()
+    holds: Callable[..., bool] = lambda *_: True
+
+
+QUICK = {
+    "sole_hexagons": Example(r"left: (\d+) taxels.*right: (\d+) taxels", holds=lambda left, right: left == right > 50),
+    "sole_insole": Example(r"7 sensors carry (\d+) N", holds=lambda load: load == 650),
+    "sole_curved": Example(
+        r"flat: .* force \+(\S+) N forward.*rocker: heel and toe (\d+) mm up, force \+(\S+) N",
+        holds=lambda flat, lift, rocker: flat == 0 and lift > 15 and rocker > 30,
+    ),
+    "percept_one_foot": Example(r"that is (\d+) % of the sole", holds=lambda share: 20 < share < 30),
+    "percept_two_feet": Example(r"margin of the ZMP: (\d+) mm", holds=lambda margin: margin > 50),
+    "percept_before_contact": Example(
+        r"10 mm: (\d+) taxels.*50 mm: (\d+) taxels.* (\S+) degrees forward",
+        holds=lambda few, many, slope: few < many and abs(slope + 8.0) < 0.1,
+    ),
+    "percept_rectangles": Example(
+        r"cells (\S+) cm.*inside, along the sole: (\S+) cm.*inside, at any angle: (\S+) cm.*cells, at any angle: (\S+)",
+        holds=lambda cells, along, any_angle, outlined: along < outlined < min(any_angle, cells),
+    ),
+    "percept_faults": Example(
+        r"1 dead, 0 saturated, 1 stuck.*true load (\d+) N: (\d+) N .*, (\d+) N",
+        holds=lambda true, left_out, filled: left_out < 0.98 * true and abs(filled - true) < 0.005 * true,
+    ),
+    "percept_temperature": Example(r"push with (\d+) N", holds=lambda force: force == 14 * 13),
+    "percept_a_million": Example(r"as a percept says it: True", ("20000",)),
+    "record_larger_than_memory": Example(
+        r"([\d.]+) MB on disk, ([\d.]+) MB at a time", ("50000",), lambda disk, held: held < 0.1 * disk
+    ),
+    "record_own_sensor": Example(
+        r"mcap: 1000 frames at 100 Hz.*right: at most (\d+) N", holds=lambda load: load == 700
+    ),
+    "record_formats": Example(r"pedar.*2 feet, 50 Hz, peak (\d+) N.*table.*peak (\d+) N", holds=lambda a, b: a == b),
+    "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 10 and t > 0.2),
+    "shoe_from_any_foot": Example(
+        r"a box: .* (\d+) whole.*an ellipse: .* (\d+) whole.*h1: .* (\d+) whole", holds=lambda *n: min(n) > 20
+    ),
+    "walk_own_loop": Example(
+        r"walked (\S+) m; the controller thinks (\S+) m",
+        holds=lambda true, found: true > 0.55 and abs(true - found) < 0.03,
+    ),
+}
+
+LONG = {
+    "walk_push": Example(r"feedback=true: took 4 of 4.*feedback=false: fell"),
+    "walk_own_proposer": Example(
+        r"without it: steps at 0.20, 0.40, 0.60.*completed: True.*with it: steps at 0.20, 0.40, 0.64.*completed: True"
+    ),
+    "walk_own_terrain": Example(r"pfc=true: completed, 6 steps.*pfc=false: .*fall"),
+    "walk_sweep_gains": Example(r"'0': (\d) of 2 completed.*'1.5': 2 of 2.*finds 4 of its 4", holds=lambda n: n < 2),
+}
+
+ELSEWHERE = {
+    "insole_walk",  # test_readme.py
+    "introduce_robot",  # sim/survey/test_introduce.py
+    "other_plant",  # test_plant_example.py
+    "record_to_tables",  # below, on the recording of another one
+    "skin_arm",  # test_skin_examples.py
+    "skin_new_task",
+    "gallery",  # test_gallery.py
+    "walk_picture",  # draws a run of a minute
+}
+
+
+def numbers_in(pattern: str, text: str) -> list[float]:
+    """The numbers that a pattern finds in a text."""
+    found = re.search(pattern, text, re.DOTALL)
+    assert found, text
+    return [float(number.rstrip(".,")) for number in found.groups()]
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_an_example_finds_what_it_says(
+    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    example = QUICK[name]
+    monkeypatch.setattr(sys, "argv", [f"{name}.py", *example.arguments])
+    runpy.run_path(str(ROOT / "examples" / f"{name}.py"), run_name="__main__")
+    assert example.holds(*numbers_in(example.pattern, capsys.readouterr().out))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", LONG)
+def test_a_simulated_example_finds_what_it_says(name: str) -> None:
+    command = [sys.executable, "-W", "error", f"examples/{name}.py", *LONG[name].arguments]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert LONG[name].holds(*numbers_in(LONG[name].pattern, done.stdout))
+
+
+def test_a_recording_becomes_tables(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, arguments in (
+        ("record_own_sensor", (tmp_path / "run.mcap",)),
+        ("record_to_tables", (tmp_path / "run.mcap", tmp_path / "out")),
+    ):
+        monkeypatch.setattr(sys, "argv", [f"{name}.py", *map(str, arguments)])
+        runpy.run_path(str(ROOT / "examples" / f"{name}.py"), run_name="__main__")
+    assert "/skin/left: 1000 rows of force (42)" in capsys.readouterr().out
+    assert {"run.npz", "motors.csv"} <= {p.name for p in (tmp_path / "out").iterdir()}
+
+
+def test_every_example_is_run_by_a_test() -> None:
+    assert {e.stem for e in EXAMPLES} == {*QUICK, *LONG, *ELSEWHERE}
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda e: e.stem)
+def test_an_example_is_one_idea_in_60_lines_and_says_how_it_is_run(example: Path) -> None:
+    source = example.read_text(encoding="utf-8")
+    told = ast.get_docstring(ast.parse(source))
+    assert told is not None
+    assert f"python examples/{example.name}" in told
+    assert len(source.splitlines()) <= (300 if example.stem in PICTURES else 60)
+
+
+def test_the_page_of_examples_names_each() -> None:
+    page = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"\((\w+)\.py\)", page)) == {e.stem for e in EXAMPLES}
