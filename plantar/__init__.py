@@ -1,10 +1,34 @@
 """Plantar perception: what a sole of taxels tells about the contact under a foot.
 
-Data flows layout -> reading -> percept: a `SoleLayout` says where the taxels are, a `Reading` what they measured, and a
-`Percept` computes what is asked of it, when it is asked.
+Data flows layout -> reading -> percept. The ten names that most people need:
 
-The names below are loaded at first use (PEP 562), so that `import plantar.errors`, which the command line starts with,
-does not load numpy.
+    hex_layout, grid_layout    taxels on a sole, from its outline in m (x forward, y left)
+    layout_of_cells            taxels of any shape: insoles, FSRs
+    read_layout, write_layout  a sole's layout file (JSON), as `plantar shoe` writes it
+    Reading                    what the taxels of one sole measured at one time: force, proximity, temperature
+    Percept                    what that says of the contact: CoP, wrench, polygons, slope; computed when asked for
+    FeetPercept, SolePose      the same of both feet in the world: ZMP, support polygon
+    batch                      wrenches, CoP and polygons of a whole recording at once: a million frames in a second
+    polygon                    area, margin, clipping and offsets of convex polygons
+
+    >>> from plantar import Percept, Reading, hex_layout
+    >>> sole = hex_layout([[-0.10, -0.05], [0.14, -0.05], [0.14, 0.05], [-0.10, 0.05]])
+    >>> percept = Percept(sole, Reading(time=0.0, force=[20.0 if x > 0.0 else 0.0 for x in sole.positions[:, 0]]))
+    >>> f"{percept.vertical_force:.0f} N, {1e3 * percept.position_cop_in_sole[0]:.0f} mm in front of the ankle"
+    '440 N, 71 mm in front of the ankle'
+
+Recordings: `plantar.formats.read_recording` reads a file of any known maker, `plantar.recordings.recorder.Recorder`
+writes one while a robot runs, and `gait.analysis` measures the steps in it. A stream is read reading by reading with
+`Percept`, or with `walking_tick`, which gives a controller what it needs of a foot in one call of 5 us;
+`TaxelActivation` and `StuckMonitor` remember from one reading to the next. A file that is larger than memory goes
+through `batch.blocks`.
+
+Beside this package stand `shoes` (printable tactile shoes), `gait` (walking on plantar feedback), `wholebody` (skin
+anywhere on a body) and `sim` (MuJoCo). SI units everywhere but inside `shoes`, which works in mm. Errors are classes of
+`plantar.errors`, one line each. The folder `examples` has one idea a file; `plantar --help` is the command line.
+
+The names are loaded at first use (PEP 562), so that `import plantar.errors`, which the command line starts with, does
+not load numpy.
 """
 
 from __future__ import annotations

@@ -57,6 +57,10 @@ def examine(libraries: Mapping[str, Mapping[str, str]] = LIBRARIES) -> dict[str,
         Versions of Plantar and Python, the platform, whether the kernels are compiled, whether pictures can be drawn
         without a display (`opengl`), and for each library its extra, name, version and problem: None, "missing" or why
         it cannot be loaded. `holds` is False where one that is always needed is missing, or an installed one is broken.
+
+    Example:
+        >>> examine({"": {"no-such-library": "no_such_library"}})["libraries"][0]["problem"]
+        'missing'
     """
     found: list[dict[str, str | None]] = [
         {"extra": extra, "library": name, **_state(name, module, extra or "all")}
@@ -83,6 +87,10 @@ def doctor_text(found: Mapping[str, Any]) -> str:
 
     Returns:
         The text.
+
+    Example:
+        >>> print(doctor_text(examine({"sim": {"no-such-library": "no_such_library"}})).splitlines()[-1].strip())
+        get them: pip install 'plantar[sim]'
     """
     kernels = (
         "compiled" if found["compiled"] else "plain Python, slower: install a C compiler and Cython, then Plantar again"

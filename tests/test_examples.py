@@ -73,7 +73,7 @@ LONG = {
         r"without it: steps at 0.20, 0.40, 0.60.*completed: True.*with it: steps at 0.20, 0.40, 0.64.*completed: True"
     ),
     "walk_own_terrain": Example(r"pfc=true: completed, 6 steps.*pfc=false: .*fall"),
-    "walk_sweep_gains": Example(r"'0': (\d) of 2 completed.*'1.5': 2 of 2.*finds 4 of its 4", holds=lambda n: n < 2),
+    "walk_sweep": Example(r"'false'}: (\d) of 2 completed.*'true'}: 2 of 2.*finds 4 of its 4", holds=lambda n: n == 0),
 }
 
 ELSEWHERE = {

@@ -1,6 +1,6 @@
-"""Find a gain by a sweep: the same seeds with each value, and which of them hold a push.
+"""Count what a setting brings by a sweep: the same seeds with each value, and which of them hold a push.
 
-python examples/walk_sweep_gains.py [FOLDER]
+python examples/walk_sweep.py [FOLDER]
 """
 
 import sys
@@ -13,8 +13,8 @@ from sim.sweep import Sweep, run_sweep
 def main():
     """Two values, two seeds; the table is results.csv in the folder."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(mkdtemp())
-    push = ["steps=3", "settle=0.5", "impulse=26", "push.step=1", "direction=backward"]
-    sweep = Sweep.from_texts("push", ["balance.dcm_gain=0.0,1.5"], seeds=2, settings=push)
+    push = ["steps=3", "settle=0.5", "impulse=25", "push.step=1", "direction=backward"]
+    sweep = Sweep.from_texts("push", ["feedback=false,true"], seeds=2, settings=push)
     result = run_sweep(sweep, folder, workers=1)  # on a cluster: scheduler="tcp://host:8786"
     for point in result["points"]:
         failed = f", failed by {', '.join(point['reasons'])}" if point["reasons"] else ""
