@@ -469,6 +469,8 @@ class WalkingController:
         feet, rules = self.motion.view, self.settings.step_adjustment
         if rules is None or not feet.touchdown or feet.side is None:
             return
+        if state.loads[feet.side] <= self.settings.landing.contact_force:  # only the plan has it down
+            return
         place = self._frame.to_command(state.positions_sole[feet.side][:2])
         if math.dist(place, feet.footholds[feet.side][0][:2]) > rules.misplaced:
             self.motion.stand_at(feet.side, place, heading(state.rotations_sole[feet.side]) - self._frame.turn)

@@ -48,7 +48,8 @@ class StepAdjustmentRules(Settings):
         least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
         sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
-            pelvis, whose other hip bears the body at its limit already; the foot sinks, and lands 95 mm beside its place.)
+            pelvis, whose other hip bears the body at its limit already: the foot sinks, and lands 95 mm beside its
+            place.)
         shortest: Share of what is left of a single support by which it becomes shorter at most.
         longest: Share of a single support by which it becomes longer at most.
         least_left: Time in s until touchdown from which a foot is not aimed any more.

@@ -69,7 +69,8 @@ def hand_pushes(
         SceneError: If the scene pushes at a step that the walk does not have.
     """
     made = []
-    for k, share in _pushed_steps(push, schedule(), np.random.default_rng([seed, 0xB0])):
+    for first, share in _pushed_steps(push, schedule(), np.random.default_rng([seed, 0xB0])):
+        k = _with_swing(steps, first, direction_of(push, seed)) if push.with_swing else first
         along = _along(steps, k) if push.direction == "step" else np.array(direction_of(push, seed))
         made.append(HandPush(share * push.strength * along, push.duration, _When(push, schedule, k), k))
     return HandPushes(made, skin, body, lambda world: pushed_height(push, skin, world))
@@ -95,6 +96,13 @@ def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) 
             "that it has all steps that are pushed (repeat, small_before), and with push.cycle the two after each"
         )
     return from_step(found[int(rng.integers(len(found)))] if push.step < 0 else push.step)
+
+
+def _with_swing(steps: Steps, k: int, direction: tuple[float, float]) -> int:
+    """Step k, or the next one where a push in a direction rather goes to the side of that one's foot."""
+    ahead, left = direction
+    out = left if steps[1][k].side == "left" else -left
+    return k if out >= 0.0 or abs(ahead) > abs(left) or k + 1 >= len(steps[1]) else k + 1
 
 
 class _When:

@@ -105,6 +105,7 @@ def direction_of(push: Push, seed: int) -> tuple[float, float]:
 def _refuse_unused(push: Push) -> None:
     """Refuse what only hands do: a force from nowhere does nothing of it."""
     alone = {"direction": push.direction == "step", "cycle": push.cycle >= 0.0, "repeat": push.repeat > 1}
+    alone |= {"with_swing": push.with_swing}
     alone |= {"small": push.small > 0.0, "place": push.place != "height", "verdict": push.verdict != "walk"}
     given = [name for name, is_given in alone.items() if is_given]
     if given:

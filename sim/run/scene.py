@@ -162,6 +162,9 @@ class Push(Settings):
         phase: Share of the single support at which it begins.
         cycle: Share of the stride, from the begin of that single support to the begin of the next one of the same foot,
             at which it begins instead; -1 goes by `phase`. Of pushes by hands.
+        with_swing: Whether a push to a side comes in a step whose foot swings to that side: one step later where that
+            of `step` does not. (Over the outer edge of the foot that stands no step catches more than 37 N s on h1, see
+            `sim.judging.capture_limit`.) Of pushes by hands.
         repeat: In how many steps, from that one on, one push each comes. Of pushes by hands.
         small: Impulse of one more push some steps earlier, as a share of the impulse; 0 for none. Of pushes by hands.
         small_before: So many steps earlier.
@@ -184,6 +187,7 @@ class Push(Settings):
     step: int = whole(-1, "step", -1, 100000)
     phase: float = number(0.5, "1", 0, 1)
     cycle: float = number(-1.0, "1", -1, 1)
+    with_swing: bool = switch(False)
     repeat: int = whole(1, "steps", 1, 100000)
     small: float = number(0.0, "1", 0, 1)
     small_before: int = whole(4, "steps", 1, 1000)

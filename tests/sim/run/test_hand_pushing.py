@@ -48,6 +48,16 @@ def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction() -> None:
     assert set(push.shares()) == {"front", "left"}
 
 
+@pytest.mark.parametrize(("direction", "side"), [("left", "left"), ("right", "right")])
+def test_pushes_to_a_side_wait_for_the_foot_that_swings_there(direction: str, side: str) -> None:
+    for step in (4, 5):
+        (push,) = hands(step=step, direction=direction, with_swing=True).pushes
+        assert push.step in (step, step + 1)
+        assert STEPS[push.step].side == side
+        (ahead,) = hands(step=step, direction="forward", with_swing=True).pushes
+        assert ahead.step == step
+
+
 def test_pushes_along_the_steps_follow_the_feet() -> None:
     pushes = hands(step=1, repeat=3, direction="step").pushes
     assert [p.step for p in pushes] == [1, 2, 3]
