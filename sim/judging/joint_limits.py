@@ -46,6 +46,7 @@ class JointLimits:
         torques = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
         self._per_torque = 1.0 / (_AT_LIMIT * torques)
         self._at_limit = np.zeros(k)
+        self._held: list[tuple[int, NDArray[np.bool_]]] = []
         self._any_at_limit = self._ticks = 0
 
     @property
@@ -87,6 +88,26 @@ class JointLimits:
         if held.any():
             self._any_at_limit += 1
             self._at_limit += held
+            self._held.append((self._ticks, held))
+
+    def first_held(self, since: int, ticks: int = 3) -> str | None:
+        """The joint that came to its torque limit first, and stayed there.
+
+        Args:
+            since: Number of the control tick, counted from 1, from which on it counts.
+            ticks: For so many ticks in a row it has to be there.
+
+        Returns:
+            Its name; None where none was.
+        """
+        runs, last = np.zeros(len(self.names), dtype=int), since
+        for tick, held in self._held:
+            if tick >= since:
+                runs = np.where(held, runs + 1 if tick == last + 1 else 1, 0)
+                last = tick
+                if int(runs.max()) >= ticks:
+                    return self.names[int(runs.argmax())]
+        return None
 
     def summary(self) -> dict[str, Any]:
         """Fastest joint, and how often joints were at their torque limits, for a run's summary."""

@@ -91,3 +91,22 @@ def test_a_joint_that_moves_alone_is_seen_at_its_own_limit(world: World) -> None
             world.data.qvel[world.joint_qvel[i]] = share * limit
             judge.step()
             assert (judge.longest > 0.0).tolist() == [j == i and abs(share) > 1.0 for j in range(len(limits))]
+
+
+def test_the_joint_that_stays_at_its_torque_limit_first_is_named(world: World) -> None:
+    judge = JointLimits(world)
+    limits = world.model.actuator_forcerange[world.servos, 1]
+    force = world.data.actuator_force
+    knee, hip = judge.names.index("left_knee"), judge.names.index("right_hip_roll")
+    for tick in range(1, 31):
+        force[world.servos] = 0.0
+        if tick in (2, 3, 4, 12, 14, 16) or tick >= 25:
+            force[world.servos[knee]] = -limits[knee]
+        if 20 <= tick < 23:
+            force[world.servos[hip]] = limits[hip]
+        judge.tick()
+    assert judge.first_held(since=1) == "left_knee"
+    assert judge.first_held(since=5) == "right_hip_roll"  # the knee's short ones are no stay
+    assert judge.first_held(since=24) == "left_knee"
+    assert judge.first_held(since=28, ticks=4) is None
+    assert JointLimits(world).first_held(since=0) is None
