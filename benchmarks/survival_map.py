@@ -1,0 +1,263 @@
+"""The largest push that H1 survives in each direction and phase of a step, beside what any controller could capture:
+`python benchmarks/survival_map.py [MINUTES]`.
+
+Hands push with a half sine of 0.1 s at the height of the CoM, in 8 directions at 8 phases of a step (its double
+support, then its single one), in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first with
+85 % of the bound; a row of survival_map.csv is a run, appended as it ends, and a run that was stopped goes on where it
+was. The bound is `sim.judging.capture_limit` with the controller's own limits: region and acceleration of the swing
+foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated with
+that joint's motor four times as strong. `... report` writes the table and draws survival_map.png.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import shutil
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from tempfile import gettempdir
+from typing import Any, NamedTuple
+
+import numpy as np
+from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
+
+FOLDER = Path(__file__).parent
+DIRECTIONS = tuple(range(0, 360, 45))
+PHASES = tuple(k / 8 for k in range(8))
+IMPULSES = tuple(float(v) for v in np.arange(5.0, 60.1, 2.5))
+SHARE = 0.85
+STEP, STEPS, SEED = 4, 10, 1000
+LENGTHS = {"in place": 0.0, "0.2 m/s": 0.2}
+"""Speeds in m/s."""
+VARIANTS: dict[str, tuple[str, ...]] = {
+    "as it is": (),
+    "ankle only": ("control.step_adjustment=false", "control.step_timing=false"),
+    "push felt by the skin": ("control.push_estimate=skin",),
+    "push felt by the soles": ("control.push_estimate=soles",),
+}
+COLUMNS = ("impulse_Ns", "delivered_Ns", "fell", "first_held")
+
+
+class Cell(NamedTuple):
+    """A cell of the map: variant, walk, direction in degrees, and phase of the step."""
+
+    variant: str
+    walk: str
+    angle: int
+    phase: float
+
+    def name(self, impulse: float, lifted: str = "") -> str:
+        """Name of its run with an impulse in N s, and with a joint's motor made stronger."""
+        rest = f", {lifted} lifted" if lifted else ""
+        return f"{self.variant}, {self.walk}, {self.angle} deg, {self.phase:.3f}, {impulse:g} N s{rest}"
+
+
+CELLS = [Cell(v, w, a, p) for v in VARIANTS for w in LENGTHS for a in DIRECTIONS for p in PHASES]
+
+
+@functools.lru_cache
+def simulation() -> Any:
+    """H1 in the scene, for its timing and limits."""
+    from sim.run.runner import Simulation
+    from sim.run.scene import load_scene
+
+    return Simulation(load_scene("push-step", ["push.impulse=0", "push.small=0", "push.verdict=walk"]), 0)
+
+
+def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
+    """Settings of a cell's run: the push falls into step 4, counted in strides from the single support before."""
+    timing = simulation().settings.timing
+    single, whole = timing.single_support, timing.single_support + timing.double_support
+    cycle = (single + cell.phase * whole) / (2.0 * whole)
+    return (
+        "push.small=0",
+        "push.verdict=walk",
+        "direction=angle",
+        "push.duration=0.1",
+        f"walk.steps={STEPS}",
+        f"walk.length={LENGTHS[cell.walk] * whole}",
+        "walk.settle=1",
+        f"push.angle={cell.angle}",
+        f"push.step={STEP - 1}",
+        f"push.cycle={cycle}",
+        f"push.impulse={impulse}",
+        *VARIANTS[cell.variant],
+    )
+
+
+@functools.lru_cache
+def bounds(walk: str) -> dict[tuple[int, float], float]:
+    """The largest push in N s that any footsteps, timing and ZMP capture, by direction and phase."""
+    from gait.contact.foot_contacts import middle_of_sole
+    from gait.propose.ssp_opt import footstep_region
+    from plantar.mechanics.lip import pendulum_frequency
+    from sim.judging.capture_limit import CaptureLimits
+    from sim.judging.periodic_walk import PeriodicWalk, capture_map
+
+    known = simulation()
+    chosen, robot = known.settings, known.robot
+    rules, timing = chosen.step_adjustment, chosen.timing
+    omega = float(pendulum_frequency(chosen.com_height))
+    single, double = timing.single_support, timing.double_support
+    limits = CaptureLimits(
+        mass=chosen.mass,
+        omega=omega,
+        sole=robot.layouts["left"].outline,
+        region=footstep_region(chosen.step_region, "left", (0.0, 0.0, 0.0)),
+        shortest=(1.0 - rules.shortest) * single,
+        longest=(1.0 + rules.longest) * single,
+        double_support=double,
+        swing_acceleration=rules.acceleration,
+        landing=rules.least_left,
+        lasts=0.1,
+        times=6,
+    )
+    zmp = middle_of_sole(robot.layouts["left"], robot.ankle_reach)
+    length = LENGTHS[walk] * (single + double)
+    plan = PeriodicWalk(omega, length, robot.stance_width, single, double, (float(zmp[0]), float(zmp[1])))
+    found = capture_map(limits, plan, len(DIRECTIONS), len(PHASES), side="right")
+    return {(a, p): float(found[j, i]) for i, a in enumerate(DIRECTIONS) for j, p in enumerate(PHASES)}
+
+
+def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
+    """The columns of one run."""
+    push = out["push"]["pushes"][0] if out.get("push", {}).get("pushes") else None
+    held = None
+    if push is not None:
+        held = simulation.judge.joints.first_held(round(push["time_s"] / simulation.settings.period))
+    return {
+        "impulse_Ns": out["push"]["impulse_Ns"],
+        "delivered_Ns": "" if push is None else round(math.hypot(*push["delivered_Ns"][:2]), 2),
+        "fell": out["fell"],
+        "first_held": held or "",
+    }
+
+
+BENCHMARK = Benchmark(FOLDER / "survival_map.csv", COLUMNS, (), figures)
+
+
+def goal(cell: Cell) -> float:
+    """What has to be survived in N s: 85 % of the bound, on the grid of impulses, none beyond its end."""
+    wanted = SHARE * bounds(cell.walk)[cell.angle, cell.phase]
+    return min((v for v in IMPULSES if v >= wanted - 1e-9), default=IMPULSES[-1])
+
+
+def outcomes(rows: Sequence[dict[str, str]]) -> dict[str, tuple[bool, str]]:
+    """Whether each run was survived, and which joint was held first, by the run's name."""
+    return {r["case"]: (r["fell"] == "False", r["first_held"]) for r in latest(rows)}
+
+
+def survived(cell: Cell, known: dict[str, tuple[bool, str]]) -> tuple[float, float]:
+    """The largest impulse that is survived, 0 for none, and the smallest one above it that is not, in N s."""
+    tried = [(v, known[cell.name(v)][0]) for v in IMPULSES if cell.name(v) in known]
+    failed = min((v for v, good in tried if not good), default=math.inf)
+    return max((v for v, good in tried if good and v < failed), default=0.0), failed
+
+
+def following(cell: Cell, known: dict[str, tuple[bool, str]]) -> Case | None:
+    """The next run of a cell; None where nothing is left to be found out."""
+
+    def case(impulse: float, lifted: str = "") -> Case:
+        file = str(stronger(lifted)) if lifted else ""
+        return Case(cell.name(impulse, lifted), "push-step", "h1", settings(cell, impulse), 0, file=file)
+
+    first = goal(cell)
+    if cell.name(first) not in known:
+        return case(first)
+    good, held = known[cell.name(first)]
+    if not good and held and cell.name(first, held) not in known and cell.variant == "as it is":
+        return case(first, held)
+    low, high = survived(cell, known)
+    open_ones = [v for v in IMPULSES if low < v < high]
+    return case(open_ones[len(open_ones) // 2]) if open_ones else None
+
+
+def stronger(joint: str) -> Path:
+    """File of an H1 whose motors of one kind are four times as strong."""
+    from sim.robots.robot_file import load_robot
+
+    kind = joint.split("_", 1)[1]
+    place = ("hip_yaw", "hip_roll", "hip_pitch", "knee", "ankle_pitch", "ankle_roll").index(kind)
+    source = load_robot("h1").path
+    folder = Path(gettempdir()) / f"plantar_h1_{kind}"
+    if not folder.exists():
+        shutil.copytree(source.parent, folder)
+        lines = source.read_text(encoding="utf-8").splitlines()
+        at = next(i for i, line in enumerate(lines) if line.startswith("effort_limits"))
+        limits = [float(v) for v in lines[at].partition("[")[2].partition("]")[0].split(",")]
+        limits[place] *= 4.0
+        lines[at] = f"effort_limits = {limits}"
+        (folder / "robot.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return folder / "robot.toml"
+
+
+def missing() -> Iterator[tuple[int, Case, int]]:
+    """The next run of each cell, cells of the same rank in turn: goals first, the comparisons last."""
+    known = outcomes(rows_of(BENCHMARK.path))
+    for i, cell in enumerate(CELLS):
+        case = following(cell, known)
+        if case is not None:
+            begun = sum(cell.name(v) in known for v in IMPULSES)
+            yield 10000 * (list(VARIANTS).index(cell.variant) > 0) + 1000 * begun + i * 37 % 128, case, SEED
+
+
+def report() -> None:
+    """Write the table between its markers in survival_map.md, and draw the map."""
+    from plantar.plotting import new_figure, save_figure
+
+    rows = rows_of(BENCHMARK.path)
+    known = outcomes(rows)
+    lines = ["| variant | walk | cells at 85 % of the bound | median share of the bound | joints that end it |"]
+    lines.append("|---|---|---|---|---|")
+    figure, axes = new_figure(11.0, 5.5, 1, 2, subplot_kw={"projection": "polar"})
+    for variant in VARIANTS:
+        for axis, walk in zip(axes, LENGTHS, strict=True):
+            cells = [c for c in CELLS if (c.variant, c.walk) == (variant, walk) and c.name(goal(c)) in known]
+            if not cells:
+                continue
+            shares = [survived(c, known)[0] / bounds(walk)[c.angle, c.phase] for c in cells]
+            reached = [known[c.name(goal(c))][0] for c in cells]
+            held: dict[str, list[bool]] = {}
+            for c in cells:
+                good, joint = known[c.name(goal(c))]
+                if not good and joint:
+                    held.setdefault(joint, []).append(known.get(c.name(goal(c), joint), (False, ""))[0])
+            told = ", ".join(f"{j}: {len(v)} (lifted {sum(v)})" for j, v in held.items()) or "-"
+            lines.append(f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {np.median(shares):.2f} | {told} |")
+            if variant == "as it is":
+                draw(axis, walk, {(c.angle, c.phase): s for c, s in zip(cells, shares, strict=True)})
+    save_figure(figure, FOLDER / "survival_map.png")
+    commits = sorted({r["commit"] for r in rows})
+    left = sum(1 for _ in missing())
+    lines += ["", f"{len(known)} runs of {', '.join(commits)}; cells with runs still to come: {left}."]
+    write_table(FOLDER / "survival_map.md", lines)
+
+
+def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float]) -> None:
+    """Draw one walk's map: direction around, phase outwards, colour by the share of the bound; goals have a dot."""
+    angles = np.radians(np.array([a - 22.5 for a in (*DIRECTIONS, 360)]))
+    values = np.array([[shares.get((a, p), math.nan) for a in DIRECTIONS] for p in PHASES])
+    edges = 1.0 + np.arange(len(PHASES) + 1)
+    mesh = axis.pcolormesh(angles, edges, values, cmap="RdYlGn", vmin=0.0, vmax=1.2, edgecolors="white", linewidth=0.6)
+    axis.set_theta_zero_location("N")  # forward is up, left is to the left
+    axis.set_xticks(np.radians(DIRECTIONS), [f"{a} deg" for a in DIRECTIONS], fontsize=8)
+    axis.set_yticks([])
+    axis.set_title(f"{walk}: largest survived push over the bound\n(phase of the step grows outwards)", fontsize=9)
+    for (angle, phase), share in shares.items():
+        radius = 1.5 + PHASES.index(phase)
+        axis.text(math.radians(angle), radius, f"{share:.1f}", ha="center", va="center", fontsize=5.5)
+    axis.figure.colorbar(mesh, ax=axis, shrink=0.6)
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] != ["report"]:
+        end = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
+        while time.monotonic() < end:
+            jobs = sorted(missing(), key=lambda job: job[0])[:8]
+            if not jobs:
+                break
+            run_for(BENCHMARK, jobs, (end - time.monotonic()) / 60.0)
+    report()
