@@ -109,7 +109,7 @@ class MobileRobot:
             world: The world, in which the robot stands.
         """
         base = int(world.model.body_rootid[world.torso])
-        self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.gap
+        self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.apart
         world.data.qpos[self._place] = self._start
         world.data.qvel[self._axis] = 0.0
 
@@ -136,7 +136,7 @@ class MobileRobot:
         self._forces.append(true)
         self.moved = self._start - float(data.qpos[self._place])
         if data.time >= s.starts:
-            self.law.update(true + s.force_noise * self._noise.standard_normal(), world.period)
+            self.law.update(true + s.hand_noise * self._noise.standard_normal(), world.period)
         rate = _QUICK / self._body.beat
         off, speed = self.law.position - self.moved, self.law.velocity + float(data.qvel[self._axis])
         wanted = s.body_mass * (rate * rate * off + 2.0 * rate * speed) - true

@@ -21,10 +21,10 @@ class PartnerSettings(Settings):
         stride: S of K 41: how far it goes from where it rests before it rests there.
         built_in_force: f_in of K 39, of a leader alone.
         starts: Time in s from which a leader's force acts, and a follower is moved.
-        gap: Distance in m of its hand from the robot's skin at the start.
+        apart: Distance in m of its hand from the robot's skin at the start.
         body_mass: Mass of its body; TIAGo's of 70 kg beside H1.
         drive_force: Largest force of its drive.
-        force_noise: Noise (1 sigma) in N of the force-torque sensor in its hand.
+        hand_noise: Noise (1 sigma) in N of the force-torque sensor in its hand.
     """
 
     kind: str = choice("none", "mobile_robot")
@@ -35,7 +35,7 @@ class PartnerSettings(Settings):
     stride: float = share(1 / 6, "leg", 0.001, 10)
     built_in_force: float = share(0.01778, "weight", 0.0, 1e4)
     starts: float = number(2.0, "s", 0.0, 600)
-    gap: float = share(0.05, "leg", 0.0, 1)
+    apart: float = share(0.05, "leg", 0.0, 1)
     body_mass: float = share(0.814, "mass", 0.01, 1e4)
     drive_force: float = share(0.3, "weight", 0.1, 1e5)
-    force_noise: float = share(0.0006, "weight", 0.0, 100)
+    hand_noise: float = share(0.0006, "weight", 0.0, 100)
