@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.arrays import array
 from plantar.errors import ReadingError
-from plantar.mechanics.wrench import wrench_in_frame
 from plantar.sensing.body_skin import active_cells, pseudo_force
 from plantar.sensing.link_skin import BodySkin, SkinReading, link_wrenches
 from plantar.settings.schema import Settings, number, share
@@ -93,10 +92,13 @@ def net_wrench(
     near[seen] = np.clip(1.0 - reading.distance[seen] / skin.ranges[seen], 0.0, 1.0)
     active = active_cells(reading.force - skin.thresholds, near, 0.0, rules.near)
     signal = pseudo_force(reading.force, near, 1.0, rules.proximity_force, active)
-    total = np.zeros(6)
+    force, moment = np.zeros(3), np.zeros(3)
     for link, wrench, _ in link_wrenches(skin, signal, active):
         if link not in poses:
             raise ReadingError(f"link '{link}' feels something and has no pose; given: {', '.join(poses) or 'none'}")
         origin, rotation = poses[link]
-        total += wrench_in_frame(wrench, rotation, origin - about)
-    return NetWrench(total, active.nonzero()[0])
+        push = rotation @ wrench[:3]
+        force += push
+        (x, y, z), (fx, fy, fz) = (origin - about).tolist(), push.tolist()  # np.cross takes longer than all the rest
+        moment += rotation @ wrench[3:] + (y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
+    return NetWrench(np.concatenate([force, moment]), active.nonzero()[0])
