@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number as checked_number
 from plantar.arrays import array
 from plantar.errors import InputError
+from plantar.kernels.swing_fit import fit
 from plantar.settings.schema import Settings, number, share, whole
 
 __all__ = ["SwingFit", "SwingFitRules", "SwingPoint"]
@@ -94,7 +95,7 @@ class SwingFit:
             raise InputError(f"control period is {period} s; allowed: above 0")
         self._rules = rules
         self._start: NDArray[np.float64] = array(start, "start of the swing", (3,), finite=True).copy()
-        self._last = SwingPoint(self._start.copy(), np.zeros(3), np.zeros(3))
+        self._state = np.array([self._start, np.zeros(3), np.zeros(3)])  # of the tick before
         self._seen: tuple[NDArray[np.float64], float] | None = None
         self._falls = False
         n = rules.order
@@ -103,14 +104,14 @@ class SwingFit:
         g, weight = rules.height_share, rules.position
         rests = [np.array([_rows(s, n)[d] for s in (0.0, 1.0)]) for d in (1, 2)]
         heights = np.array([_rows(s, n)[0] for s in (g, 1.0 - g)])
-        self._high = weight * _reduced(heights).T @ _reduced(heights)
-        # What the heights pull z by, for each metre of top and of way.
-        self._high_top, self._high_way = (weight * _reduced(heights).T @ v for v in (np.ones(2), -heights[:, n]))
+        # How they enter the normal equations: a matrix, and how height and way pull.
+        high = weight * _reduced(heights).T @ np.column_stack([_reduced(heights), np.ones(2), -heights[:, n]])
+        self._high = np.ascontiguousarray(high)
         # Damping, rest and no acceleration at the ends: their share of the matrix, and how they pull at a_n.
         same = [rules.damping * (np.eye(n - 1) + 1.0), *(weight * _reduced(r).T @ _reduced(r) for r in rests)]
         pulls = [np.full(n - 1, rules.damping), *(-weight * _reduced(r).T @ r[:, n] for r in rests)]
-        self._same = np.array([np.append(m, pull) for m, pull in zip(same, pulls, strict=True)])
-        self._matrix, self._right = np.empty((2, n - 1, n - 1)), np.empty((2, n - 1, 3))
+        self._same = np.array([np.column_stack(parts).ravel() for parts in zip(same, pulls, strict=True)])
+        self._conditions, self._work = np.zeros((4, 4)), np.zeros((7 + 2 * (n - 1), n + 1))
 
     def aim(self, goal: ArrayLike, elapsed: float, duration: float, observed: ArrayLike | None = None) -> SwingPoint:
         """The reference now, of a path to a goal (K 13-16).
@@ -132,70 +133,55 @@ class SwingFit:
         lasts = checked_number(duration, "duration of the swing", finite=True)
         seen = None if observed is None else array(observed, "observed position", (3,), finite=True)
         if now >= lasts or lasts <= 0.0:
-            self._last = SwingPoint(end.copy(), np.zeros(3), np.zeros(3))
-            return self._last
-        found = self._fitted(end, now, lasts, seen)
-        self._seen = None if seen is None else (seen, now - self._period)
-        self._last = self._monotone(found, end, now / lasts)
-        return self._last
+            self._state = np.array([end, np.zeros(3), np.zeros(3)])
+        else:
+            found = self._fitted(end, now, lasts, seen)
+            self._seen = None if seen is None else (seen, now - self._period)
+            self._keep_monotone(found, end, now / lasts)
+            self._state = found
+        return SwingPoint(*self._state.copy())
 
     def _fitted(
         self, end: NDArray[np.float64], now: float, lasts: float, seen: NDArray[np.float64] | None
-    ) -> SwingPoint:
-        """The reference now of the polynomial by ridge regression through both ends."""
-        rules, n, (place, velocity, acceleration) = self._rules, self._rules.order, self._last
-        start, tick, way = self._start, self._period / lasts, end - self._start
-        square = lasts * lasts
-        before = max(now - self._period, 0.0) / lasts
-        rows = [*_rows(now / lasts, n), *_rows(before, n)]
-        values = [place - start, velocity * lasts, acceleration * square]
-        weights = [rules.position, rules.position * tick, rules.position * tick * tick]
+    ) -> NDArray[np.float64]:
+        """The reference now (3, 3), a row for each derivative, by ridge regression through both ends."""
+        rules, n, start, conditions = self._rules, self._rules.order, self._start, self._conditions
+        tick, way = self._period / lasts, end - start
+        units = np.array(((1.0,), (lasts,), (lasts * lasts,)))
+        np.multiply(self._state, units, out=conditions[:3, 1:])
+        conditions[0, 1:] -= start
+        weights = [rules.position, rules.position * tick, rules.position * tick * tick, 0.0]
+        earlier = 0.0
         if seen is not None and rules.observation > 0.0:
             # What is measured is of the same moments as the path of before: one condition each, weighed together.
             part = rules.observation / (rules.observation + rules.position)
-            values[0] += part * (seen - place)
+            conditions[0, 1:] += part * (seen - self._state[0])
             weights[0] += rules.observation
             if self._seen is not None:
-                values[1] += part * ((seen - self._seen[0]) / tick - values[1])
+                conditions[1, 1:] += part * ((seen - self._seen[0]) / tick - conditions[1, 1:])
+                conditions[3, 1:] = self._seen[0] - start
                 weights[1] += rules.observation * tick
-                rows.append(_powers(max(self._seen[1], 0.0) / lasts, n))
-                values.append(self._seen[0] - start)
-                weights.append(rules.observation)
-        # y - y_i = s^n way + sum a_k (s^k - s^n), in which both ends are kept.
-        full = np.array(rows)
-        ends = full[:, n:]
-        free, along = full[:, 1:n] - ends, ends * way
-        conditions = free[3:]
-        weighed = conditions.T * np.array(weights)
-        same = np.array((1.0, tick, tick * tick)) @ self._same
-        matrix, right, m = self._matrix, self._right, (n - 1) * (n - 1)
-        np.add(weighed @ conditions, same[:m].reshape(n - 1, n - 1), out=matrix[0])
-        np.add(matrix[0], self._high, out=matrix[1])
-        np.add(weighed @ (np.array(values) - along[3:]), same[m:, None] * way, out=right[0])
-        right[1] = right[0]
-        rise = float(way[2])
-        right[1, :, 2] += (max(0.0, rise) + rules.height) * self._high_top + rise * self._high_way
-        level, upright = free[:3] @ np.linalg.solve(matrix, right)
-        level[:, 2] = upright[:, 2]
-        level += along[:3]
-        return SwingPoint(level[0] + start, level[1] / lasts, level[2] / square)
+                weights[3], earlier = rules.observation, max(self._seen[1], 0.0) / lasts
+        conditions[:, 0] = weights
+        same = (np.array((1.0, tick, tick * tick)) @ self._same).reshape(n - 1, n)
+        top, found = max(0.0, float(way[2])) + rules.height, np.empty((3, 3))
+        before = max(now - self._period, 0.0) / lasts
+        fit(n, now / lasts, before, earlier, conditions, same, self._high, top, way, self._work, found)
+        found /= units
+        found[0] += start
+        return found
 
-    def _monotone(self, found: SwingPoint, end: NDArray[np.float64], s: float) -> SwingPoint:
-        """A reference that neither turns round nor passes its goal; vertically one that rises, and later falls."""
+    def _keep_monotone(self, found: NDArray[np.float64], end: NDArray[np.float64], s: float) -> None:
+        """Change a reference that would turn round or pass its goal; vertically it rises, and later falls."""
         self._falls = self._falls or s >= 0.5
-        for k, (at, was, to) in enumerate(
-            zip(found.position.tolist(), self._last.position.tolist(), end.tolist(), strict=True)
-        ):
+        for k, (at, was, to) in enumerate(zip(found[0].tolist(), self._state[0].tolist(), end.tolist(), strict=True)):
             if k == 2:
                 kept = min(at, was) if self._falls else max(at, was)
                 kept = max(kept, to) if self._falls and was >= to else kept
             else:
                 kept = min(max(at, min(was, to)), max(was, to))
             if kept != at:
-                found.position[k] = kept
-                found.velocity[k] = (kept - was) / self._period
-                found.acceleration[k] = 0.0
-        return found
+                found[:, k] = kept, (kept - was) / self._period, 0.0
 
 
 def _rows(s: float, order: int) -> tuple[list[float], list[float], list[float]]:

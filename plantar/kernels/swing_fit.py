@@ -1,0 +1,83 @@
+"""The kernel of a swing foot's fitted path (K 13-16): ridge regression of three axes through both ends of the path.
+
+Plain Python that also compiles ahead of time (`swing_fit.pxd` gives the C types). `gait.feet.swing_fit` is the public
+face, with units and an example.
+"""
+
+from __future__ import annotations
+
+import math
+
+__all__ = ["fit"]
+
+
+def fit(order, now, before, earlier, conditions, same, high, pull, way, work, out):
+    """Path at one moment, with its derivatives: y = y_i + s^n way + sum a_k (s^k - s^n), which keeps both ends.
+
+    Conditions are on the position, first and second derivative at the share `before`, and on the position at the share
+    `earlier`.
+
+    Args:
+        order: Order n of the polynomial.
+        now: Share s of the swing at which it is wanted.
+        before: Share of the tick before.
+        earlier: Share of the tick before that.
+        conditions: Weight and value, less the start, of each condition (4, 1 + 3).
+        same: Matrix (m, m) and, in column m, the pull of the way, (m, m + 1), that all axes have, m = n - 1.
+        high: What the third axis has beside it (m, m + 2): a matrix, and how a height and the way pull.
+        pull: That height.
+        way: End less start (3,).
+        work: Room (7 + 2 m, n + 1).
+        out: Receives the path less its start, and its derivatives by the share (3, 3).
+    """
+    n, m = order, order - 1
+    for i in range(3):
+        s = now if i == 0 else before if i == 1 else earlier
+        power = 1.0
+        for k in range(n + 1):
+            work[3 * i, k] = power
+            power *= s
+        if i < 2:
+            work[3 * i + 1, 0] = work[3 * i + 2, 0] = work[3 * i + 2, 1] = 0.0
+            for k in range(1, n + 1):
+                work[3 * i + 1, k] = k * work[3 * i, k - 1]
+            for k in range(2, n + 1):
+                work[3 * i + 2, k] = k * (k - 1) * work[3 * i, k - 2]
+    for i in range(7):
+        for k in range(1, n):
+            work[i, k] -= work[i, n]
+    # Rows from 7 on hold the matrix and then its factor, the m behind them a right side and then the coefficients.
+    for axes in range(2):
+        for j in range(m):
+            for k in range(j + 1):
+                total = same[j, k]
+                for i in range(4):
+                    total += conditions[i, 0] * work[3 + i, j + 1] * work[3 + i, k + 1]
+                work[7 + j, k] = total + high[j, k] if axes == 1 else total
+        for j in range(m):  # Cholesky
+            for k in range(j + 1):
+                total = work[7 + j, k]
+                for i in range(k):
+                    total -= work[7 + j, i] * work[7 + k, i]
+                work[7 + j, k] = math.sqrt(total) if j == k else total / work[7 + k, k]
+        for axis in range(2 * axes, 2 + axes):
+            for j in range(m):
+                total = same[j, m] * way[axis]
+                if axis == 2:
+                    total += high[j, m] * pull + high[j, m + 1] * way[2]
+                for i in range(4):
+                    left = conditions[i, 1 + axis] - work[3 + i, n] * way[axis]
+                    total += conditions[i, 0] * work[3 + i, j + 1] * left
+                for i in range(j):
+                    total -= work[7 + j, i] * work[7 + m + i, 0]
+                work[7 + m + j, 0] = total / work[7 + j, j]
+            for j in range(m - 1, -1, -1):
+                total = work[7 + m + j, 0]
+                for i in range(j + 1, m):
+                    total -= work[7 + i, j] * work[7 + m + i, 0]
+                work[7 + m + j, 0] = total / work[7 + j, j]
+            for i in range(3):
+                total = work[i, n] * way[axis]
+                for j in range(m):
+                    total += work[i, j + 1] * work[7 + m + j, 0]
+                out[i, axis] = total
