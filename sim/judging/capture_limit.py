@@ -75,6 +75,7 @@ class CaptureLimits:
         swing_speed: Largest mean speed of the swing foot over the ground in m/s.
         swing_acceleration: Largest acceleration of the swing foot over the ground in m/s^2, on a minimum-jerk path:
             from rest it gets a t^2 / 5.77 far.
+        swing_sideways: Share of that acceleration that is left to the side; in between along an ellipse.
         landing: How long a foot takes at least from the push until it touches down in s.
         lasts: How long the push lasts in s, at constant force; 0 for one that takes no time.
         height: How far above the CoM it acts in m.
@@ -95,6 +96,7 @@ class CaptureLimits:
     double_support: float = 0.0
     swing_speed: float = math.inf
     swing_acceleration: float = math.inf
+    swing_sideways: float = 1.0
     landing: float = 0.0
     lasts: float = 0.0
     height: float = 0.0
@@ -109,7 +111,7 @@ class CaptureLimits:
             if not len(hull):
                 raise InputError(f"{name} has no vertices; it needs one at least")
             object.__setattr__(self, name, hull)
-        for name in ("mass", "omega", "swing_speed", "swing_acceleration"):
+        for name in ("mass", "omega", "swing_speed", "swing_acceleration", "swing_sideways"):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} is {getattr(self, name)}; allowed: above 0")
         for name in ("shortest", "double_support", "landing", "lasts"):
@@ -295,14 +297,15 @@ class _Program:
             rows.append(row)
             upper.append((edges @ regions[(j + 1) % 2].T).max(axis=1))
         self._circles = sum(len(r) for r in rows)
-        for _ in range(math.isfinite(limits.swing_speed) + math.isfinite(limits.swing_acceleration)):
-            for j in range(count):
-                row = np.zeros((len(_ROUND), size))
-                row[:, 1 + 2 * j : 3 + 2 * j] = _ROUND
+        self._stretch = np.array((1.0, limits.swing_sideways))
+        for most, edges in ((limits.swing_speed, _ROUND), (limits.swing_acceleration, _ROUND / self._stretch)):
+            for j in range(count if math.isfinite(most) else 0):
+                row = np.zeros((len(edges), size))
+                row[:, 1 + 2 * j : 3 + 2 * j] = edges
                 if j:
-                    row[:, 2 * j - 1 : 2 * j + 1] = _ROUND
+                    row[:, 2 * j - 1 : 2 * j + 1] = edges
                 rows.append(row)
-                upper.append(_ROUND @ instant.swing if j == 0 else np.zeros(len(_ROUND)))
+                upper.append(edges @ instant.swing if j == 0 else np.zeros(len(edges)))
         self._normals = normals
         self._rows, self._upper = np.vstack(rows), np.concatenate([[_MOST], *upper])
         self._lower = np.full(len(self._upper), -1e30)
@@ -391,7 +394,7 @@ class _Program:
 
         A foot that already moves at v gets v t / 2 farther, and for braking v^2 / (5.77 a) less far.
         """
-        limits, v = self._limits, self._instant.velocity
+        limits, v = self._limits, self._instant.velocity / self._stretch
         found = [np.zeros((len(airborne), 0))]
         if math.isfinite(limits.swing_speed):
             found.append(np.repeat(limits.swing_speed * airborne, len(_ROUND), axis=1))

@@ -21,7 +21,14 @@ OMEGA, MASS = 3.5, 50.0
 
 
 def robot(**changes) -> CaptureLimits:
-    usual = {"double_support": 0.1, "swing_speed": 1.5, "swing_acceleration": 20.0, "steps": 2, "times": 5}
+    usual = {
+        "double_support": 0.1,
+        "swing_speed": 1.5,
+        "swing_acceleration": 20.0,
+        "swing_sideways": 2 / 3,
+        "steps": 2,
+        "times": 5,
+    }
     return CaptureLimits(MASS, OMEGA, SOLE, REGION, 0.35, 0.9, **(usual | changes))
 
 
@@ -86,10 +93,11 @@ def written_out(limits: CaptureLimits, instant: Instant, toward: np.ndarray, ste
             row = {places[i + 1][k]: u[k] for k in (0, 1)}
             row |= {places[i][k]: u[k] for k in (0, 1)} if i else {}
             rows_le.append((row, limits.swing_speed * single + (0.0 if i else u @ instant.swing)))
-            v = np.zeros(2) if i else instant.velocity
+            # To the side a third less: the ellipse is a circle where y is stretched.
+            v, swing = (np.zeros(2) if i else at / (1.0, 2 / 3) for at in (instant.velocity, instant.swing))
             reach = limits.swing_acceleration * single**2 - v @ v / limits.swing_acceleration
-            centre = 0.5 * single * v + (0.0 if i else instant.swing)
-            rows_le.append((row, max(reach, 0.0) * math.sqrt(3.0) / 10.0 + u @ centre))
+            stretched = {column: value / (1.0 if column % 2 else 2 / 3) for column, value in row.items()}
+            rows_le.append((stretched, max(reach, 0.0) * math.sqrt(3.0) / 10.0 + u @ (0.5 * single * v + swing)))
     last = pressed(steps[-1].share, len(steps) - 1)
     for k in (0, 1):
         row, right = {}, 0.0
@@ -217,7 +225,14 @@ def test_more_of_anything_captures_no_less() -> None:
         {"landing": 0.0},
     ):
         assert capture_limit(robot(**change), instant, toward).impulse >= usual * 0.999, change
-    for change in ({"swing_speed": 0.5}, {"swing_acceleration": 5.0}, {"landing": 0.35}, {"steps": 0}, {"height": 0.3}):
+    for change in (
+        {"swing_speed": 0.5},
+        {"swing_acceleration": 5.0},
+        {"swing_sideways": 0.2},
+        {"landing": 0.35},
+        {"steps": 0},
+        {"height": 0.3},
+    ):
         assert capture_limit(robot(**change), instant, toward).impulse < usual, change
 
 
