@@ -92,7 +92,7 @@ def shoe(
     if order.side not in (*SIDES, "both"):
         raise InputError(f"--side is '{order.side}'; allowed: left, right, both")
     used = (ShoeParameters() if parameters is None else read_parameters(parameters)).changed(settings or [])
-    shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band, patch_gap=used.patch_gap)
+    shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
     options: dict[str, Any] = vars(order) | {"taxels": taxels if order.taxels is None else order.taxels}
     with output_folder(output) as folder, progress_bar() as tell:
         build = build_shoe(shape, parameters=used, progress=part_of(tell, 0.0, 0.6), **options)

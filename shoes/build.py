@@ -93,7 +93,7 @@ def build_shoe(
     layout_only: bool = False,
     progress: Progress | None = None,
 ) -> ShoeBuild:
-    """Fit taxels to a foot's sole and build the shoe around both.
+    """Fit taxels to the face on which a foot's shoe stands and build the shoe around both.
 
     Args:
         foot: The left foot, see `foot_from_mesh` and `foot_from_dimensions`.
@@ -131,12 +131,13 @@ def build_shoe(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
         )
     tell(0.0, "fitting the taxels to the sole")
+    # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
+    wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     fit = fit_taxels(
-        foot.sole,
-        parts=foot.parts,
+        foot.passing(p.rim_height),
         cell_area=cell_area,
         taxels=taxels,
-        overhang=overhang,
+        overhang=overhang if taxels is not None else max(overhang, p.clearance + wall - p.border),
         overhang_max=p.overhang_max,
         border=p.border,
     )

@@ -88,10 +88,7 @@ def shoe_for_surface(
     Raises:
         FootError: If the foot cannot carry taxels.
     """
-    # The shoe's plate meets the ground between parts of the sole, too; without taxels there it would not feel where.
-    found = _foot(name, triangles)
-    bridged = [f"the shoe bridges the {len(found.parts)} parts in which the sole touches"] if found.parts[1:] else []
-    foot = replace(found, mass=mass, parts=(), notes=(*found.notes, *bridged))
+    foot = replace(_foot(name, triangles), mass=mass)
     area = taxel_area(foot.sole.area)
     build = _felt(build_shoe(foot, cell_area=area, layout_only=True), mass)
     weight, notes = None, build.notes

@@ -78,7 +78,6 @@ class ShoeParameters:
     bed_width: float = _length(284.0, 50.0, 2000.0, "printer's room along its shorter side")
     bed_height: float = _length(380.0, 50.0, 2000.0, "printer's room upwards")
     sole_band: float = _length(5.0, 0.5, 20.0, "height of the lowest part of the foot that is its sole")
-    patch_gap: float = _length(60.0, 5.0, 400.0, "gap between two parts of the sole from which each gets its own patch")
     robot_mass: float = _number(0.0, 0.0, 1000.0, "kg", "of the robot; 0 takes its file's, or estimates by the foot")
     load_factor: float = _number(1.5, 0.5, 10.0, "-", "load case: times the robot's weight ...")
     load_share: float = _number(1 / 3, 0.05, 1.0, "-", "... on this share of the sole")

@@ -169,6 +169,8 @@ def _layout_checks(shoe: Shoe, p: ShoeParameters, step: Any) -> Iterator[Check]:
     yield Check("pocket corners against the layout, mm", pockets <= 0.05, round(pockets, 6), "0.05 or less")
     outside = _taxels_outside(shoe)
     yield Check("taxels beyond the contact face", outside == 0, float(outside), "0")
+    fewest, where = shoe.plan.fewest_taxels
+    yield Check(f"taxels in the {where}, the barest of five places", fewest > 0, float(fewest), "1 or more")
 
 
 def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuild) -> Iterator[Check]:
@@ -187,6 +189,7 @@ def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuil
         round(m.gap_on_the_way, 3),
         f"{least:g} or more",
     )
+    yield Check("undercut of the foot's place, mm2", m.undercut == 0.0, m.undercut, "0")
     yield Check("gap between foot and floor, mm", m.floor_gap <= 0.05, round(m.floor_gap, 3), "0.05 or less")
     yield Check(
         "touching area over the floor, %", m.support_share >= 0.97, round(100.0 * m.support_share, 2), "97 or more"

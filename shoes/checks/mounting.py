@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from plantar.layouts.layout import Side
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import ring
+from shoes.geometry.outline import cut_below, ring
 from shoes.geometry.section import cut_segments, section
 from shoes.parameters import ShoeParameters
 from shoes.solid.body import LEVELS
@@ -20,6 +21,8 @@ from shoes.solid.retention import Retention
 __all__ = ["Mounting", "check_mounting"]
 
 _ABOVE = 9  # sections above the wall
+_BESIDE = 8.0  # mm beside a clip or screw, where its window or boss is
+_SLIVER = 0.05  # mm that a wall may lean over
 _WALL_SHARE = 0.1  # of a section's area: what is smaller is a clip, no wall
 
 Array = NDArray[np.float64]
@@ -36,6 +39,8 @@ class Mounting:
         gap_on_the_way: Smallest gap between the foot and rigid parts while the shoe is pushed on from below.
         floor_gap: Distance between the foot's lowest point and the floor.
         support_share: Share of the foot's touching area that lies over the floor, 0..1.
+        undercut: Area in mm^2 of wall that hangs over the foot's place, clips and screws left out: a slot below it
+            could not be printed.
     """
 
     gap: float
@@ -44,6 +49,7 @@ class Mounting:
     gap_on_the_way: float
     floor_gap: float
     support_share: float
+    undercut: float
 
 
 def check_mounting(
@@ -74,7 +80,7 @@ def check_mounting(
     for height in walls:
         solid = section(shoe, floor + height)
         gap = min(gap, _gap(foot, height, solid))
-        way = min(way, float(foot.passing(height + 0.011).distance(solid)))
+        way = min(way, _gap_on_the_way(foot, height + 0.011, solid))
     play = _play(foot.passing(p.rim_height), section(shoe, floor + p.rim_height - p.lead_in - 0.011))
     above = math.inf
     top = retention.top(p)
@@ -89,7 +95,27 @@ def check_mounting(
     touching = foot.support if foot.support is not None and not foot.support.is_empty else foot.sole
     below = section(shoe, floor - p.mark_depth - 0.05)
     share = float(shapely.intersection(touching, below).area / touching.area)
-    return Mounting(gap, play, above, way, abs(lowest), share)
+    return Mounting(gap, play, above, way, abs(lowest), share, _undercut(shoe, retention, p))
+
+
+def _undercut(shoe: Array, retention: Retention, p: ShoeParameters) -> float:
+    """Area of what a left shoe has over the place of the foot within the wall's height, section over section."""
+    import shapely
+
+    half = 0.5 * retention.width + _BESIDE
+    kept = [shapely.box(q.x - half, 0.0, q.x + half, q.side * 1e3) for q in retention.places]
+    levels = np.unique(shoe[..., 2].round(3))
+    levels = levels[(levels > p.thickness - 1e-3) & (levels < p.rim_top + 1e-3)]
+    below, area = None, 0.0
+    for low, high in pairwise(levels.tolist()):
+        if high - low < 0.02:
+            continue
+        solid = section(shoe, 0.5 * (low + high) + 1.3e-4)
+        if below is not None:
+            over = solid.difference(below.buffer(_SLIVER)).difference(shapely.union_all(kept))
+            area += float(over.area)
+        below = solid
+    return round(area, 2)
 
 
 def _gap(foot: Foot, height: float, solid: Any) -> float:
@@ -103,6 +129,18 @@ def _gap(foot: Foot, height: float, solid: Any) -> float:
         return math.inf
     shapely.prepare(solid)
     return float(shapely.distance(shapely.multilinestrings(segments), solid))
+
+
+def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
+    """Smallest distance, seen from above, between the foot up to a height and a section of the shoe there."""
+    import shapely
+
+    if foot.triangles is None:
+        return float(foot.passing(height).distance(solid))
+    flat = cut_below(foot.triangles, height)[..., :2]
+    tree = shapely.STRtree(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)))
+    _, distances = tree.query_nearest(solid, return_distance=True)
+    return float(distances.min(initial=math.inf))
 
 
 def _play(outline: Any, solid: Any) -> float:

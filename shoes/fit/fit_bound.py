@@ -30,7 +30,8 @@ _MOST_ANGLES = 6
 _AT_ONCE = 1000  # boxes
 _CHUNK = 6_000_000  # numbers held at a time
 _SLACK = 1e-3  # mm by which a cell may leave the outline, as in the fit
-_DETAIL = 0.01  # mm of detail that is dropped
+_DETAIL, _COARSE_DETAIL = 0.01, 0.1  # mm of detail that is dropped, of an outline with many corners
+_MANY_CORNERS = 40
 
 Array = NDArray[np.float64]
 
@@ -75,7 +76,8 @@ def bound_whole_cells(region: Any, cell_area: float, *, known: int = 0, share: f
     """
 
     # Fewer corners, none of them inside the region: what is proven for the larger outline holds for the region.
-    larger = region.simplify(_DETAIL).buffer(_DETAIL + _SLACK, join_style="mitre", mitre_limit=2.0)
+    detail = _DETAIL if len(region.exterior.coords) <= _MANY_CORNERS else _COARSE_DETAIL
+    larger = region.simplify(detail).buffer(detail + _SLACK, join_style="mitre", mitre_limit=2.0)
     outline = _Outline.of(larger, cell_area)
     lattice = HexLattice(cell_area)
     width, rise = lattice.width, 1.5 * lattice.side

@@ -1,4 +1,4 @@
-"""The taxels of a sole: one lattice or one for each part of the sole, cells whole or cut at the rim. Lengths in mm."""
+"""The taxels of a sole: one lattice, its cells whole or cut at the rim. Lengths in mm."""
 
 from __future__ import annotations
 
@@ -13,11 +13,9 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice
 from shoes.fit.lattice_fit import LatticeFit, fit_lattice
+from shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["CORNER", "CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
-
-CORNER = 1.2
-"""How much farther than its edges the corner of a grown outline may lie."""
+__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
 
 LEAST_SHARE = 0.6
 """Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
@@ -42,24 +40,22 @@ class TaxelFit:
     """The cells of the left sole.
 
     Attributes:
-        cells: Corners (k, 2) of each cell, counter-clockwise; patch by patch, row by row.
+        cells: Corners (k, 2) of each cell, counter-clockwise; row by row.
         shares: Share of a whole cell (n,) that each has, 1 where it is whole.
-        patches: Patch (n,) that each belongs to, 0 first.
-        lattices: Placement of each patch's lattice.
+        lattice: Placement of the lattice.
         cell_area: Area of a whole cell in mm^2.
-        overhang: How far a cell may reach beyond the sole's outline, as used.
+        overhang: How far a cell may reach beyond the foot's outline, as used.
         covered: Area of the sole under the cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
-        bound: Proven: no placement holds more whole cells with this overhang (of several parts: their sum).
+        bound: Proven: no placement holds more whole cells with this overhang.
         border: Border around the cells that this leaves room for.
-        lattice_cells: Axial coordinates (n, 2), where there is one lattice and all cells are whole; else None.
+        lattice_cells: Axial coordinates (n, 2), where all cells are whole; else None.
         notes: What was done to make them fit.
     """
 
     cells: Cells
     shares: NDArray[np.float64]
-    patches: NDArray[np.int64]
-    lattices: tuple[HexLattice, ...]
+    lattice: HexLattice
     cell_area: float
     overhang: float
     covered: float
@@ -76,28 +72,27 @@ class TaxelFit:
 
 
 def fit_taxels(
-    sole: Any,
+    foot: Any,
     *,
-    parts: Sequence[Any] = (),
     cell_area: float = 691.0,
     taxels: int | None = None,
     overhang: float = 0.0,
     overhang_max: float = 0.0,
     border: float = 0.0,
 ) -> TaxelFit:
-    """Fit taxels to a sole.
+    """Fit taxels to the face of a shoe that meets the ground.
 
-    As many whole cells as fit, or a number of them: that may reach beyond the sole, as little as it can; where it does
+    As many whole cells as fit, or a number of them: that may reach beyond the foot, as little as it can; where it does
     not fit with the border, the border is left out, and where it still does not, cells at the rim are cut.
 
     Args:
-        sole: Outline of the sole, a shapely polygon.
-        parts: Outlines of parts of the sole that get a patch each; empty or one for one patch.
+        foot: Outline of the foot below the rim's upper edge, a shapely polygon: the plate below it is rigid, so that
+            taxels belong wherever it meets the ground, not only below what of the foot touches.
         cell_area: Area of a cell in mm^2.
         taxels: Number of cells; None takes as many whole ones as fit.
         overhang: How far cells may reach beyond the outline where `taxels` is None; the least where it is given.
         overhang_max: How far the shoe may reach beyond the outline.
-        border: Sole that is wanted beyond the cells.
+        border: Plate that is wanted beyond the cells.
 
     Returns:
         The cells.
@@ -107,26 +102,21 @@ def fit_taxels(
         FootError: If they do not fit.
     """
     if taxels is None:
-        if len(parts) > 1:
-            fits = [_part(p, cell_area, overhang) for p in parts]
-            kept = [(p, f) for p, f in zip(parts, fits, strict=True) if f is not None]
-            if kept:
-                note = f"the sole touches in {len(parts)} parts far from each other: {len(kept)} patches"
-                return _joined(sole, [f for _, f in kept], cell_area, border, (note,))
-        fit = fit_lattice(sole, cell_area=cell_area, overhang=overhang)
-        return _joined(sole, [fit], cell_area, border, ())
+        face = tidy(grown(foot, overhang))
+        fit = replace(fit_lattice(face, cell_area=cell_area), overhang=overhang)
+        return _whole(foot, fit, cell_area, border, ())
     problem: FootError | None = None
     for wanted in sorted({border, min(border, LEAST_BORDER)}, reverse=True):
         room = max(overhang, overhang_max - CORNER * wanted)
         try:
-            fit = fit_lattice(sole, cell_area=cell_area, taxels=taxels, overhang=overhang, overhang_max=room)
+            fit = fit_lattice(foot, cell_area=cell_area, taxels=taxels, overhang=overhang, overhang_max=room)
         except FootError as error:
             problem = problem or error
             continue
-        return _joined(sole, [fit], cell_area, wanted, () if wanted == border else (_narrow(border),))
+        return _whole(foot, fit, cell_area, wanted, () if wanted == border else (_narrow(border),))
     border_left = min(border, LEAST_BORDER)
     reach = max(overhang, (overhang_max - 0.05) / CUT_CORNER - CORNER * border_left)
-    cut = _cut_fit(sole, cell_area, taxels, reach)
+    cut = _cut_fit(foot, cell_area, taxels, reach)
     if cut is None:
         assert problem is not None
         raise problem
@@ -138,30 +128,21 @@ def _narrow(border: float) -> str:
     return f"the border around the cells is {LEAST_BORDER:g} instead of {border:g} mm: so many taxels need the room"
 
 
-def _part(part: Any, cell_area: float, overhang: float) -> LatticeFit | None:
-    """The fit of one part of a sole; None where no cell fits it."""
-    try:
-        return fit_lattice(part, cell_area=cell_area, overhang=overhang)
-    except FootError:
-        return None
-
-
-def _joined(sole: Any, fits: Sequence[LatticeFit], cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
-    """Whole cells of one or more lattices."""
-    cells = [ring for fit in fits for ring in fit.lattice.corners(fit.cells)]
+def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
+    """Whole cells of a lattice."""
+    cells = tuple(fit.lattice.corners(fit.cells))
     covered = _covered(sole, cells)
     return TaxelFit(
-        cells=tuple(cells),
+        cells=cells,
         shares=np.ones(len(cells)),
-        patches=np.repeat(np.arange(len(fits)), [len(f.cells) for f in fits]),
-        lattices=tuple(f.lattice for f in fits),
+        lattice=fit.lattice,
         cell_area=cell_area,
-        overhang=fits[0].overhang,
+        overhang=fit.overhang,
         covered=covered,
         covered_area_ratio=covered / sole.area,
-        bound=sum(f.bound for f in fits),
+        bound=fit.bound,
         border=border,
-        lattice_cells=fits[0].cells if len(fits) == 1 else None,
+        lattice_cells=fit.cells,
         notes=notes,
     )
 
@@ -209,8 +190,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     return TaxelFit(
         cells=tuple(cells),
         shares=shares,
-        patches=np.zeros(len(cells), dtype=np.int64),
-        lattices=(lattice,),
+        lattice=lattice,
         cell_area=cell_area,
         overhang=reach,
         covered=covered,

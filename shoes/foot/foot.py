@@ -33,7 +33,6 @@ class Foot:
         notes: What was detected or assumed.
         triangles: The foot's surface (n, 3, 3); None where only its outline is known.
         support: What of the sole touches a flat floor, a shapely polygon or multipolygon; None for all of it.
-        parts: Outlines of the parts in which a sole touches that are far from each other; empty for one.
         mass: Mass of the robot in kg, where it is known.
     """
 
@@ -44,7 +43,6 @@ class Foot:
     notes: tuple[str, ...] = ()
     triangles: NDArray[np.float64] | None = None
     support: Any | None = None
-    parts: tuple[Any, ...] = ()
     mass: float | None = None
 
     def passing(self, height: float) -> Any:

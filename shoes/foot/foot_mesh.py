@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,8 +13,18 @@ from numpy.typing import NDArray
 from plantar.errors import FootError, InputError
 from shoes.foot.foot import FOOT_LENGTHS, Foot
 from shoes.foot.mesh_file import Unit, read_mesh
-from shoes.foot.orientation import AXES, Axis, flat_share, forward_axis, levelled, rotation_forward, rotation_up
-from shoes.geometry.outline import apart, cut_below, outline_below, outline_of, touching
+from shoes.foot.orientation import (
+    AXES,
+    Axis,
+    check_one_body,
+    flat_share,
+    forward_axis,
+    levelled,
+    rotation_forward,
+    rotation_up,
+    straightened,
+)
+from shoes.geometry.outline import cut_below, outline_below, outline_of, touching
 
 __all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
 
@@ -38,7 +47,6 @@ def foot_from_mesh(
     sole_z: float | None = None,
     forward: Axis | None = None,
     sole_band: float = 5.0,
-    patch_gap: float = 60.0,
 ) -> Foot:
     """Read a foot's mesh and find its sole. Watertight or not, loose parts allowed.
 
@@ -50,7 +58,6 @@ def foot_from_mesh(
         sole_z: Height of the sole plane along the axis that points up, in mm; None takes the lowest point.
         forward: Axis that points to the toes once z is up; None takes x, or y where the foot is longer along y.
         sole_band: Height in mm of the lowest part that counts as sole.
-        patch_gap: Gap in mm between parts of the sole from which each gets a patch of its own.
 
     Returns:
         The left foot; `notes` say what was detected.
@@ -70,7 +77,6 @@ def foot_from_mesh(
         sole_z=sole_z,
         forward=forward,
         sole_band=sole_band,
-        patch_gap=patch_gap,
     )
 
 
@@ -86,7 +92,6 @@ def foot_from_triangles(
     sole_z: float | None = None,
     forward: Axis | None = None,
     sole_band: float = 5.0,
-    patch_gap: float = 60.0,
 ) -> Foot:
     """A foot from its triangles; see `foot_from_mesh`.
 
@@ -101,7 +106,6 @@ def foot_from_triangles(
         sole_z: Height of the sole plane in mm.
         forward: Axis that points to the toes.
         sole_band: Height of the sole in mm.
-        patch_gap: Gap between parts of the sole in mm.
 
     Returns:
         The left foot.
@@ -122,7 +126,6 @@ def foot_from_triangles(
         notes.append("the mesh is not closed; only its outline is used")
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
-        "patch_gap": patch_gap,
     }  # fmt: skip
     if up is not None:
         turned = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
@@ -148,7 +151,6 @@ def _standing(
     sole_z: float | None,
     forward: Axis | None,
     sole_band: float,
-    patch_gap: float,
     notes: list[str],
 ) -> Foot:
     """The foot from triangles in mm with z up."""
@@ -159,8 +161,10 @@ def _standing(
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
     axis = forward
     if axis is None:
-        axis, how = forward_axis(triangles)
-        notes.append(how)
+        check_one_body(triangles, where)
+        triangles, turns = straightened(triangles)
+        axis, how = forward_axis(triangles, where)
+        notes += [*turns, how]
     elif axis != "x":
         notes.append(f"the mesh's {axis} axis points to the toes, as given")
     triangles = triangles @ rotation_forward(axis).T
@@ -180,17 +184,17 @@ def _standing(
     triangles = cut_below(triangles * flip, 0.0) * flip
     if not len(triangles):
         raise FootError(f"{where}: no part of the mesh lies above the sole plane z = {plane:g} mm")
-    sole, covered = _checked_sole(triangles, sole_band, forward, where)
+    sole = _checked_sole(triangles, sole_band, forward, where)
     box = sole.bounds
     if not _box_holds(box, 0.5):
         middle = np.array([0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])]).round(3)
         triangles = triangles - np.array([*middle, 0.0])
-        sole, covered = _checked_sole(triangles, sole_band, forward, where)
+        sole = _checked_sole(triangles, sole_band, forward, where)
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
     support = touching(lifted, _TOUCHING).intersection(sole)
-    foot = Foot(
+    return Foot(
         name,
         sole,
         lambda height: outline_below(triangles, height),
@@ -199,7 +203,6 @@ def _standing(
         lifted,
         support if support.area > 1.0 else None,
     )
-    return replace(foot, parts=apart(covered, patch_gap))
 
 
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:
@@ -235,8 +238,8 @@ def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: 
     )
 
 
-def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> tuple[Any, Any]:
-    """Outline of the lowest band and what it covers, refused where the body cannot be a foot."""
+def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> Any:
+    """Outline of the lowest band, refused where the body cannot be a foot."""
     import shapely
 
     points = triangles.reshape(-1, 3)
@@ -247,7 +250,7 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
             f"allowed: a body of {_HEIGHT_MIN:g} mm or more"
         )
     try:
-        sole, covered = outline_of(cut_below(triangles, sole_band), sole_band)
+        sole = outline_of(cut_below(triangles, sole_band), sole_band)
     except FootError as error:
         raise FootError(f"{path}: {error}") from None
     share = sole.area / shapely.MultiPoint(points[:, :2]).convex_hull.area
@@ -272,7 +275,7 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
             f"{path}: the sole is {box[2] - box[0]:.0f} x {box[3] - box[1]:.0f} mm; "
             f"allowed: {FOOT_LENGTHS[0] / 2:g} x 15 mm or more"
         )
-    return sole, covered
+    return sole
 
 
 def _box_holds(box: tuple[float, float, float, float], slack: float) -> bool:

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.errors import FootError
 from plantar.optional_library import optional_library
 
-__all__ = ["AXES", "Axis", "flat_share", "forward_axis", "levelled", "rotation_forward", "rotation_up"]
+__all__ = [
+    "AXES",
+    "Axis",
+    "check_one_body",
+    "flat_share",
+    "forward_axis",
+    "levelled",
+    "rotation_forward",
+    "rotation_up",
+    "straightened",
+]
 
 Axis = Literal["x", "-x", "y", "-y", "z", "-z"]
 """An axis of a mesh, with its direction."""
@@ -24,6 +35,13 @@ _SAME_PLANE = math.cos(math.radians(0.5))
 _NEAR = 1.0  # mm
 _RESTS = 0.3  # share of the silhouette that one plane of the hull must have to be what the foot rests on
 _LONGER = 1.05  # of the other side: what counts as the long side
+_CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
+_BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
+_TURN_LEAST = 6.0  # degrees: a foot turned by less is taken as it stands
+_STRAIGHTER = 0.03  # by how much a foot is more like its mirror image where it is taken to be turned
+_SECOND = 0.25  # of the largest body's area: what lies apart and is smaller is a loose part
+_APART = 4.0  # mm between two bodies
+_MOST_PARTS = 3000  # loose parts that are looked at one by one
 
 Array = NDArray[np.float64]
 
@@ -114,34 +132,130 @@ def levelled(triangles: Array) -> tuple[Array, float]:
     return np.asarray(triangles @ turn.T), math.degrees(tilt)
 
 
-def forward_axis(triangles: Array) -> tuple[Axis, str]:
-    """Which horizontal axis points to the toes: x, or y where the foot is longer along y.
+def check_one_body(triangles: Array, where: str) -> None:
+    """Refuse a surface that shows two feet.
 
-    Along y the ankle tells the direction: it is nearer to the heel. It is the mesh's origin where that lies within the
-    foot, otherwise the middle of the foot's uppermost part.
+    Args:
+        triangles: Triangles in mm with z up.
+        where: Name of the file, for the message.
+
+    Raises:
+        FootError: If seen from above it falls into two bodies of about a size.
+    """
+    import shapely
+
+    with optional_library("scipy", "shoes"):
+        from scipy.sparse import coo_array
+        from scipy.sparse.csgraph import connected_components
+
+    _, index = np.unique(triangles.reshape(-1, 3).round(3), axis=0, return_inverse=True)
+    a, b, c = index.reshape(-1, 3).T
+    links = coo_array((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, c]))))
+    size = int(index.max()) + 1
+    links.resize(size, size)
+    count, label = connected_components(links, directed=False)
+    if not 2 <= count <= _MOST_PARTS:
+        return
+    flat = triangles.reshape(-1, 3)[:, :2]
+    order = np.argsort(label[index], kind="stable")
+    ends = np.cumsum(np.bincount(label[index], minlength=count))[:-1]
+    hulls = shapely.convex_hull([shapely.multipoints(flat[part]) for part in np.split(order, ends)])
+    bodies = shapely.union_all(shapely.buffer(hulls, 0.5 * _APART))
+    areas = sorted((g.area for g in getattr(bodies, "geoms", [bodies])), reverse=True)
+    if len(areas) > 1 and areas[1] > _SECOND * areas[0]:
+        raise FootError(
+            f"{where}: holds {sum(v > _SECOND * areas[0] for v in areas)} bodies apart from each other, "
+            "two feet maybe; give a file of one foot"
+        )
+
+
+def straightened(triangles: Array) -> tuple[Array, list[str]]:
+    """A foot turned so that its length lies along x or y.
+
+    The outline's long axis tells about where it points, its symmetry exactly: the direction within 25 degrees of the
+    long axis about which the outline is most like its mirror image. A foot that points along an axis of the mesh, or is
+    about as much like its mirror image there, stays.
 
     Args:
         triangles: Triangles with z up.
 
     Returns:
+        The triangles, and a note where they were turned.
+    """
+    import shapely
+
+    hull = shapely.MultiPoint(np.unique(triangles.reshape(-1, 3)[:, :2].round(2), axis=0)).convex_hull
+    if hull.geom_type != "Polygon":
+        return triangles, []
+    hull = hull.simplify(0.3)
+    box = shapely.get_coordinates(shapely.minimum_rotated_rectangle(hull).exterior)
+    sides = np.diff(box, axis=0)[:2]
+    lengths = np.hypot(*sides.T)
+    if lengths.max() < _LONGER * lengths.min():
+        return triangles, []
+    along = sides[int(lengths.argmax())]
+    start = math.degrees(math.atan2(along[1], along[0]))
+    angles = start + np.arange(-25.0, 25.5, 0.5)
+    alike = [_likeness(hull, v) for v in angles]
+    best = float(angles[int(np.argmax(alike))])
+    off = (best + 45.0) % 90.0 - 45.0
+    if abs(off) < _TURN_LEAST or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
+        return triangles, []
+    c, s = math.cos(math.radians(-off)), math.sin(math.radians(-off))
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    note = f"the foot points {off:.1f} degrees past an axis of the mesh, by its symmetry: turned back by that"
+    return np.asarray(triangles @ turn.T), [note]
+
+
+def _likeness(outline: Any, degrees: float) -> float:
+    """Share of an outline, 0..1, that is covered by its mirror image about a line through its middle."""
+    import shapely
+
+    level = shapely.affinity.rotate(outline, -degrees, origin="centroid")
+    image = shapely.affinity.scale(level, 1.0, -1.0, origin="centroid")
+    return float(level.intersection(image).area / level.union(image).area)
+
+
+def forward_axis(triangles: Array, where: str = "the mesh") -> tuple[Axis, str]:
+    """Which horizontal axis points to the toes: that along which the foot is longer, away from the ankle.
+
+    The ankle is nearer to the heel. It is the mesh's origin where that lies within the foot, and the middle of a block
+    on top of it. A foot whose ankle is about in its middle points along x, as usual, or y.
+
+    Args:
+        triangles: Triangles with z up.
+        where: Name of the file, for the message.
+
+    Returns:
         The axis, and a note on how it was found.
+
+    Raises:
+        FootError: If origin and block tell opposite directions.
     """
     points = triangles.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
     size = high - low
-    if size[1] <= _LONGER * size[0]:
-        return "x", "x points to the toes, as usual"
+    i = 1 if size[1] > _LONGER * size[0] else 0
+    name = "xy"[i]
     middle = 0.5 * (low + high)
-    within = bool((low[:2] <= 0.0).all() and (high[:2] >= 0.0).all())
-    if within and abs(middle[1]) > 0.03 * size[1]:
-        ahead, how = middle[1], "the origin lies nearer to the heel"
-    else:
-        upper = points[points[:, 2] > high[2] - 0.15 * size[2]]
-        ahead, how = (
-            middle[1] - 0.5 * (upper[:, 1].min() + upper[:, 1].max()),
-            "its uppermost part lies nearer to the heel",
+    told: list[tuple[float, str]] = []
+    if (low[:2] <= 0.0).all() and (high[:2] >= 0.0).all():
+        told.append((float(middle[i] / size[i]), "origin"))
+    upper = points[points[:, 2] > high[2] - 0.15 * size[2], i]
+    if upper.max() - upper.min() < _BLOCK * size[i]:
+        told.append((float((middle[i] - 0.5 * (upper.max() + upper.min())) / size[i]), "uppermost part"))
+    told = [(share, what) for share, what in told if abs(share) > _CLEAR]
+    how = f"the foot is longer along {name}" if i else f"{name} points to the toes, as usual"
+    if not told:
+        return ("y", f"{how}, taken to point to the toes (or give the forward axis)") if i else ("x", how)
+    if len({share > 0.0 for share, _ in told}) > 1:
+        raise FootError(
+            f"{where}: origin and uppermost part lie near opposite ends of the foot; give the forward axis "
+            f"({', '.join(AXES[:4])})"
         )
-    if abs(ahead) <= 0.01 * size[1]:
-        return "y", "the foot is longer along y, taken to point to the toes (or give the forward axis)"
-    axis: Axis = "y" if ahead > 0.0 else "-y"
-    return axis, f"the foot is longer along y, and {how}: {axis} points to the toes"
+    axis: Axis = ("x", "y")[i] if told[0][0] > 0.0 else ("-x", "-y")[i]
+    if axis == "x":
+        return "x", how
+    what = " and ".join(what for _, what in told)
+    verb = "lie" if len(told) > 1 else "lies"
+    return axis, f"the foot is longer along {name}, and its {what} {verb} nearer to the heel: {axis} points to the toes"

@@ -25,13 +25,12 @@ _ALLOWED = {
 }
 
 
-def read_foot(source: FootSource, *, sole_band: float, patch_gap: float) -> tuple[Foot, int | None]:
+def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None]:
     """Read the foot from where it comes.
 
     Args:
         source: One source, and how its file is to be read.
         sole_band: Height of the lowest part of a mesh that is its sole, in mm.
-        patch_gap: Gap between two parts of the sole from which each gets its own patch, in mm.
 
     Returns:
         The left foot, and the number of taxels that a robot's file asks for; None where nobody does.
@@ -43,7 +42,7 @@ def read_foot(source: FootSource, *, sole_band: float, patch_gap: float) -> tupl
         RobotError: If a robot's file cannot be used.
 
     Example:
-        >>> foot, taxels = read_foot(FootSource(dimensions="240x95"), sole_band=5.0, patch_gap=60.0)
+        >>> foot, taxels = read_foot(FootSource(dimensions="240x95"), sole_band=5.0)
         >>> foot.name, taxels
         ('foot', None)
     """
@@ -59,10 +58,10 @@ def read_foot(source: FootSource, *, sole_band: float, patch_gap: float) -> tupl
         return foot_of_robot(source.robot)
     if source.dimensions is not None:
         return _box_foot(source.dimensions), None
-    return _foot_of_file(cast(Path, source.file), source, sole_band, patch_gap), None
+    return _foot_of_file(cast(Path, source.file), source, sole_band), None
 
 
-def _foot_of_file(path: Path, source: FootSource, sole_band: float, patch_gap: float) -> Foot:
+def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
     """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
     kind = path.suffix.lower()
     side = cast(Any, source.mesh_side or "left")
@@ -72,7 +71,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float, patch_gap: f
             if value is not None:
                 raise InputError(f"{option} is for meshes and models; {path} is the outline of a sole")
         return foot_from_drawing(path, mesh_side=side, **options)
-    options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band, "patch_gap": patch_gap}
+    options |= {"up": source.up, "sole_z": source.sole_z, "sole_band": sole_band}
     if kind in MODEL_FORMATS:
         found = read_foot_body(path, source.body)
         side = cast(Any, source.mesh_side or found.side or "left")

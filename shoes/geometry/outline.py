@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 
 __all__ = [
+    "CORNER",
     "GRID",
-    "apart",
     "cut_below",
+    "grown",
     "outline_below",
     "outline_of",
     "ring",
@@ -27,9 +28,10 @@ __all__ = [
 
 GRID = 1e-3
 """Grid in mm that polygon corners lie on."""
+CORNER = 1.2
+"""How much farther than its edges the corner of a grown outline may lie."""
 _SIMPLIFY = 0.05  # mm of detail that is dropped
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
-_PART_SHARE = 0.05  # of the touching area: a smaller part gets no patch
 _MANY = 20_000  # triangles, above which they are joined on a coarser grid
 _COARSE_GRID = 0.4  # mm
 _LAYERS = 30  # of a surface, seen from above
@@ -54,6 +56,19 @@ def tidy(polygon: Any) -> Any:
         raise FootError("the outline has no area")
     largest = max(parts, key=lambda p: p.area)
     return shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior).simplify(0.5 * GRID))
+
+
+def grown(shape: Any, distance: float) -> Any:
+    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled.
+
+    Args:
+        shape: Shapely polygon or multipolygon.
+        distance: How far, in mm, 0 or more; a corner moves at most CORNER times as far.
+
+    Returns:
+        The grown shape.
+    """
+    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
 
 
 def ring(polygon: Any) -> NDArray[np.float64]:
@@ -99,18 +114,18 @@ def outline_below(triangles: NDArray[np.float64], height: float) -> Any:
         FootError: If nothing with an area lies below the height.
     """
 
-    return outline_of(cut_below(triangles, height), height)[0]
+    return outline_of(cut_below(triangles, height), height)
 
 
-def outline_of(below: NDArray[np.float64], height: float) -> tuple[Any, Any]:
-    """Outline of the lowest part of a surface, and what it covers of the floor.
+def outline_of(below: NDArray[np.float64], height: float) -> Any:
+    """Outline of the lowest part of a surface.
 
     Args:
         below: Triangles (n, 3, 3) in mm: what lies below the height.
         height: The height in mm, for messages.
 
     Returns:
-        One shapely polygon in mm, see `single_outline`; and the area covered, which may be in parts and have holes.
+        One shapely polygon in mm, see `single_outline`.
 
     Raises:
         FootError: If it has no area.
@@ -123,8 +138,7 @@ def outline_of(below: NDArray[np.float64], height: float) -> tuple[Any, Any]:
     if points.geom_type != "Polygon" or points.area < 1.0:
         raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
     # Vertical walls project to lines: they count in the hull, not in the union.
-    union = _projected(below)
-    return single_outline(union, points), union
+    return single_outline(_projected(below), points)
 
 
 def touching(triangles: NDArray[np.float64], height: float) -> Any:
@@ -154,7 +168,17 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
     cells = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
     if len(flat) > _MANY:
         cells = _joined_in_tiles(cells, flat)
-    return shapely.set_precision(shapely.union_all(cells), GRID)  # which closes hairline gaps
+    return shapely.set_precision(_united(cells), GRID)  # which closes hairline gaps
+
+
+def _united(cells: Any) -> Any:
+    """Union of polygons; on the grid, which takes longer, where their crossings lie too near each other without."""
+    import shapely
+
+    try:
+        return shapely.union_all(cells)
+    except shapely.errors.GEOSException:
+        return shapely.union_all(cells, grid_size=GRID)
 
 
 def _joined_in_tiles(cells: Any, flat: NDArray[np.float64]) -> Any:
@@ -172,27 +196,10 @@ def _joined_in_tiles(cells: Any, flat: NDArray[np.float64]) -> Any:
     tiles = []
     for start in range(0, len(order), _IN_TILE):
         tile = cells[order[start : start + _IN_TILE]]
-        tiles.append(shapely.union_all(tile))
+        tiles.append(_united(tile))
         if shapely.get_num_coordinates(tiles[-1]) > len(tile):
             raise FootError("its triangles overlap without joining; give a surface")
     return tiles
-
-
-def apart(union: Any, gap: float) -> tuple[Any, ...]:
-    """Outlines of the parts of an area that are far from each other.
-
-    Args:
-        union: The area, a shapely polygon or multipolygon in mm.
-        gap: Least distance in mm between two parts.
-
-    Returns:
-        The convex hull of each part, from the heel on; empty where there is one part only.
-    """
-    grown = union.buffer(0.5 * gap)
-    groups = [g for g in getattr(grown, "geoms", [grown]) if not g.is_empty]
-    parts = [union.intersection(g).convex_hull for g in groups]
-    parts = [tidy(p) for p in parts if p.geom_type == "Polygon" and p.area > _PART_SHARE * union.area]
-    return tuple(sorted(parts, key=lambda p: p.bounds)) if len(parts) > 1 else ()
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:

@@ -68,6 +68,7 @@ class ShoeReport:
             "contact_area_mm2": round(first.plan.contact.area, 1),
             "contact_size_mm": [round(float(v), 3) for v in _extent(first)],
             "overhang_mm": round(max(s.plan.overhang for s in build.shoes), 2),
+            "blind_rim_mm": round(first.plan.blind_rim, 2),
             "taxel_overhang_mm": round(fit.overhang, 3),
             "thickness_mm": round(build.parameters.thickness, 3),
             "notes": list(build.notes or build.foot.notes),

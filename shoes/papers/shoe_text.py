@@ -20,7 +20,8 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
     lines = [f"  {note}" for note in summary["notes"]]
     lines.append(
         f"{summary['taxels']} taxels of {summary['cell_area_mm2']:g} mm^2 cover "
-        f"{100 * summary['covered_area_ratio']:.0f} % of the sole; overhang {summary['overhang_mm']:g} mm; at most "
+        f"{100 * summary['covered_area_ratio']:.0f} % of the sole, blind rim {summary['blind_rim_mm']:.0f} mm; "
+        f"overhang {summary['overhang_mm']:g} mm; at most "
         f"{summary['whole_taxels_bound']} whole ones fit there (proven)"
     )
     if "sides" in summary:

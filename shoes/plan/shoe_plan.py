@@ -7,21 +7,20 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from plantar.errors import FootError, LayoutError
 from plantar.layouts.cell_layout import layout_of_cells
 from plantar.layouts.layout import Side, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
-from shoes.fit.taxels import CORNER, TaxelFit
+from shoes.fit.taxels import TaxelFit
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import ring, single_outline, tidy
+from shoes.geometry.outline import grown, ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import moved_edges
 from shoes.plan.heel import Heel, find_heel
-from shoes.units import to_m
+from shoes.units import to_m, to_mm
 
-__all__ = ["ShoePlan", "grown", "mirrored_plan", "plan_shoe"]
+__all__ = ["ShoePlan", "mirrored_plan", "plan_shoe"]
 
 
 @dataclass(frozen=True)
@@ -63,6 +62,32 @@ class ShoePlan:
 
         return float(max(self.foot.distance(shapely.points(ring(self.contact)))))
 
+    @property
+    def blind_rim(self) -> float:
+        """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is told to be at
+        that hull."""
+        import shapely
+
+        hull = shapely.MultiPoint(to_mm(self.layout.positions[:, :2])).convex_hull
+        return float(shapely.distance(shapely.points(ring(self.contact)), hull).max())
+
+    @property
+    def fewest_taxels(self) -> tuple[int, str]:
+        """Taxels in the barest of the contact face's thirds along the foot and its bands on the left and on the right,
+        a third of the width or a taxel wide; and which of them it is."""
+        x, y = to_mm(self.layout.positions[:, :2]).T
+        low_x, low_y, high_x, high_y = self.contact.bounds
+        third, band = (high_x - low_x) / 3.0, max((high_y - low_y) / 3.0, float(self.cells[0].area) ** 0.5)
+        counts = {
+            "heel's third": int((x < low_x + third).sum()),
+            "middle third": int(((x >= low_x + third) & (x <= high_x - third)).sum()),
+            "toes' third": int((x > high_x - third).sum()),
+            "left band": int((y > high_y - band).sum()),
+            "right band": int((y < low_y + band).sum()),
+        }
+        where = min(counts, key=lambda name: counts[name])
+        return counts[where], where
+
 
 def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: str | None = None) -> ShoePlan:
     """Draw the left sole around a foot and its taxels.
@@ -100,22 +125,9 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
         )
     layout = _layout(contact, fit, name or foot.name)
     heel, note = find_heel(rim, outline, parameters)
-    connectors, route = _route(layout, fit.patches, (heel.x, heel.y))
+    connectors, route = _route(layout, (heel.x, heel.y))
     notes = () if note is None else (note,)
     return ShoePlan("left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes)
-
-
-def grown(shape: Any, distance: float) -> Any:
-    """A shape with its edges moved outwards: gentle corners stay one point, sharp ones are bevelled.
-
-    Args:
-        shape: Shapely polygon or multipolygon.
-        distance: How far, in mm, 0 or more; a corner moves at most CORNER times as far.
-
-    Returns:
-        The grown shape.
-    """
-    return shape.buffer(distance, join_style="mitre", mitre_limit=CORNER - 0.05) if distance > 0.0 else shape
 
 
 def _pocket(cell: Any, rib: float) -> Any | None:
@@ -133,14 +145,14 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
     outline = to_m(ring(contact)).round(6)
     try:
         if fit.lattice_cells is not None:
-            x, y = fit.lattices[0].origin
+            x, y = fit.lattice.origin
             return hex_layout(
                 outline,
                 name=name,
                 side="left",
                 cell_area=fit.cell_area * 1e-6,
                 origin=(to_m(x), to_m(y)),
-                angle=fit.lattices[0].angle,
+                angle=fit.lattice.angle,
                 cells=fit.lattice_cells,
             )
         layout = layout_of_cells(
@@ -151,9 +163,7 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
         raise FootError(f"the shoe's outline cannot carry a layout: {error}") from None
 
 
-def _route(
-    layout: SoleLayout, patches: NDArray[np.int64], heel: tuple[float, float]
-) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
+def _route(layout: SoleLayout, heel: tuple[float, float]) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
     """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells.
 
     The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.

@@ -8,10 +8,10 @@ import numpy as np
 
 from plantar.layouts.layout import Side
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import ring, tidy
+from shoes.geometry.outline import grown, ring, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
-from shoes.plan.shoe_plan import ShoePlan, grown
+from shoes.plan.shoe_plan import ShoePlan
 from shoes.plan.wiring import pocket_outlines, wiring_steps
 from shoes.solid.lettering import lettering
 from shoes.solid.retention import Retention, retention_steps
@@ -76,15 +76,14 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
         Lower and upper height above the face that the foot stands on, and the outline, from below.
     """
     p = parameters
+    outlines = [plan.cavity]
+    for share in LEVELS[-2::-1]:  # each within the one above it: nothing of the wall hangs over
+        outline = tidy(grown(foot.passing(share * p.rim_height), p.clearance))
+        outlines.append(tidy(outline.intersection(outlines[-1])))
     out: list[tuple[float, float, Any]] = []
     low = 0.0
-    for share in LEVELS:
+    for share, outline in zip(LEVELS, outlines[::-1], strict=True):
         high = share * p.rim_height
-        if share == 1.0:
-            outline = plan.cavity
-        else:
-            outline = tidy(grown(foot.passing(high), p.clearance))
-            outline = tidy(outline.intersection(plan.cavity))
         if out and outline.hausdorff_distance(out[-1][2]) < _STEP:
             # About the same as below: one level with the larger of the two.
             start = out.pop()[0]
@@ -103,12 +102,15 @@ def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
 
 
 def _fillet(plan: ShoePlan, p: ShoeParameters) -> list[Block]:
-    """The fillet where the plate reaches out beyond the wall: a quarter of a circle in three facets."""
-    radius = min(p.fillet, 0.5 * p.rim_height)
+    """The fillet where the plate reaches out beyond the wall: a quarter of a circle in three facets; smaller where a
+    bend of the wall has no room for it, as a facet without that below it would hang over."""
     angles = np.radians([0.0, 30.0, 60.0, 90.0])
-    out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
-    facets = [tapered(plan.rim, out[i], out[i + 1], up[i], up[i + 1]) for i in range(3)] if radius > 0.0 else []
-    return [f for f in facets if f is not None]
+    for radius in min(p.fillet, 0.5 * p.rim_height) * np.array([1.0, 0.5, 0.25]):
+        out, up = radius * (1.0 - np.sin(angles)), p.thickness + radius * (1.0 - np.cos(angles))
+        facets = [tapered(plan.rim, out[i], out[i + 1], up[i], up[i + 1]) for i in range(3)] if radius > 0.0 else []
+        if all(f is not None for f in facets):
+            return [f for f in facets if f is not None]
+    return []
 
 
 def _scribe(cell: Any, p: ShoeParameters) -> Block | Groove:

@@ -10,10 +10,10 @@ import numpy as np
 
 from plantar.errors import FootError
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import tidy
+from shoes.geometry.outline import grown, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step, box_block
-from shoes.plan.shoe_plan import ShoePlan, grown
+from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = ["Retention", "choose_retention", "retention_steps"]
 
@@ -281,8 +281,9 @@ def _arms(foot: Foot, plan: ShoePlan, retention: Retention, p: ShoeParameters) -
             return shapely.box(x - half, min(start, end), x + half, max(start, end))
 
         root = plate(inner - side * _ROOT, outer)  # to the plate, where the foot is wider above than below
-        arms.append(Block(root, p.bottom + p.scribe + p.pocket_depth, p.thickness - p.mark_depth))
-        arms.append(Block(plate(inner, outer), p.bottom, top))
+        low = p.ceiling + p.scribe  # above the pockets, which reach below the wall
+        arms.append(Block(root, low, p.thickness - p.mark_depth))
+        arms.append(Block(plate(inner, outer), low, top))
         reach = p.clip_hook + p.clearance
         # The foot's edge touches the 45 degree face where it has come in by the clearance.
         low = p.thickness + place.edge + _PLAY - p.clearance

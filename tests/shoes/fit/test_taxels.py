@@ -52,15 +52,9 @@ def test_too_many_are_refused() -> None:
         fit_taxels(SOLE, taxels=90, border=2.0, overhang_max=10.0)
 
 
-def test_parts_get_a_lattice_each() -> None:
-    parts = (shapely.box(-130, -45, -50, 45), shapely.box(40, -50, 140, 50))
-    sole = shapely.union_all(parts).convex_hull
-    fit = fit_taxels(sole, parts=parts, border=2.0, overhang_max=10.0)
-    assert len(fit.lattices) == 2
-    for patch, part in enumerate(parts):
-        own = [shapely.Polygon(c) for c, n in zip(fit.cells, fit.patches, strict=True) if n == patch]
-        assert own
-        assert all(part.buffer(0.01).covers(c) for c in own)
-    assert "2 patches" in fit.notes[0]
-    small = (parts[0], shapely.box(100, -10, 120, 10))  # no cell fits the second
-    assert len(fit_taxels(sole, parts=small).lattices) == 1
+def test_taxels_lie_wherever_the_plate_meets_the_ground() -> None:
+    face = shapely.box(-110, -50, 110, 50)
+    wide = fit_taxels(face, overhang=1.5)
+    assert all(face.buffer(1.51, join_style="mitre").covers(shapely.Polygon(c)) for c in wide.cells)
+    assert wide.whole >= fit_taxels(face).whole
+    assert wide.overhang == 1.5

@@ -120,11 +120,11 @@ def test_a_foot_along_y_is_turned_by_its_ankle(box: Shape, stl: Writer) -> None:
     for ends, axis in (((-50, 150), "y"), ((-150, 50), "-y")):
         foot = foot_from_mesh(stl(box((-40, 40), ends, (0, 60))))
         assert foot.sole.equals(shapely.box(-50, -40, 150, 40))
-        assert any(f"the origin lies nearer to the heel: {axis} points to the toes" in n for n in foot.notes)
+        assert any(f"its origin lies nearer to the heel: {axis} points to the toes" in n for n in foot.notes)
     ankle = np.concatenate([box((400, 480), (500, 700), (0, 30)), box((420, 460), (640, 690), (30, 90))])
     foot = foot_from_mesh(stl(ankle))  # the origin is far away: the ankle above tells
     assert foot.sole.bounds == pytest.approx((-100, -40, 100, 40))
-    assert any("uppermost part lies nearer to the heel: -y" in n for n in foot.notes)
+    assert any("its uppermost part lies nearer to the heel: -y" in n for n in foot.notes)
 
 
 @pytest.mark.parametrize(("up", "axes"), [("y", (0, 2, 1)), ("-x", (2, 1, 0)), ("-z", (0, 1, 2))])
@@ -157,13 +157,9 @@ def test_a_tilted_sole_is_levelled(box: Shape, stl: Writer) -> None:
     assert np.ptp(foot.triangles[..., 2]) == pytest.approx(90.0, abs=0.01)
 
 
-def test_what_touches_the_floor_and_parts_far_apart_are_told(generated_feet: dict[str, NDArray[np.float64]]) -> None:
+def test_what_touches_the_floor_is_told(generated_feet: dict[str, NDArray[np.float64]]) -> None:
     from shoes.foot.foot_mesh import foot_from_triangles
 
     far = foot_from_triangles("a", generated_feet["far_patches"], where="a")
-    assert [p.bounds for p in far.parts] == [(-130, -45, -50, 45), (40, -50, 140, 50)]
     assert far.support is not None
     assert far.support.area == pytest.approx(80 * 90 + 100 * 100)
-    near = foot_from_triangles("a", generated_feet["two_patch"], where="a")
-    assert near.parts == ()
-    assert foot_from_triangles("a", generated_feet["two_patch"], where="a", patch_gap=40.0).parts

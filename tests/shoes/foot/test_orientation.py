@@ -9,7 +9,17 @@ import pytest
 import trimesh
 from numpy.typing import NDArray
 
-from shoes.foot.orientation import AXES, flat_share, forward_axis, levelled, rotation_forward, rotation_up
+from plantar.errors import FootError
+from shoes.foot.orientation import (
+    AXES,
+    check_one_body,
+    flat_share,
+    forward_axis,
+    levelled,
+    rotation_forward,
+    rotation_up,
+    straightened,
+)
 
 Shape = Callable[..., NDArray[np.float64]]
 
@@ -58,3 +68,36 @@ def test_toes_are_along_x_or_where_the_foot_is_longer(box: Shape) -> None:
     assert forward_axis(box((-45, 45), (-150, 50), (0, 40)))[0] == "-y"
     assert forward_axis(box((-45, 45), (-100, 100), (0, 40)))[0] == "y"  # nothing tells: said so
     assert "or give the forward axis" in forward_axis(box((-45, 45), (-100, 100), (0, 40)))[1]
+
+
+def test_a_foot_that_points_backwards_is_seen_by_its_ankle(box: Shape) -> None:
+    backwards = box((-150, 50), (-40, 40), (0, 40))
+    assert forward_axis(backwards)[0] == "-x"
+    column = box((60, 90), (-20, 20), (40, 90))  # over the toes, by the origin
+    centred = np.concatenate([box((-100, 100), (-40, 40), (0, 40)), column])
+    assert forward_axis(centred)[0] == "-x"
+    with pytest.raises(FootError, match="near opposite ends of the foot; give the forward axis"):
+        forward_axis(np.concatenate([backwards, box((-130, -90), (-20, 20), (40, 90))]))
+
+
+@pytest.mark.parametrize("yaw", [30.0, -40.0, 100.0, 3.0])
+def test_a_turned_foot_is_straightened_by_its_symmetry(prism: Shape, yaw: float) -> None:
+    outline = np.array([[-80, -32], [60, -46], [130, -25], [140, 0], [130, 25], [60, 46], [-80, 32]], dtype=float)
+    foot = prism(outline, 0, 40)
+    turn = trimesh.transformations.rotation_matrix(np.radians(yaw), [0, 0, 1])[:3, :3]
+    straight, notes = straightened(foot @ turn.T)
+    size = np.sort(np.ptp(straight.reshape(-1, 3), axis=0)[:2])
+    if abs(yaw) < 5.0:
+        assert notes == []
+        np.testing.assert_array_equal(straight, foot @ turn.T)
+    else:
+        assert size == pytest.approx([92.0, 220.0], abs=3.0)
+        assert "degrees past an axis" in notes[0]
+
+
+def test_two_feet_are_told_from_a_foot_and_a_loose_part(box: Shape) -> None:
+    foot = box((-50, 150), (-40, 40), (0, 40))
+    check_one_body(np.concatenate([foot, box((-20, 20), (-20, 20), (45, 60))]), "a.stl")
+    check_one_body(np.concatenate([foot, box((160, 170), (-20, 20), (0, 20))]), "a.stl")
+    with pytest.raises(FootError, match="holds 2 bodies apart from each other, two feet maybe"):
+        check_one_body(np.concatenate([foot, foot + np.array([0.0, 120.0, 0.0])]), "a.stl")

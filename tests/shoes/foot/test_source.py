@@ -15,7 +15,7 @@ SOURCES = {"file": Path("foot.stl"), "robot": "h1", "dimensions": "240x95"}
 
 
 def read(**source):
-    return read_foot(FootSource(**source), sole_band=5.0, patch_gap=60.0)
+    return read_foot(FootSource(**source), sole_band=5.0)
 
 
 def test_none_or_more_than_one_source_is_refused():

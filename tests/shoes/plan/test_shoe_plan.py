@@ -44,7 +44,7 @@ def test_the_layout_is_in_metres_in_the_sole_frame(plan: ShoePlan, fit: TaxelFit
     layout = plan.layout
     assert (layout.side, layout.name, len(layout)) == ("left", "small", 9)
     assert fit.lattice_cells is not None
-    centres = fit.lattices[0].centres(fit.lattice_cells)
+    centres = fit.lattice.centres(fit.lattice_cells)
     np.testing.assert_allclose(layout.positions[:, :2] * 1000, centres, atol=1e-6)
     np.testing.assert_allclose(layout.areas, 691e-6, rtol=1e-6)
     np.testing.assert_allclose(layout.outline * 1000, ring(plan.contact), atol=1e-3)
@@ -88,7 +88,6 @@ def test_patches_apart_get_a_connector_each(small_foot: Foot, fit: TaxelFit) -> 
         fit,
         cells=tuple(fit.cells[i] for i in kept),
         shares=fit.shares[kept],
-        patches=fit.patches[kept],
         lattice_cells=None,
     )
     plan = plan_shoe(small_foot, apart, ShoeParameters())

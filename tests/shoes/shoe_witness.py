@@ -1,0 +1,202 @@
+"""An independent witness of a shoe: rays and distances on the exported STL, the foot's own mesh and the layout file.
+
+Nothing here is built on the code that makes the shoe: rays meet triangles by Moeller and Trumbore's test, the figures
+come from `check.json`'s parameters and the layout file, as a buyer of the shoe has them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+__all__ = ["Witness"]
+
+Array = NDArray[np.float64]
+
+
+def hits(triangles: Array, start: Array, direction: Array) -> Array:
+    """Sorted distances along a ray at which it meets triangles (n, 3, 3)."""
+    a, u, v = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    across = np.cross(direction, v)
+    volume = np.einsum("ij,ij->i", u, across)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        offset = start - a
+        p = np.einsum("ij,ij->i", offset, across) / volume
+        other = np.cross(offset, u)
+        q = other @ direction / volume
+        way = np.einsum("ij,ij->i", v, other) / volume
+        met = (np.abs(volume) > 1e-12) & (p >= 0.0) & (q >= 0.0) & (p + q <= 1.0) & (way > 1e-9)
+    return np.asarray(np.unique(way[met].round(5)))
+
+
+def _even(segments: Array, x: float, ys: Array) -> NDArray[np.bool_]:
+    """Whether each point (x, y) lies outside of what segments (n, 2, 2) enclose: an even number of them is above it."""
+    (ax, ay), (bx, by) = segments[:, 0].T, segments[:, 1].T
+    across = (ax > x) != (bx > x)
+    at = ay[across] + (x - ax[across]) / (bx[across] - ax[across]) * (by[across] - ay[across])
+    return np.asarray((at[None] > ys[:, None]).sum(axis=1) % 2 == 0)
+
+
+@dataclass
+class Witness:
+    """The files of a left shoe in a folder, and the foot in its sole frame.
+
+    Attributes:
+        folder: Where `plantar shoe` wrote.
+        foot: Triangles (n, 3, 3) of the foot in mm, its sole at z = 0.
+    """
+
+    folder: Path
+    foot: Array
+
+    def __post_init__(self) -> None:
+        self.mesh: Any = trimesh.load(self.folder / "shoe_left.stl", force="mesh")
+        self.pad: Any = trimesh.load(self.folder / "pad_left.stl", force="mesh")
+        self.triangles = np.asarray(self.mesh.triangles)
+        self.layout = json.loads((self.folder / "layout_left.json").read_text())
+        self.p = json.loads((self.folder / "check.json").read_text())["parameters"]
+        self.bottom = self.p["pad_thickness"] + self.p["taxel_protrusion"]
+        self.ceiling = self.bottom + self.p["pocket_depth"]
+        self.floor = self.ceiling + self.p["floor"]
+        self.centres = 1000.0 * np.array([t["position"] for t in self.layout["taxels"]])[:, :2]
+        self.chance = np.random.default_rng(1)
+
+    def problems(self) -> list[str]:
+        """What a buyer would complain about; empty for a good shoe."""
+        return [
+            f"{name}: {text}"
+            for name, text in (
+                ("solid", self._solid()),
+                ("pockets", self._pockets()),
+                ("floor", self._floor()),
+                ("place", self._place()),
+                ("way on", self._way_on()),
+                ("cable", self._cable()),
+                ("wall", self._wall()),
+                ("pad", self._pad()),
+            )
+            if text
+        ]
+
+    def _solid(self) -> str:
+        good = self.mesh.is_watertight and self.mesh.is_winding_consistent and self.mesh.body_count == 1
+        return "" if good else "not one closed body"
+
+    def _pockets(self) -> str:
+        """From below each taxel's middle the print begins at the pocket's ceiling."""
+        up = np.array([0.0, 0.0, 1.0])
+        heights = [hits(self.triangles, np.array([x, y, -1.0]), up)[:1] - 1.0 for x, y in self.centres + 0.0137]
+        low = [round(float(h[0]), 3) if len(h) else -1.0 for h in heights]
+        bad = [v for v in low if abs(v - self.ceiling) > 0.01 and v < self.ceiling]
+        return f"ceilings at {bad[:4]}, not {self.ceiling}" if bad else ""
+
+    def _floor(self) -> str:
+        """Below what the foot stands on there is plate up to the floor."""
+        lowest = self.foot.reshape(-1, 3)[self.foot.reshape(-1, 3)[:, 2] < 0.3, :2]
+        picked = lowest[self.chance.choice(len(lowest), min(40, len(lowest)), replace=False)]
+        inside = picked + 0.05 * (picked.mean(axis=0) - picked)
+        down, missing = np.array([0.0, 0.0, -1.0]), 0
+        for x, y in inside:
+            met = hits(self.triangles, np.array([x + 1.1e-3, y, self.floor + 3.0]), down)
+            depth = met[0] - 3.0 if len(met) else 99.0
+            missing += not -0.01 < depth <= self.p["mark_depth"] + 0.01
+        return f"{missing} of {len(inside)} places have no floor" if missing > 0.1 * len(inside) else ""
+
+    def _samples(self, top: float) -> Array:
+        """Points (k, 3) on the foot below a height."""
+        areas = np.linalg.norm(np.cross(self.foot[:, 1] - self.foot[:, 0], self.foot[:, 2] - self.foot[:, 0]), axis=1)
+        pick = self.foot[self.chance.choice(len(self.foot), 1500, p=areas / areas.sum())]
+        w = np.sort(self.chance.random((len(pick), 2)), axis=1)
+        points = w[:, :1] * pick[:, 0] + (w[:, 1:] - w[:, :1]) * pick[:, 1] + (1.0 - w[:, 1:]) * pick[:, 2]
+        return np.asarray(points[(points[:, 2] > 0.05) & (points[:, 2] < top)])
+
+    def _inside(self, points: Array) -> int:
+        """How many points lie within the print: rays upwards leave it an odd number of times."""
+        up = np.array([1e-4, 2e-4, 1.0])
+        return sum(len(hits(self.triangles, p, up)) % 2 for p in points)
+
+    def _place(self) -> str:
+        points = self._samples(self.p["rim_height"])[:120] + np.array([0.0, 0.0, self.floor])
+        count = self._inside(points)
+        return f"{count} points of the foot lie within the print" if count else ""
+
+    def _way_on(self) -> str:
+        """The foot comes from above: over each point of it below the wall's edge the wall leaves the way free."""
+        up, blocked = np.array([0.0, 0.0, 1.0]), 0
+        points = self._samples(self.p["rim_height"])[:120] + np.array([0.0, 0.0, self.floor])
+        for point in points:
+            met = hits(self.triangles, point, up)
+            blocked += bool(len(met) and met[0] < self.floor + self.p["rim_height"] - point[2] - 0.05)
+        return f"the way of {blocked} points of the foot is blocked" if blocked > 0.02 * len(points) else ""
+
+    def _cable(self) -> str:
+        """Just below the ceilings a way leads from each pocket to the shoe's outside, through ports and channel."""
+        z = 0.5 * (self.bottom + self.p["scribe"] + self.ceiling)
+        cut = trimesh.intersections.mesh_plane(self.mesh, [0, 0, 1], [0, 0, z])[..., :2]
+        step = 0.8
+        low, high = self.mesh.bounds[0, :2] - 4.0, self.mesh.bounds[1, :2] + 4.0
+        xs, ys = np.arange(low[0], high[0], step), np.arange(low[1], high[1], step)
+        free = np.stack([_even(cut, x, ys) for x in xs + 1.7e-4])
+        seen = np.zeros_like(free)
+        queue = deque([(0, 0)])
+        seen[0, 0] = True
+        while queue:
+            i, j = queue.popleft()
+            for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+                a, b = i + di, j + dj
+                if 0 <= a < len(xs) and 0 <= b < len(ys) and free[a, b] and not seen[a, b]:
+                    seen[a, b] = True
+                    queue.append((a, b))
+        # the channel ends in the board's hole, which is open above and below
+        hole = self._seen_from_hole(seen, free, xs, ys)
+        at = ((self.centres - low) / step).round().astype(int)
+        shut = [int(k) for k, (i, j) in enumerate(at) if not (seen[i, j] or hole[i, j])]
+        return f"no way out of the pockets {shut[:5]}" if shut else ""
+
+    def _seen_from_hole(self, seen: Any, free: Any, xs: Array, ys: Array) -> Any:
+        """What is connected with a place that is open upwards, past the wall, as the board's hole is."""
+        up, out = np.array([0.0, 0.0, 1.0]), np.zeros_like(free)
+        z = 0.5 * (self.bottom + self.p["scribe"] + self.ceiling)
+        queue: deque[tuple[int, int]] = deque()
+        for i, j in np.argwhere(free & ~seen)[::7]:
+            if not len(hits(self.triangles, np.array([xs[i] + 1e-3, ys[j] + 1e-3, z]), up)):
+                out[i, j] = True
+                queue.append((i, j))
+        while queue:
+            i, j = queue.popleft()
+            for a, b in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
+                if 0 <= a < len(xs) and 0 <= b < len(ys) and free[a, b] and not out[a, b]:
+                    out[a, b] = True
+                    queue.append((a, b))
+        return out
+
+    def _wall(self) -> str:
+        """Rays into the print, against the faces' normals, leave it again no sooner than the thinnest wall."""
+        flat = np.flatnonzero(self.mesh.area_faces > 8.0)
+        pick = self.chance.choice(flat, min(250, len(flat)), replace=False)
+        thin = []
+        for face in pick:
+            normal = self.mesh.face_normals[face]
+            start = self.mesh.triangles_center[face] - 1e-4 * normal
+            met = hits(self.triangles, start, -normal)
+            if len(met) and met[0] < self.p["wall_min"] - 0.02 and abs(normal[2]) > 0.99:
+                thin.append(round(float(met[0]), 3))
+        return f"thin places: {thin[:4]}" if thin else ""
+
+    def _pad(self) -> str:
+        """Under the taxels the pad ends at their heads; beside them it stays below the print by the relief."""
+        up, bad = np.array([0.0, 0.0, 1.0]), 0
+        for x, y in self.centres:
+            met = hits(np.asarray(self.pad.triangles), np.array([x + 2e-3, y + 1e-3, -1.0]), up)
+            bad += len(met) < 2 or abs(met[-1] - 1.0 - self.p["pad_thickness"]) > 0.01
+        top = float(self.pad.bounds[1, 2])
+        if top > self.bottom - min(self.p["pad_relief"], self.p["taxel_protrusion"]) + 0.01:
+            return f"its rim reaches {top} mm, the print begins at {self.bottom}"
+        return f"{bad} taxels have no sheet below them" if bad else ""

@@ -1,0 +1,87 @@
+"""Twelve difficult feet in small rotations: no traceback, and no shoe that is told to be good and is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from plantar.errors import FootError
+from shoes import ShoeParameters, ShoeReport, build_shoe, export_shoe
+from shoes.foot.foot import Foot
+from shoes.foot.foot_mesh import foot_from_triangles
+
+from .foot_family import FAMILY, REFUSED, TURNS, prism, small_turns, turned
+from .shoe_witness import Witness, hits
+
+TOO_LARGE = ("large",)  # for the default printer
+
+
+def foot_of(name: str, turn: int) -> Foot:
+    return foot_from_triangles(name, turned(FAMILY[name](), *small_turns(name)[turn]), where=name)
+
+
+def stands_right(name: str, foot: Foot) -> None:
+    """Toes forward, ankle nearer to the heel, and about as long as it was made."""
+    low_x, low_y, high_x, high_y = foot.sole.bounds
+    assert high_x - low_x > 1.2 * (high_y - low_y)
+    assert high_x + low_x > 0.0
+    extent = np.ptp(FAMILY["toe_out" if name in ("backwards", "tilted") else name]().reshape(-1, 3), axis=0)
+    if name != "turned_30":
+        assert foot.passing(12.0).bounds[2] - low_x <= 1.05 * extent[0] + 6.0
+
+
+@pytest.mark.parametrize("name", sorted(set(FAMILY) - {"fine"}))
+def test_each_foot_of_the_family_stands_right_or_is_refused(name: str) -> None:
+    turn = 1 + sum(map(ord, name)) % (TURNS - 1)
+    if name in REFUSED:
+        with pytest.raises(FootError, match="holds 2 bodies"):
+            foot_of(name, turn)
+        return
+    stands_right(name, foot_of(name, turn))
+
+
+def test_the_witness_agrees_with_a_good_shoe_and_sees_bad_ones(
+    small_foot: Foot, exported: tuple[ShoeReport, Path]
+) -> None:
+    report, folder = exported
+    assert report.holds
+    foot = prism(np.array(small_foot.sole.exterior.coords)[:-1], 0.0, 40.0)
+    witness = Witness(folder, foot)
+    assert witness.problems() == []
+    wide = Witness(folder, foot * np.array([1.1, 1.0, 1.0])).problems()
+    assert any("within the print" in text for text in wide)
+    witness.ceiling += 1.0
+    assert any("ceilings" in text for text in witness.problems())
+
+
+def test_rays_meet_a_box_where_its_faces_are() -> None:
+    box = np.asarray(trimesh.creation.box((2.0, 2.0, 2.0)).triangles)
+    np.testing.assert_allclose(hits(box, np.array([0.1, 0.2, -5.0]), np.array([0.0, 0.0, 1.0])), [4.0, 6.0])
+    assert len(hits(box, np.array([3.0, 0.0, -5.0]), np.array([0.0, 0.0, 1.0]))) == 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", sorted(set(FAMILY) - REFUSED))
+def test_the_family_in_small_rotations_is_planned(name: str) -> None:
+    for turn in range(TURNS):
+        foot = foot_of(name, turn)
+        stands_right(name, foot)
+        build = build_shoe(foot, layout_only=True)
+        assert build.load_share.flat >= 0.95
+        assert build.load_share.half >= 0.80
+        assert build.shoes[0].plan.fewest_taxels[0] > 0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("turn", [0, 7, 23])
+@pytest.mark.parametrize("name", sorted(set(FAMILY) - REFUSED))
+def test_the_family_gives_shoes_that_hold(name: str, turn: int, tmp_path: Path) -> None:
+    foot = foot_of(name, turn)
+    bed = {"bed_length": 500.0} if name in TOO_LARGE else {}
+    report = export_shoe(build_shoe(foot, side="left", parameters=ShoeParameters(**bed)), tmp_path)
+    assert foot.triangles is not None
+    assert report.holds, [c for c in report.checks["left"].checks if not c.holds]
+    assert Witness(tmp_path, foot.triangles).problems() == []
