@@ -14,8 +14,8 @@ exhaustively on a grid and refined; so is where between the feet the ZMP is in a
 unknowns. Nothing that a controller could do within the limits is left out, so the search's only error is that of the
 grid, which makes the limit too small by less than the step of the grid matters.
 
-How far feet swing is bounded by polygons of 16 edges around a circle, at most 2 % too far. Angular momentum is none:
-hips and arms are not swung.
+How far feet swing is bounded by polygons of 16 edges around a circle, at most 2 % too far. Feet take turns, as planned;
+angular momentum is none: hips and arms are not swung.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ class CaptureLimits:
     steps: int = 2
     times: int = 8
     shares: int = 3
-    _normals: tuple[NDArray[np.float64], ...] = field(default=(), repr=False)
+    _normals: tuple[NDArray[np.float64], ...] = field(default=(), init=False, repr=False)
 
     def __post_init__(self) -> None:
         for name in ("sole", "region"):

@@ -136,6 +136,7 @@ def test_without_double_support_the_weight_goes_over_at_once() -> None:
 
 
 @given(place, place, place, push, rate, duration, st.floats(0.05, 0.95))
+@settings(max_examples=40)
 def test_derivatives_are_those_of_finite_differences(dcm, target, end, offset, omega, time, part) -> None:
     h = np.array([1e-4, 0.0])
     single = single_support_vrp(dcm, target, time, offset, omega)
