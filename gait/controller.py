@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.balance.ankle_strategy import AnkleRules
 from gait.balance.balance_laws import balance_law
 from gait.balance.dcm_balance import BalanceGains
 from gait.balance.law import Feet, FootAction, FootState
@@ -121,6 +122,7 @@ class ControllerSettings(Settings):
         step_adjustment: When a footstep moves for balance, in place of `step_timing`; None keeps the footsteps.
         step_region: Where a footstep may move to.
         step_weights: What a change of a footstep is weighed by in K 31.
+        ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
         push: When the soles and the IMU tell of a push on the body; None expects none.
         push_expected: How a push is expected to go on.
         feedback: False walks the plan in open loop, for comparison.
@@ -159,6 +161,7 @@ class ControllerSettings(Settings):
     step_adjustment: StepAdjustmentRules | None = None
     step_region: StepRegionRules = field(default_factory=StepRegionRules)
     step_weights: StepWeights = field(default_factory=StepWeights)
+    ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
     push: PushRules | None = None
     push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)
     feedback: bool = switch(True)
@@ -318,7 +321,9 @@ class WalkingController:
             on_ground.append(EdgeBeside(self.layouts, drop, rules.largest_shift))
         s = self.settings
         if s.step_adjustment is not None:
-            on_ground.append(StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.period))
+            on_ground.append(
+                StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.ankle_strategy, s.period)
+            )
         elif s.step_timing is not None:
             on_ground.append(StepTiming(s.step_timing, s.period))
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)

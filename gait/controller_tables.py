@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from gait.balance.ankle_strategy import AnkleRules
 from gait.balance.dcm_balance import BalanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
 from gait.contact.ground_map import GroundMapSettings
@@ -40,6 +41,7 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "step_adjustment": (StepAdjustmentRules,),
     "step_region": (StepRegionRules,),
     "step_weights": (StepWeights,),
+    "ankle_strategy": (AnkleRules,),
     "push_estimate": (PushRules,),
     "push_expected": (WrenchFilterRules,),
     "compliance": (ComplianceGains,),

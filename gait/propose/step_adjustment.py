@@ -25,6 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.balance.ankle_strategy import AnkleRules, shrunk_support
 from gait.plan.footsteps import Footstep
 from gait.plan.plan_change import PlanChange
 from gait.propose.proposer import Pendulum, Priority, Tick
@@ -98,17 +99,24 @@ class StepAdjustment:
         rules: When, and how far.
         region: Where a foot may land beside the other one.
         weights: Weights of "ssp_opt".
+        ankle: Which part of the support polygon a changed footstep is planned with.
         period: Control period in s, the unit of a change of time.
     """
 
     priority = Priority.TIMING
 
     def __init__(
-        self, rules: StepAdjustmentRules, region: StepRegionRules, weights: StepWeights, period: float
+        self,
+        rules: StepAdjustmentRules,
+        region: StepRegionRules,
+        weights: StepWeights,
+        ankle: AnkleRules,
+        period: float,
     ) -> None:
         self._rules = rules
         self._box = region
         self._weights = weights
+        self._ankle = ankle
         self._period = period
         self._changed = -math.inf
         self._adjusted = -1
@@ -136,8 +144,20 @@ class StepAdjustment:
         if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
             return None
         region = self._region(tick, swing)
+        pendulum = pendulum._replace(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
         return self._change(tick, find(tick, pendulum, foot, left, region), left)
+
+    def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27).
+
+        A step that needs all of it leaves nothing for what no pendulum foresees, and ends on the new foot's outer edge.
+        """
+        c, (forward, sideways) = self._rules.confidence, (self._ankle.forward, self._ankle.sideways)
+        used = replace(self._ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
+        swing = tick.phase.swing
+        assert swing is not None
+        return shrunk_support(support, used, support.mean(axis=0), tick.place(other_side(swing)).yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
         """Where the swing foot is commanded and how fast."""

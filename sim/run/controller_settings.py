@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.balance.ankle_strategy import AnkleRules
 from gait.balance.balance_laws import balance_gains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
@@ -115,6 +116,7 @@ def controller_settings(
         step_adjustment=made(StepAdjustmentRules, "step_adjustment") if adjusts else None,
         step_region=made(StepRegionRules, "step_region"),
         step_weights=made(StepWeights, "step_weights"),
+        ankle_strategy=made(AnkleRules, "ankle_strategy"),
         push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
         push_expected=made(WrenchFilterRules, "push_expected"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
@@ -176,7 +178,7 @@ def _refuse_unused(scene: Scene) -> None:
         "identification": (control.identify, "control.identify = true"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
         **dict.fromkeys(
-            ("step_adjustment", "step_region", "step_weights"),
+            ("step_adjustment", "step_region", "step_weights", "ankle_strategy"),
             (control.step_adjustment, "control.step_adjustment = true"),
         ),
         **dict.fromkeys(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapely
 
+from gait.balance.ankle_strategy import AnkleRules
 from gait.plan.plan_change import PlanChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.proposer import Pendulum, Tick
@@ -18,6 +19,7 @@ PERIOD = 0.005
 RULES = StepAdjustmentRules()
 REGION = StepRegionRules()
 SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+WHOLE = AnkleRules(forward=1.0, sideways=1.0)
 ROOM = 0.03 * SQUARE  # m about the stance's VRP
 NOW = 3.4 + 0.45  # s: half-way through the second single support of the plan
 METHODS = ["search", "ssp_opt"]
@@ -47,7 +49,7 @@ def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Ca
 
 
 def adjustment(**rules: Any) -> StepAdjustment:
-    return StepAdjustment(replace(RULES, **rules), REGION, StepWeights(), PERIOD)
+    return StepAdjustment(replace(RULES, **rules), REGION, StepWeights(), WHOLE, PERIOD)
 
 
 def proposed(tick: Tick, **rules: Any) -> PlanChange | None:
@@ -118,7 +120,7 @@ def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> N
     rng = np.random.default_rng(seed)
     _, tick = pushed(rng.normal(0.0, 0.06, 2))
     rules = replace(RULES, acceleration=100.0)  # the foot gets everywhere
-    change = StepAdjustment(rules, REGION, StepWeights(), PERIOD).propose(tick)
+    change = StepAdjustment(rules, REGION, StepWeights(), WHOLE, PERIOD).propose(tick)
     left, usual, begun = tick.phase.end - NOW, 0.9, NOW - tick.phase.start
     slope = (1.0 - math.exp(-3.5 * 0.3)) / (3.5 * 0.3)  # the plan's double support lasts 0.3 s
     price = 0.1 * rules.price_place
@@ -203,3 +205,18 @@ def test_it_rests_between_two_changes_and_needs_feedback(pushed: Any) -> None:
     assert steps.propose(tick) is not None
     assert steps.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
     assert steps.propose(tick._replace(time=NOW + 1.01 * RULES.pause)) is not None
+
+
+def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of_it(pushed: Any) -> None:
+    _, tick = pushed((0.045, 0.0))
+
+    def moved(forward: float, confidence: float) -> float:
+        # At its planned time, and wherever it gets to: nothing else is left to choose.
+        rules = replace(RULES, confidence=confidence, price_place=0.0, acceleration=100.0, shortest=0.0, longest=0.0)
+        anywhere, part = replace(REGION, forward=1.0), AnkleRules(forward=forward, sideways=1.0)
+        steps = StepAdjustment(rules, anywhere, StepWeights(), part, PERIOD)
+        change = steps.propose(tick)
+        return 0.0 if change is None else math.hypot(*change.shift)
+
+    assert moved(0.5, 0.0) > moved(1.0, 0.0) + 0.005
+    assert moved(0.5, 1.0) == pytest.approx(moved(1.0, 0.0), abs=1e-9)
