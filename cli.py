@@ -105,7 +105,11 @@ def shoe(
 @app.command()
 def analyze(
     recording: Annotated[
-        Path | None, Argument(help="The recording or footprint image; recognised from its content.", show_default=False)
+        Path | None,
+        Argument(help="Recording, footprint image, or a folder of recordings (a study).", show_default=False),
+    ] = None,
+    participants: Annotated[
+        Path | None, Option(help="Of a folder: table (CSV) of file, participant, condition and what else is known.")
     ] = None,
     compare: Annotated[
         tuple[Path, Path] | None,
@@ -156,6 +160,11 @@ def analyze(
     Example: plantar analyze scan.png --mm-per-pixel 0.5
 
     Example: plantar analyze --compare before.mcap after.mcap -o out/both
+
+    Example: plantar analyze recordings/ --participants table.csv -o out/study
+
+    Of a folder, every recording is measured; steps.csv, recordings.csv and comparison.csv hold all of them, study.html
+    compares the conditions, and a study that was stopped goes on where it was.
     """
     from gait.analysis.pages.analysis_text import analysis_text
     from plantar.formats import ReadOptions
@@ -165,9 +174,18 @@ def analyze(
     if side not in (None, "left", "right"):
         raise InputError(f"--side is '{side}'; allowed: left, right")
     options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
+    from gait.analysis.analyse import with_layout
     from gait.analysis.options import AnalysisOptions, steps_of_text
+    from plantar.formats import is_study_folder
 
     choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), events)
+    if recording is not None and is_study_folder(recording):
+        _analyze_folder(recording, participants, output, as_json, choices, with_layout(options, layout))
+        return
+    if participants is not None:
+        raise InputError(
+            "--participants is for a folder of recordings: plantar analyze recordings/ --participants table.csv"
+        )
     with progress_bar() as tell:
         if compare is not None:
             from gait.analysis.compare import compare_recordings
@@ -193,6 +211,21 @@ def analyze(
     end_command(result, as_json, text + file_lines(result["files"]))
     for warning in () if as_json else [w for metrics in parts.values() for w in metrics["warnings"]]:
         print(f"  note: {warning}", file=sys.stderr)
+
+
+def _analyze_folder(
+    folder: Path, participants: Path | None, output: Path, as_json: bool, choices: Any, options: Any
+) -> None:
+    """Measure a folder of recordings; a recording that cannot be read is told and is no error of the command."""
+    from gait.analysis.study.run_study import run_study
+
+    with progress_bar() as tell:
+        study = run_study(folder, output, participants, tell, choices=choices, options=options)
+    summary = study.summary() | {"files": list(study.files)}
+    text = f"{summary['measured']} of {summary['recordings']} recordings measured, {summary['steps']} steps"
+    end_command(summary, as_json, text + file_lines(study.files))
+    for file, why in () if as_json else summary["errors"].items():
+        print(f"  not measured: {file}: {why}", file=sys.stderr)
 
 
 @app.command()

@@ -34,7 +34,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "gait.analysis": (
         *("measures", "options", "spread", "prints", "steps", "body_weight", "parameters", "pages"),
-        *("analyse", "compare", "exports", "study"),
+        *("analyse", "compare", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (

@@ -41,6 +41,8 @@ from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "not_given", "with_layout", "write_analysis"]
 
+_ENDLESS = (math.inf, -math.inf)
+
 
 @dataclass(frozen=True, eq=False)
 class Analysis:
@@ -349,5 +351,5 @@ def _csv(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(names)
     for row in rows:
-        writer.writerow("" if isinstance(v, float) and not math.isfinite(v) else v for v in row)
+        writer.writerow(["" if v != v or v in _ENDLESS else v for v in row])  # only NaN differs from itself
     return text.getvalue()

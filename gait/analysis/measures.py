@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "raw_name"]
+__all__ = ["MEASURES", "REGION_MEASURES", "Measure", "full_title", "raw_name"]
 
 
 @dataclass(frozen=True)
@@ -102,6 +102,25 @@ REGION_MEASURES: Mapping[str, Measure] = {
 """Measures of a region of the foot in a step."""
 
 _RAW = (("_Pas", "_raw_s"), ("_Pa", "_raw"), ("_Ns", "_raw_s"), ("_N_s", "_raw_s1"), ("_Nm", "_raw_m"), ("_N", "_raw"))
+
+
+def full_title(key: str) -> str:
+    """A measure's title that stands without the heading of its group.
+
+    Args:
+        key: Its key; of one that is not known the key itself is the title.
+
+    Returns:
+        The title.
+
+    Example:
+        >>> full_title("cop_path_m"), full_title("peak_force_N"), full_title("mine")
+        ('CoP path length', 'Peak force', 'mine')
+    """
+    measure = MEASURES.get(key)
+    if measure is None:
+        return key
+    return f"CoP {measure.title[0].lower()}{measure.title[1:]}" if key.startswith("cop_") else measure.title
 
 
 def raw_name(key: str) -> str:

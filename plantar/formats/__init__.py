@@ -16,7 +16,7 @@ from plantar.formats.units import find_unit
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import RATES, PressureRecording
 
-__all__ = ["Format", "ReadOptions", "detect_format", "formats", "named_format", "read_recording"]
+__all__ = ["Format", "ReadOptions", "detect_format", "formats", "is_study_folder", "named_format", "read_recording"]
 
 _MODULES = (
     "mcap_recording",
@@ -62,6 +62,19 @@ def named_format(path: str | os.PathLike[str], name: str | None = None) -> Forma
     if name is not None and name not in known:
         raise FormatError(f"unknown format {name!r}; allowed: {', '.join(known)}")
     return detect_format(path) if name is None else known[name]
+
+
+def is_study_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder of recordings, and not a folder that is one recording itself.
+
+    Args:
+        path: The path.
+
+    Returns:
+        True for a folder that no format claims.
+    """
+    held = (f.folders for f in formats().values() if f.folders is not None)
+    return os.path.isdir(path) and not any(is_file(Path(path) / name) for name in held)
 
 
 def detect_format(path: str | os.PathLike[str]) -> Format:

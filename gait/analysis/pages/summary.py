@@ -17,7 +17,7 @@ __all__ = ["gait_of_feet", "regions_of_foot", "summary_of_foot", "symmetry"]
 
 def summary_of_foot(gait: FootGait) -> dict[str, Spread]:
     """Each measure of a foot over the steps that are in the means."""
-    return {name: spread([step[name] for step in gait.used]) for name in MEASURES}
+    return {name: spread(gait.columns.get(name, ())) for name in MEASURES}
 
 
 def regions_of_foot(gait: FootGait) -> dict[str, dict[str, Spread]]:
@@ -61,7 +61,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
     """Mean of a measure over the steps in the means of all feet; None where no step has it."""
-    return spread([step[key] for gait in feet.values() for step in gait.used]).mean
+    return spread(np.concatenate([gait.columns.get(key, np.zeros(0)) for gait in feet.values()] or [[]])).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +86,13 @@ class FootGait:
     sole: Footprint | None = None
     warnings: tuple[str, ...] = ()
 
-    @property
+    @cached_property
     def used(self) -> tuple[Step, ...]:
         """The steps that are in the means."""
         return tuple(step for step in self.steps if step.used)
+
+    @cached_property
+    def columns(self) -> Mapping[str, NDArray[np.float64]]:
+        """Each measure over the steps that are in the means, NaN where a step has none of it."""
+        keys = dict.fromkeys(key for step in self.used for key in step.measures)
+        return {key: np.array([step[key] for step in self.used]) for key in keys}

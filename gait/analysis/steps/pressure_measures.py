@@ -78,30 +78,34 @@ def region_measures(
         The measures of each region that has cells; those of `gait.analysis.measures.REGION_MEASURES`.
     """
     assert load.pressure is not None
+    order = np.argsort(region, kind="stable")
+    order = order[region[order] >= 0]  # cells of a region lie side by side: one pass serves all regions
+    if len(order) == 0:
+        return {}
+    present, starts = np.unique(region[order], return_index=True)
+    force = np.add.reduceat(load.force[:, order], starts, axis=1)
+    pressure = np.maximum.reduceat(load.pressure[:, order], starts, axis=1)
+    loaded = load.loaded[:, order]
+    on = np.logical_or.reduceat(loaded, starts, axis=1).sum(axis=0)
+    impulses, integrals = _integral(force, load.time), _integral(pressure, load.time)
     whole = float(_integral(load.force.sum(axis=1), load.time))
+    step = float(np.median(np.diff(load.time))) if len(load.time) > 1 else 0.0
+    contact = np.minimum(on * step, duration)
+    areas = None if load.areas is None else np.add.reduceat(loaded * load.areas[order], starts, axis=1).max(axis=0)
+    peak_force, peak_pressure = force.max(axis=0), pressure.max(axis=0)
     out: dict[str, dict[str, float]] = {}
-    for index, name in enumerate(names):
-        cells = np.flatnonzero(region == index)
-        if len(cells) == 0:
-            continue
-        force = load.force[:, cells].sum(axis=1)
-        pressure = load.pressure[:, cells].max(axis=1)
-        loaded = load.loaded[:, cells]
-        impulse = float(_integral(force, load.time))
-        on = loaded.any(axis=1)
-        step = float(np.median(np.diff(load.time))) if len(load.time) > 1 else 0.0
-        contact = min(float(on.sum()) * step, duration)
-        out[name] = {
-            "peak_force_N": float(force.max()),
-            "peak_pressure_Pa": float(pressure.max()),
-            "impulse_Ns": impulse,
-            "impulse_percent": 100.0 * impulse / whole if whole > 0.0 else np.nan,
-            "pressure_time_integral_Pas": float(_integral(pressure, load.time)),
-            "contact_time_s": contact,
-            "contact_percent": 100.0 * contact / duration if duration > 0.0 else np.nan,
+    for i, index in enumerate(present.tolist()):
+        out[names[index]] = {
+            "peak_force_N": float(peak_force[i]),
+            "peak_pressure_Pa": float(peak_pressure[i]),
+            "impulse_Ns": float(impulses[i]),
+            "impulse_percent": 100.0 * float(impulses[i]) / whole if whole > 0.0 else np.nan,
+            "pressure_time_integral_Pas": float(integrals[i]),
+            "contact_time_s": float(contact[i]),
+            "contact_percent": 100.0 * float(contact[i]) / duration if duration > 0.0 else np.nan,
         }
-        if load.areas is not None:
-            out[name]["contact_area_m2"] = float((loaded @ load.areas[cells]).max())
+        if areas is not None:
+            out[names[index]]["contact_area_m2"] = float(areas[i])
     return out
 
 

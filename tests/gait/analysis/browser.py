@@ -43,7 +43,7 @@ def browser() -> str:
     pytest.skip("no Chromium on this machine: the page is not opened (Debian: apt-get install chromium)")
 
 
-def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: float = 90.0) -> Visit:
+def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: float = 90.0, width: int = 1000) -> Visit:
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
     The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.
@@ -54,6 +54,7 @@ def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: fl
         work: Folder for the browser's profile.
         dark: Whether the system prefers dark mode.
         timeout: Longest time in s.
+        width: Width of the window in CSS pixels.
     """
     script = (
         "<script>window.problems = [];"
@@ -91,7 +92,7 @@ def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: fl
     server = ThreadingHTTPServer(("127.0.0.1", 0), Server)
     Thread(target=server.serve_forever, daemon=True).start()
     command = [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
-    command += [f"--user-data-dir={work / 'profile'}", "--enable-logging=stderr", "--window-size=1000,1400"]
+    command += [f"--user-data-dir={work / 'profile'}", "--enable-logging=stderr", f"--window-size={width},1400"]
     command += ["--no-first-run", "--disable-extensions", "--disable-background-networking"]
     command += ["--blink-settings=preferredColorScheme=0"] if dark else []
     log = work / "browser.log"

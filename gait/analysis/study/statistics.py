@@ -1,0 +1,309 @@
+"""Two conditions compared: effect sizes with confidence intervals, and permutation tests that allow for many looks.
+
+A measure, a curve over the stance and a map of the sole are all (samples, values). Each value has a t statistic. How
+large
+the largest of all values' |t| is by chance, and how large the largest cluster of neighbouring values beyond a
+threshold, is found by permuting the labels: of independent samples who belongs to which condition, of pairs the sign of
+each difference (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Effect", "PermutationTest", "effect_of", "permutation_test", "student_quantile"]
+
+PERMUTATIONS = 2000
+"""Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation)."""
+
+_SEED = 1
+_CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Effect:
+    """How a measure differs between conditions A and B.
+
+    Attributes:
+        paired: Whether the same participants were measured in both.
+        n_a: Participants in A; of pairs the number of pairs.
+        n_b: Participants in B.
+        mean_a: Mean in A.
+        mean_b: Mean in B.
+        difference: B less A.
+        low: Lower end of the difference's 95 % confidence interval.
+        high: Its upper end.
+        effect_size: Hedges' g: the difference over the pooled standard deviation, corrected for few samples; NaN
+        without
+            spread.
+        effect_low: Lower end of its 95 % confidence interval.
+        effect_high: Its upper end.
+        p: Probability of such a |t| by chance, by permutation.
+        p_all: The same of the largest |t| of all measures that are compared together.
+    """
+
+    paired: bool
+    n_a: int
+    n_b: int
+    mean_a: float
+    mean_b: float
+    difference: float
+    low: float
+    high: float
+    effect_size: float
+    effect_low: float
+    effect_high: float
+    p: float
+    p_all: float
+
+
+@dataclass(frozen=True, eq=False)
+class PermutationTest:
+    """Where (samples, values) of two conditions differ.
+
+    Attributes:
+        t: t statistic (k,) of each value, B less A; 0 where nothing varies.
+        p: Probability (k,) of each |t| by chance, looked at alone.
+        p_all: Probability (k,) that the largest |t| of all values is as large by chance: below 0.05 a value differs,
+        however
+            many were looked at.
+        threshold: |t| that the largest of all exceeds in 5 % of the permutations.
+        clusters: Number (k,) of the cluster that each value is in, from 1 on; 0 for none.
+        cluster_p: Probability of each cluster's mass by chance of the largest one.
+        permutations: How many were looked at, the observed labels among them.
+    """
+
+    t: NDArray[np.float64]
+    p: NDArray[np.float64]
+    p_all: NDArray[np.float64]
+    threshold: float
+    clusters: NDArray[np.int64]
+    cluster_p: tuple[float, ...]
+    permutations: int
+
+    @property
+    def significant(self) -> NDArray[np.bool_]:
+        """Which values (k,) are in a cluster whose mass 5 % of the permutations reach or fewer."""
+        kept = [number for number, p in enumerate(self.cluster_p, 1) if p <= 0.05]
+        return np.isin(self.clusters, kept)
+
+
+@lru_cache(maxsize=256)
+def student_quantile(probability: float, freedom: float) -> float:
+    """Quantile of Student's t above the median, to about 1e-6 of it, from its incomplete integral.
+
+    Args:
+        probability: 0.5 or more, below 1.
+        freedom: Degrees of freedom, 1 or more.
+
+    Returns:
+        The quantile.
+
+    Example:
+        >>> round(student_quantile(0.975, 9.0), 4), round(student_quantile(0.975, 1e6), 3)
+        (2.2622, 1.96)
+    """
+    if probability <= 0.5:
+        return 0.0
+    # With t = sqrt(n) tan(a) the density is cos(a)^(n - 1), smooth on a finite range.
+    widest = 0.5 * math.pi if freedom < 30.0 else math.atan(40.0 / math.sqrt(freedom))
+    angle = np.linspace(0.0, widest, 20_001)
+    weight = np.cos(angle) ** (freedom - 1.0) if freedom > 1.0 else np.ones_like(angle)
+    mass = np.concatenate([[0.0], np.cumsum(0.5 * (weight[1:] + weight[:-1]))])
+    at = float(np.interp(2.0 * probability - 1.0, mass / mass[-1], angle))
+    return math.sqrt(freedom) * math.tan(at)
+
+
+def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: float, p_all: float) -> Effect:
+    """How one measure differs.
+
+    The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
+    the
+    variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5.
+
+    Args:
+        a: Values (n,) in A, two or more.
+        b: Values (m,) in B; of pairs in the same order.
+        paired: Whether they are pairs.
+        p: What a permutation test says of it alone.
+        p_all: What it says among all measures.
+
+    Returns:
+        The effect.
+
+    Example:
+        >>> effect = effect_of(np.array([1.0, 2.0, 3.0]), np.array([2.0, 3.0, 4.0]), False, 0.4, 0.4)
+        >>> effect.difference, round(effect.effect_size, 2)
+        (1.0, 0.8)
+    """
+    n, m = len(a), len(b)
+    difference = float(b.mean() - a.mean())
+    va, vb = float(a.var(ddof=1)), float(b.var(ddof=1))
+    pooled = math.sqrt(((n - 1) * va + (m - 1) * vb) / (n + m - 2))
+    if paired:
+        freedom, error = float(n - 1), float((b - a).std(ddof=1)) / math.sqrt(n)
+        shared = float(np.corrcoef(a, b)[0, 1]) if va > 0.0 and vb > 0.0 else 0.0
+        correction, scale = _correction(n - 1), 2.0 * (1.0 - shared) / n
+        weight = 1.0 / (2.0 * n)
+    else:
+        error = math.sqrt(va / n + vb / m)
+        parts = (va / n) ** 2 / (n - 1) + (vb / m) ** 2 / (m - 1)
+        freedom = error**4 / parts if parts > 0.0 else float(n + m - 2)
+        correction, scale = _correction(n + m - 2), 1.0 / n + 1.0 / m
+        weight = 1.0 / (2.0 * (n + m))
+    reach = student_quantile(0.5 + 0.5 * _CONFIDENCE, max(freedom, 1.0)) * error
+    size = correction * difference / pooled if pooled > 0.0 else math.nan
+    half = student_quantile(0.5 + 0.5 * _CONFIDENCE, 1e6) * math.sqrt(scale + size**2 * weight)
+    means = float(a.mean()), float(b.mean())
+    return Effect(
+        paired,
+        n,
+        m,
+        *means,
+        difference,
+        difference - reach,
+        difference + reach,
+        size,
+        size - half,
+        size + half,
+        p,
+        p_all,
+    )
+
+
+def _correction(freedom: float) -> float:
+    """Hedges' factor for few samples."""
+    return 1.0 - 3.0 / (4.0 * freedom - 1.0) if freedom > 1 else 1.0
+
+
+def permutation_test(
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    paired: bool,
+    neighbours: Sequence[Sequence[int]] | None = None,
+    permutations: int = PERMUTATIONS,
+) -> PermutationTest:
+    """Where two conditions differ, allowing for all values that are looked at.
+
+    Args:
+        a: Samples (n, k) of A, two or more.
+        b: Samples (m, k) of B; of pairs in the same order.
+        paired: Whether they are pairs.
+        neighbours: Neighbours of each value, which clusters are made of; each value is one by itself where None.
+        permutations: Permutations that are drawn where there are more; all of them where there are fewer.
+
+    Returns:
+        The test.
+
+    Example:
+        >>> random = np.random.default_rng(0)
+        >>> a, b = random.normal(0.0, 1.0, (8, 5)), random.normal(0.0, 1.0, (8, 5))
+        >>> b[:, 2] += 5.0
+        >>> (permutation_test(a, b, paired=False).p_all < 0.05).tolist()
+        [False, False, True, False, False]
+    """
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    freedom = len(a) - 1 if paired else len(a) + len(b) - 2
+    beyond = student_quantile(0.975, freedom)
+    observed = _paired_t(b - a) if paired else _independent_t(np.vstack([a, b]), _first(len(a), len(a) + len(b)))
+    clusters, masses = _clusters(observed, beyond, neighbours)
+    each = np.zeros(observed.shape)
+    largest, heaviest = [], []
+    for t in _permuted(a, b, paired, permutations):
+        size = np.abs(t)
+        each += size >= np.abs(observed) - 1e-9
+        largest.append(float(size.max(initial=0.0)))
+        heaviest.append(max(_clusters(t, beyond, neighbours)[1], default=0.0) if masses else 0.0)
+    tops, weights, count = np.array(largest), np.array(heaviest), len(largest)
+    return PermutationTest(
+        t=observed,
+        p=each / count,
+        p_all=(tops[:, None] >= np.abs(observed) - 1e-9).mean(axis=0),
+        threshold=float(np.sort(tops)[max(0, math.ceil(0.95 * count) - 1)]),
+        clusters=clusters,
+        cluster_p=tuple(float((weights >= mass - 1e-9).mean()) for mass in masses),
+        permutations=count,
+    )
+
+
+def _first(n: int, total: int) -> NDArray[np.float64]:
+    """1 for the first n of some samples, 0 for the others."""
+    return (np.arange(total) < n).astype(float)
+
+
+def _permuted(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, most: int) -> Iterator[NDArray[np.float64]]:
+    """t statistics (k,) of every permutation, or of the observed labels and of some that are drawn."""
+    random = np.random.default_rng(_SEED)
+    if paired:
+        change = b - a
+        n = len(change)
+        if 2**n <= most:
+            signs: Iterator[NDArray[np.float64]] = (np.array(s) for s in product((1.0, -1.0), repeat=n))
+        else:
+            drawn = (random.choice((-1.0, 1.0), size=n) for _ in range(most - 1))
+            signs = (s for part in ([np.ones(n)], drawn) for s in part)
+        for sign in signs:
+            yield _paired_t(change * sign[:, None])
+        return
+    both, n, total = np.vstack([a, b]), len(a), len(a) + len(b)
+    if math.comb(total, n) <= most:
+        for chosen in combinations(range(total), n):
+            label = np.zeros(total)
+            label[list(chosen)] = 1.0
+            yield _independent_t(both, label)
+        return
+    yield _independent_t(both, _first(n, total))
+    for _ in range(most - 1):
+        yield _independent_t(both, random.permutation(_first(n, total)))
+
+
+def _paired_t(change: NDArray[np.float64]) -> NDArray[np.float64]:
+    """t (k,) of differences (n, k); 0 where they do not vary about 0."""
+    n = len(change)
+    mean, sd = change.mean(axis=0), change.std(axis=0, ddof=1)
+    return _ratio(mean, sd / math.sqrt(n))
+
+
+def _independent_t(both: NDArray[np.float64], first: NDArray[np.float64]) -> NDArray[np.float64]:
+    """t (k,) with pooled variance of the samples (n + m, k) that are not first less those that are."""
+    n, m = first.sum(), len(first) - first.sum()
+    mean_a, mean_b = first @ both / n, (1.0 - first) @ both / m
+    rest = ((both - np.where(first[:, None] > 0.5, mean_a, mean_b)) ** 2).sum(axis=0)
+    return _ratio(mean_b - mean_a, np.sqrt(rest / (n + m - 2.0) * (1.0 / n + 1.0 / m)))
+
+
+def _ratio(mean: NDArray[np.float64], error: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A mean over its error; without error, 0 for no difference and a very large t for one."""
+    least = 1e-12 * np.maximum(np.abs(mean), 1e-300)
+    return np.asarray(np.where(mean == 0.0, 0.0, mean / np.maximum(error, least)))
+
+
+def _clusters(
+    t: NDArray[np.float64], beyond: float, neighbours: Sequence[Sequence[int]] | None
+) -> tuple[NDArray[np.int64], list[float]]:
+    """Cluster (k,) of each value beyond a threshold, of one sign, and the mass of each: the sum of its |t|."""
+    label = np.zeros(len(t), dtype=np.int64)
+    masses: list[float] = []
+    if neighbours is None:
+        return label, masses
+    for start in np.flatnonzero(np.abs(t) > beyond).tolist():
+        if label[start]:
+            continue
+        label[start] = len(masses) + 1
+        queue, mass = [start], 0.0
+        while queue:
+            at = queue.pop()
+            mass += abs(float(t[at]))
+            for other in neighbours[at]:
+                if not label[other] and abs(t[other]) > beyond and t[other] * t[at] > 0.0:
+                    label[other] = label[start]
+                    queue.append(other)
+        masses.append(mass)
+    return label, masses

@@ -1,0 +1,219 @@
+"""Studies of made recordings with effects that are known, and of none."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gait.analysis.options import AnalysisOptions
+from gait.analysis.study import run_study as module
+from gait.analysis.study.compare_conditions import compare_conditions, grid_neighbours
+from gait.analysis.study.one_recording import GRID, RecordingResult, key_of, normalised, sampled
+from gait.analysis.study.participants import Participation, read_participants
+from gait.analysis.study.run_study import Study, run_study
+from gait.analysis.study.study_page import study_page
+from plantar import FormatError, InputError
+from plantar.formats.nominal_insole import nominal_insole
+from plantar.gravity import GRAVITY
+from plantar.layouts.layout_file import layout_to_dict
+
+from ..browser import visit
+from ..test_report_in_browser import READABLE
+from ..walks import made_walk
+
+
+def write_walk(path: Path, **options: object) -> None:
+    """A made walk as an NPZ file that holds its layouts."""
+    recording = made_walk(rate=50.0, strides=5, **options).recording  # type: ignore[arg-type]
+    layouts = {f"layout_{s}": json.dumps(layout_to_dict(nominal_insole("x", s))) for s in recording.feet}
+    feet = {side: foot.force for side, foot in recording.feet.items()}
+    np.savez(path, time=recording.time, unit="N", **layouts, **feet)
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Study]:
+    """Eight people in two shoes; the second loads 18 % less. A damaged file, a file that is not there, a text."""
+    folder = tmp_path_factory.mktemp("study") / "recordings"
+    folder.mkdir()
+    random = np.random.default_rng(8)
+    lines = ["file,participant,condition,mass_kg,foot_length_mm,age"]
+    for who in range(8):
+        weight, stance = random.normal(700.0, 60.0), random.normal(0.62, 0.01)
+        for condition, gain in (("flat", 1.0), ("rocker", 0.82)):
+            name = f"p{who}_{condition}.npz"
+            share = gain * random.normal(1.0, 0.02)
+            write_walk(folder / name, weight=weight * share, stance=stance, seed=who, noise=0.2)
+            lines.append(f"{name},p{who},{condition},{weight / GRAVITY:.2f},265,{30 + who}")
+    (folder / "damaged.npz").write_bytes((folder / "p0_flat.npz").read_bytes()[:2000])
+    (folder / "<script>alert(1)</script>.csv".replace("/", "-")).write_text("nothing\nof use\n")
+    lines += ["damaged.npz,p8,flat,70,,40", "gone.npz,p9,flat,70,,41"]
+    table = folder / "participants.csv"
+    table.write_text("\n".join(lines) + "\n")
+    out = folder.parent / "out"
+    return folder, out, run_study(folder, out, table)
+
+
+def test_the_effect_is_found_with_its_sign_and_size(study: tuple[Path, Path, Study]) -> None:
+    (comparison,) = study[2].comparisons
+    assert (comparison.a, comparison.b, comparison.paired) == ("flat", "rocker", True)
+    force = comparison.effects["peak_force_N"]
+    assert force.difference / force.mean_a == pytest.approx(-0.18, abs=0.03)
+    assert force.low < -0.18 * force.mean_a < force.high
+    assert force.p_all < 0.05
+    assert comparison.effects["contact_time_s"].p_all > 0.05
+    assert abs(comparison.effects["contact_time_s"].difference) < 0.01
+    assert comparison.curve_unit == "% of body weight"
+    assert comparison.curve_test is not None
+    assert comparison.curve_test.significant[20:80].mean() > 0.9
+    assert comparison.map_test is not None
+    assert (comparison.map_test.t[comparison.map_test.significant] < 0.0).all()
+
+
+def test_the_tables_are_tidy(study: tuple[Path, Path, Study]) -> None:
+    _, out, result = study
+    with (out / "steps.csv").open() as stream:
+        steps = list(csv.DictReader(stream))
+    assert len(steps) == 16 * 2 * 5
+    one = steps[0]
+    assert (one["participant"], one["condition"], one["age"], one["side"]) == ("p0", "flat", "30", "left")
+    masses = {p.who.file: p.who.mass_kg for p in result.results}
+    share = 100.0 * float(one["peak_force_N"]) / (masses[one["recording"]] or 0.0) / GRAVITY
+    assert float(one["peak_force_percent_bw"]) == pytest.approx(share)
+    assert float(one["cop_path_percent_foot"]) == pytest.approx(100.0 * float(one["cop_path_m"]) / 0.265)
+    assert len(one["sha256"]) == 64
+    assert json.loads(one["options"])["steps"] == "steady"
+    with (out / "recordings.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    errors = {row["recording"]: row["error"] for row in rows if row["error"]}
+    assert set(errors) == {"damaged.npz", "gone.npz", "<script>alert(1)<-script>.csv"}
+    assert all(errors.values())
+    assert len(rows) == 16 * 2 + 3
+    columns = result.steps()
+    assert {len(column) for column in columns.values()} == {len(steps)}
+    assert columns["peak_force_N"].dtype == float
+    json.loads((out / "study.json").read_text())
+    assert "<script>alert" not in (out / "study.html").read_text()
+
+
+def test_a_study_goes_on_where_it_was(study: tuple[Path, Path, Study], monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, out, before = study
+    calls: list[str] = []
+    monkeypatch.setattr(module, "study_figures", lambda comparisons: [])
+    measure = module.measure_recording
+    monkeypatch.setattr(module, "measure_recording", lambda *a: calls.append(a[1].file) or measure(*a))
+    told: list[str] = []
+    again = run_study(folder, out, folder / "participants.csv", lambda fraction, text: told.append(text))
+    assert set(calls) == {"damaged.npz", "gone.npz", "<script>alert(1)<-script>.csv"}
+    assert again.summary() == before.summary()
+    assert "1 of 19: p0_flat.npz" in told
+    calls.clear()
+    kept = next((out / "measured").glob("*.npz"))
+    kept.write_bytes(kept.read_bytes()[:100])
+    run_study(folder, out, folder / "participants.csv")
+    assert len(calls) == 4
+    who = before.results[0].who
+    assert len({key_of(who, "0", AnalysisOptions(steps=steps)) for steps in ("all", "steady", (1, 3))}) == 3
+
+
+def result_of(who: str, condition: str, value: float, curve: np.ndarray) -> RecordingResult:
+    feet = {"left": {"steps": 12.0, "peak_force_N": value, "contact_time_s": value}}
+    person = Participation(f"{who}{condition}", who, condition)
+    return RecordingResult(person, "", "", "x", "", False, (), feet, {"left": curve}, {}, (), {})  # type: ignore[arg-type]
+
+
+def test_no_effect_stays_none_in_95_of_100_studies() -> None:
+    random = np.random.default_rng(6)
+    found = 0
+    for _ in range(40):
+        results = []
+        for who in range(5):
+            for condition in ("a", "b"):
+                curve = random.normal(0.0, 1.0) + np.linspace(0.0, 1.0, 101) * random.normal(0.0, 1.0)
+                results.append(result_of(f"p{who}", condition, random.normal(700.0, 50.0), curve))
+        (comparison,) = compare_conditions(results)
+        assert comparison.curve_test is not None
+        found += any(e.p_all <= 0.05 for e in comparison.effects.values()) or comparison.curve_test.significant.any()
+    assert found <= 8  # of 40 draws with two families at 0.05 each: more is one in 60
+
+
+def test_too_few_participants_are_not_compared() -> None:
+    curve = np.zeros(101)
+    results = [result_of(f"{who}{c}", c, 1.0, curve) for who in range(2) for c in ("a", "b")]
+    (comparison,) = compare_conditions(results)
+    assert comparison.effects == {}
+    assert "a has 2 and b 2 participants, 0 of them in both" in comparison.note
+
+
+def test_maps_are_in_one_frame() -> None:
+    """A hot cell under the hallux of either foot of any size is at the same place, medial and in front."""
+    places = []
+    for size, side in (("u", "left"), ("y", "right"), ("v", "left")):
+        layout = nominal_insole(size, side)  # type: ignore[arg-type]
+        medial = np.array([1.0, 1.0 if side == "right" else -1.0])
+        values = np.zeros(99)
+        values[-4] = 1.0
+        found = sampled(layout.positions[:, :2] * medial, values, layout.outline * medial)
+        assert found.shape == GRID
+        places.append(np.argwhere(found == 1.0).mean(axis=0) / GRID)
+    assert np.ptp(places, axis=0).max() < 0.12
+    assert np.min(places, axis=0)[0] > 0.85
+    assert grid_neighbours(np.ones((2, 2), dtype=bool)) == [[1, 2], [0, 3], [0, 3], [1, 2]]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("file,participant\na,b\n", "no column condition"),
+        ("file,participant,condition\n", "no rows"),
+        ("file,participant,condition\na,b,c\na,d,e\n", "a is named twice"),
+    ],
+)
+def test_a_table_that_is_no_table(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "t.csv").write_text(text)
+    with pytest.raises(FormatError, match=message):
+        read_participants(tmp_path / "t.csv")
+
+
+def test_values_of_a_table_are_checked(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    path.write_text("file;subject;group;mass_kg;side\na.asc;1;x;72,5;Left\n")
+    (one,) = read_participants(path)
+    assert (one.mass_kg, one.side, one.condition) == (72.5, "left", "x")
+    for row, message in (("a;1;x;7000;", "mass_kg is '7000'; allowed: 2 to 400"), ("a;1;x;;both", "side is 'both'")):
+        path.write_text(f"file;subject;group;mass_kg;side\n{row}\n")
+        with pytest.raises(InputError, match=message):
+            read_participants(path)
+    assert normalised({"peak_force_N": 100.0}, Participation("a", "a")) == {}
+
+
+def test_the_command_takes_a_folder(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+    folder, _, _ = study
+    few = tmp_path / "few"
+    few.mkdir()
+    (few / "a.npz").write_bytes((folder / "p0_flat.npz").read_bytes())
+    arguments = [sys.executable, "-m", "cli", "analyze", str(few), "-o", str(tmp_path / "out"), "--json"]
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["measured"] == 1
+    (tmp_path / "out" / "measured" / "empty").mkdir()
+    with pytest.raises(InputError, match="no recording in it"):
+        run_study(tmp_path / "out" / "measured" / "empty", tmp_path / "none")
+
+
+def test_the_page_opens_on_a_telephone(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+    """At 390 px: no error, nothing to be pulled aside, every text is legible, figures are there."""
+    _, out, result = study
+    page = tmp_path / "study.html"
+    figures = [(out / f"{name}.png", name) for name in ("effects", "curves", "maps")]
+    page.write_text(study_page(result.summary(), result.results, result.comparisons, figures, "shoes"))
+    seen = visit(page, READABLE, tmp_path, width=390)
+    assert seen.console == []
+    assert seen.found["weak"] == seen.found["unnamed"] == seen.found["outline"] == []
+    assert seen.found["wide"] <= 0
+    assert page.read_text().count("<figure>") == 3

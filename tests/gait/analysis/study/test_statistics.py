@@ -1,0 +1,111 @@
+"""Effect sizes and permutation tests against formulas, scipy, spm1d where it is installed, and their own promise."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from gait.analysis.study.statistics import effect_of, permutation_test, student_quantile
+
+CHAIN = [[j for j in (i - 1, i + 1) if 0 <= j < 101] for i in range(101)]
+
+
+@pytest.mark.parametrize("freedom", [1, 2, 3, 7, 30, 400, 1e6])
+@pytest.mark.parametrize("probability", [0.5, 0.8, 0.95, 0.975, 0.999])
+def test_quantiles_of_student(freedom: float, probability: float) -> None:
+    assert student_quantile(probability, freedom) == pytest.approx(
+        stats.t.ppf(probability, freedom), rel=1e-5, abs=1e-9
+    )
+
+
+def test_intervals_of_a_difference_are_students_and_welchs() -> None:
+    random = np.random.default_rng(3)
+    a, b = random.normal(10.0, 1.0, 9), random.normal(11.0, 2.0, 14)
+    effect = effect_of(a, b, False, 1.0, 1.0)
+    welch = stats.ttest_ind(b, a, equal_var=False).confidence_interval()
+    assert (effect.low, effect.high) == pytest.approx((welch.low, welch.high), rel=1e-5)
+    pairs = effect_of(a, b[:9], True, 1.0, 1.0)
+    student = stats.ttest_rel(b[:9], a).confidence_interval()
+    assert (pairs.low, pairs.high) == pytest.approx((student.low, student.high), rel=1e-5)
+
+
+def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
+    random = np.random.default_rng(5)
+    draws = [effect_of(random.normal(0, 1, 15), random.normal(0.8, 1, 15), False, 1.0, 1.0) for _ in range(300)]
+    assert np.mean([d.effect_size for d in draws]) == pytest.approx(0.8, abs=0.06)
+    assert 0.91 < np.mean([d.effect_low < 0.8 < d.effect_high for d in draws]) < 0.99
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_a_permutation_test_agrees_with_scipys(paired: bool) -> None:
+    random = np.random.default_rng(1)
+    a, b = random.normal(0.0, 1.0, (7, 3)), random.normal(0.6, 1.0, (7, 3))
+    ours = permutation_test(a, b, paired, permutations=4000)
+    if paired:
+        theirs = stats.permutation_test(
+            (a, b), lambda x, y, axis: np.abs(stats.ttest_rel(y, x, axis=axis)[0]), permutation_type="samples",
+            vectorized=True, n_resamples=np.inf, alternative="greater",
+        )  # fmt: skip
+    else:
+        theirs = stats.permutation_test(
+            (a, b), lambda x, y, axis: np.abs(stats.ttest_ind(y, x, axis=axis)[0]), permutation_type="independent",
+            vectorized=True, n_resamples=np.inf, alternative="greater",
+        )  # fmt: skip
+    assert ours.p == pytest.approx(theirs.pvalue, abs=1e-9)
+    assert (ours.p_all >= ours.p).all()
+
+
+def smooth(random: np.random.Generator, n: int) -> np.ndarray:
+    """Curves (n, 101) that vary over about a sixth of the stance."""
+    kernel = np.exp(-0.5 * (np.arange(-30, 31) / 8.0) ** 2)
+    return np.array(
+        [np.convolve(random.normal(0.0, 1.0, 161), kernel / np.sqrt((kernel**2).sum()), "valid") for _ in range(n)]
+    )
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_the_null_stays_null_in_95_of_100(paired: bool) -> None:
+    """Curves without a difference: a cluster, or a largest |t|, is called significant in 1 of 20 draws or about."""
+    random = np.random.default_rng(11)
+    found = []
+    for _ in range(60):
+        test = permutation_test(smooth(random, 7), smooth(random, 7), paired, CHAIN, permutations=120)
+        found.append((test.significant.any(), (test.p_all <= 0.05).any()))
+    assert np.mean(found, axis=0).max() <= 0.12  # 60 draws of 0.05: more than 7 is one in 120
+
+
+def test_a_difference_is_found_where_it_is() -> None:
+    random = np.random.default_rng(2)
+    a, b = smooth(random, 10), smooth(random, 10)
+    b[:, 40:60] += 3.0
+    test = permutation_test(a, b, False, CHAIN, permutations=400)
+    assert test.significant[45:55].all()
+    assert not test.significant[:25].any()
+    assert not test.significant[75:].any()
+    assert (test.t[45:55] > 0.0).all()
+
+
+def test_where_nothing_varies() -> None:
+    same = np.ones((4, 3))
+    test = permutation_test(same, same, True, [[], [], []])
+    assert test.t.tolist() == [0.0, 0.0, 0.0]
+    assert test.p_all.tolist() == [1.0, 1.0, 1.0]
+    assert not test.significant.any()
+
+
+@pytest.mark.parametrize("paired", [True, False])
+def test_thresholds_and_clusters_are_those_of_spm1d(paired: bool) -> None:
+    """spm1d is GPL and no dependency; where somebody has it, both have to say the same."""
+    spm1d = pytest.importorskip("spm1d", reason="spm1d is not installed")
+    random = np.random.default_rng(4)
+    a, b = smooth(random, 6), smooth(random, 6)
+    b[:, 60:80] += 2.5
+    ours = permutation_test(a, b, paired, CHAIN, permutations=10_000)
+    whole = spm1d.stats.nonparam.ttest_paired(b, a) if paired else spm1d.stats.nonparam.ttest2(b, a)
+    theirs = whole.inference(0.05, two_tailed=True, iterations=-1)
+    assert ours.t == pytest.approx(theirs.z, rel=1e-6)
+    assert ours.threshold == pytest.approx(theirs.zstar, rel=0.03)
+    for cluster in theirs.clusters:
+        first, last = (round(end) for end in cluster.endpoints)
+        assert (ours.p_all[first + 1 : last] <= 0.055).all()
