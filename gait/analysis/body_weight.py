@@ -8,6 +8,7 @@ import numpy as np
 
 from gait.analysis.steps.foot_gait import FootGait
 from plantar.gravity import GRAVITY
+from plantar.recordings.let_go import column_maxima
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
@@ -86,7 +87,7 @@ def _overload(recording: PressureRecording, side: Side) -> str:
     foot = recording.feet[side]
     if foot.layout is None or recording.raw or "force" not in foot.layout.ranges or not len(foot.force):
         return ""
-    highest, rated = float(foot.measured.max()), float(max(foot.layout.ranges["force"]))
+    highest, rated = float(column_maxima(foot.force).max()), float(max(foot.layout.ranges["force"]))
     if not rated > 0.0 or highest <= _FULL * rated:
         return ""
     return f"a taxel of the {side} sole reads {highest:.4g} N, its layout rates it for {rated:.4g} N: check the unit"

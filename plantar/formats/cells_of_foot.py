@@ -12,6 +12,7 @@ from plantar.formats.format import ReadOptions
 from plantar.formats.polygon_layout import subset
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import Side, SoleLayout
+from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, layout_for
 
 __all__ = ["cells_of_foot", "halves", "unit_of_values"]
@@ -85,9 +86,9 @@ def cells_of_foot(
         warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
     factor = unit.factor
     if unit.kind == "pressure" and layout is not None:
-        values *= factor * layout.areas
+        scale_frames(values, factor * layout.areas)
     elif factor != 1.0:
-        values *= factor
+        scale_frames(values, factor)
     return FootRecording(side, values, layout)
 
 

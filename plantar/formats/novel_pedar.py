@@ -26,6 +26,7 @@ from plantar.formats.text import blocks_of_lines, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
@@ -74,7 +75,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             path, side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size
         )
         if unit.kind == "pressure":
-            values *= unit.factor * sole.areas
+            scale_frames(values, unit.factor * sole.areas)
         feet[side] = FootRecording(side, values, sole)
     if len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from plantar.recordings.let_go import column_maxima
 from plantar.recordings.pressure_recording import PressureRecording
 
 __all__ = ["doubts"]
@@ -40,7 +41,7 @@ def doubts(recording: PressureRecording) -> list[str]:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
         if foot.layout is None or recording.kind == "plate":
             continue
-        highest = float(np.max(foot.measured.max(axis=0, initial=0.0) / foot.layout.areas, initial=0.0))
+        highest = float(np.max(column_maxima(foot.force) / foot.layout.areas, initial=0.0))
         if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
             out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
         cell = float(np.median(foot.layout.areas))

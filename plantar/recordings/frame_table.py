@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.recordings.let_go import LARGE, blocks_of_frames, let_go, room
 
 __all__ = ["MOST_VALUES", "FrameTable"]
 
@@ -32,8 +33,8 @@ class FrameTable:
     """
 
     def __init__(self, width: int, expected: int) -> None:
-        self._values = np.empty((max(0, min(expected, MOST_VALUES // max(width, 1))), width))
-        self._filled = 0
+        self._values = room(max(0, min(expected, MOST_VALUES // max(width, 1))), width)
+        self._filled = self._written = 0
 
     def __len__(self) -> int:
         return self._filled
@@ -54,9 +55,23 @@ class FrameTable:
                 f"allowed: {MOST_VALUES / 1e6:g} million values in all"
             )
         if end > len(self._values):
-            self._values.resize((end + end // 4, self._values.shape[1]), refcheck=False)  # moves pages, copies nothing
+            self._grow(end + end // 4)
         self._values[self._filled : end] = block
         self._filled = end
+        self._written += block.nbytes
+        if self._written > LARGE:
+            let_go(self._values)
+            self._written = 0
+
+    def _grow(self, rows: int) -> None:
+        """Make room for more rows."""
+        if self._values.flags.owndata and rows * self._values.shape[1] * 8 <= LARGE:
+            self._values.resize((rows, self._values.shape[1]), refcheck=False)  # moves pages, copies nothing
+            return
+        before, self._values = self._values, room(rows, self._values.shape[1])
+        for rows_of_block in blocks_of_frames(before[: self._filled]):
+            self._values[rows_of_block] = before[rows_of_block]
+            let_go(self._values)
 
     def drop_last(self) -> None:
         """Take the last row out again."""

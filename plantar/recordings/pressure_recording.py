@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.layouts.layout import Side, SoleLayout, mirrored
+from plantar.recordings.let_go import blocks_of_frames, let_go, room
 
 __all__ = [
     "RATES",
@@ -73,13 +74,24 @@ class FootRecording:
     @cached_property
     def missing(self) -> NDArray[np.bool_] | None:
         """Which values (n, k) are missing; None where all were measured."""
-        missing = np.isnan(self.force)
-        return missing if missing.any() else None
+        lacking = [rows for rows in blocks_of_frames(self.force) if np.isnan(self.force[rows]).any()]
+        if not lacking:
+            return None
+        missing = np.zeros(self.force.shape, dtype=bool)
+        for rows in lacking:
+            missing[rows] = np.isnan(self.force[rows])
+        return missing
 
     @cached_property
     def measured(self) -> NDArray[np.float64]:
         """Forces (n, k) with 0 in place of NaN: the forces themselves where nothing is missing."""
-        return self.force if self.missing is None else np.where(self.missing, 0.0, self.force)
+        if self.missing is None:
+            return self.force
+        out = room(*self.force.shape)
+        for rows in blocks_of_frames(self.force):
+            out[rows] = np.where(self.missing[rows], 0.0, self.force[rows])
+            let_go(out)
+        return out
 
     @cached_property
     def vertical_force(self) -> NDArray[np.float64]:
@@ -175,10 +187,8 @@ class PressureRecording:
 
 
 def _product(values: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """values @ matrix; columns out of a wider table are taken block by block, since BLAS would copy them whole."""
-    if values.flags.c_contiguous:
-        return np.asarray(values @ matrix)
-    blocks = [values[i : i + 16384] @ matrix for i in range(0, len(values), 16384)]
+    """values @ matrix, block by block: BLAS would copy columns out of a wider table whole."""
+    blocks = [values[rows] @ matrix for rows in blocks_of_frames(values)]
     return np.concatenate(blocks) if blocks else np.zeros((0, *matrix.shape[1:]))
 
 

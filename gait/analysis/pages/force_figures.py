@@ -29,7 +29,7 @@ __all__ = [
 STANCE = np.linspace(0.0, 100.0, 101)
 """Percent of stance at which force curves are given."""
 
-MOST_CURVES = 100
+MOST_CURVES = 40
 """Curves drawn a foot; of more steps every n-th."""
 
 _COMPARED = (

@@ -22,8 +22,11 @@ from plantar.sides import Side
 
 __all__ = ["figure_pair", "figure_pressure", "figure_regions"]
 
-MOST_PATHS = 60
-"""CoP paths drawn a foot; of more steps every n-th."""
+MOST_PATHS = 12
+"""CoP paths drawn a foot, thin, beside the mean one; of more steps every n-th: the map below has to be seen."""
+
+_STANCE = np.linspace(0.0, 1.0, 51)
+"""Shares of the stance at which paths are averaged."""
 
 REGION_COLOURS = ("#4477aa", "#66ccee", "#228833", "#ccbb44", "#ee6677", "#aa3377", "#bbbbbb")
 """Colours of the regions: Tol's bright scheme, which colour-blind readers can tell apart."""
@@ -101,18 +104,35 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
 
 def _draw_paths(panel: Any, gait: FootGait) -> None:
     """The CoP paths of the complete steps; of very many every n-th."""
-    complete: list[Contact] = [contact for contact in gait.contacts if contact.complete]
+    complete: list[Contact] = [step.contact for step in gait.used]
     if gait.cop is None or not complete:
         return
     every = -(-len(complete) // MOST_PATHS)
     name = "CoP path of a step" + (f" (every {every}th)" if every > 1 else "")
-    for i, contact in enumerate(complete[::every]):
-        path = gait.cop[contact.begin : contact.end]
-        panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=2.2, alpha=0.9)
-        panel.plot(-path[:, 1], path[:, 0], color=COLOURS["cop"], linewidth=1.0, label=None if i else name)
+    paths = [gait.cop[contact.begin : contact.end] for contact in complete]
+    for i, path in enumerate(paths[::every]):
+        panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=None if i else name)
+    mean = _mean_path(paths)
+    if mean is not None:
+        panel.plot(-mean[:, 1], mean[:, 0], color="#ffffff", linewidth=3.4)
+        panel.plot(-mean[:, 1], mean[:, 0], color=COLOURS["cop"], linewidth=1.8, label="mean CoP path")
     low, high = panel.get_ylim()
     panel.set_ylim(low - 0.08 * (high - low), high)  # room for the legend below the heel
-    panel.legend(loc="lower center", fontsize=8, framealpha=0.9)
+    panel.legend(loc="lower center", fontsize=8, framealpha=0.9, facecolor="#8a8f98", labelcolor="#111111")
+
+
+def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
+    """Mean (51, 2) of paths (m, 2) over the stance; None where no path has two points."""
+    known = [path[np.isfinite(path[:, 0])] for path in paths]
+    known = [path for path in known if len(path) >= 2]
+    if not known:
+        return None
+    shares = [np.linspace(0.0, 1.0, len(path)) for path in known]
+    even = [
+        np.column_stack([np.interp(_STANCE, share, column) for column in path.T])
+        for share, path in zip(shares, known, strict=True)
+    ]
+    return np.asarray(np.mean(even, axis=0))
 
 
 def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side, FootGait]]]) -> Any | None:

@@ -61,7 +61,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
 
 def _mean(feet: Mapping[Side, FootGait], key: str) -> float | None:
     """Mean of a measure over the steps in the means of all feet; None where no step has it."""
-    return spread(np.concatenate([gait.columns.get(key, np.zeros(0)) for gait in feet.values()] or [[]])).mean
+    return spread([value for gait in feet.values() for value in gait.columns.get(key, ())]).mean
 
 
 def symmetry(feet: Mapping[Side, FootGait], names: Iterable[str] = MEASURES) -> dict[str, float | None]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.analysis.steps.events import MINIMUM_SWING, smoothed
+from plantar.recordings.let_go import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["RestingLevel", "resting_level", "without_baselines"]
@@ -190,6 +191,7 @@ def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
 def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
     """Mean reading (k,) of each cell in some frames; 0 of one that measured nothing there."""
     part = foot.force[frames]
+    let_go(foot.force)
     known = np.isfinite(part)
     return np.asarray(np.where(known, part, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1))
 
@@ -208,13 +210,21 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
         if len(frames):
             middles.append(0.5 * (a + b))
             means.append(_in_swing(foot, frames))
-    at, table, index = np.array(middles), np.array(means), np.arange(n)
-    force = np.empty_like(foot.force)
-    for cell in range(force.shape[1]):
-        force[:, cell] = foot.force[:, cell] - (
-            table[0, cell] if len(at) == 1 else np.interp(index, at, table[:, cell])
-        )
+    at, table = np.array(middles), np.array(means)
+    force = room(*foot.force.shape)
+    for rows in blocks_of_frames(foot.force):
+        force[rows] = foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
+        let_go(force)
     return replace(foot, force=force, total=total)
+
+
+def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rows (n, k) of a table that is given at some places, on straight lines between them and level beyond them."""
+    if len(at) == 1:
+        return table
+    after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)
+    share = np.clip((index - at[after - 1]) / (at[after] - at[after - 1]), 0.0, 1.0)[:, None]
+    return np.asarray((1.0 - share) * table[after - 1] + share * table[after])
 
 
 def _per_stretch(rest: RestingLevel) -> int:
@@ -230,6 +240,7 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
     air = _in_swing(foot, _frames(rest.swing))
     with np.errstate(invalid="ignore"):
         under = foot.force[_frames(foot.vertical_force > rest.level + 0.3 * rest.span)]
+    let_go(foot.force)
     load = np.percentile(np.where(np.isfinite(under), under, 0.0), 95.0, axis=0) if len(under) else np.zeros(len(air))
     least = 0.002 * rest.span if foot.layout is None else foot.layout.force_threshold
     return np.flatnonzero((air > HOT * load) & (air > max(least, 0.002 * rest.span)))
@@ -237,6 +248,9 @@ def _hot_cells(foot: FootRecording, rest: RestingLevel) -> NDArray[np.int64]:
 
 def _without_hot(foot: FootRecording, rest: RestingLevel, hot: NDArray[np.int64]) -> FootRecording:
     """The foot without what some cells read in swing."""
-    force = foot.force.copy()
-    force[:, hot] = np.maximum(force[:, hot] - _in_swing(foot, _frames(rest.swing))[hot], 0.0)
+    force, air = room(*foot.force.shape), _in_swing(foot, _frames(rest.swing))[hot]
+    for rows in blocks_of_frames(foot.force):
+        force[rows] = foot.force[rows]
+        force[rows, hot] = np.maximum(force[rows, hot] - air, 0.0)
+        let_go(force)
     return replace(foot, force=force)

@@ -93,15 +93,16 @@ def _first_hump(force: NDArray[np.float64], least: float) -> int:
     """
     width = max(1, 2 * (len(force) // 60) + 1)  # 3 % of the stance: noise makes no hump
     even = np.convolve(np.pad(force, width // 2, mode="edge"), np.full(width, 1.0 / width), mode="valid")
-    top = 0
-    for i in range(1, len(even)):
-        if even[i] > even[top]:
-            top = i
-        elif even[i] < (1.0 - _DEPTH) * even[top]:
-            if even[top] >= least:
-                begin = max(0, top - width)
-                return begin + int(np.argmax(force[begin : top + width + 1]))
-            top = i
+    start = 0
+    while start < len(even):
+        falls = np.flatnonzero(even[start:] < (1.0 - _DEPTH) * np.maximum.accumulate(even[start:]))
+        if len(falls) == 0:
+            break
+        top = start + int(np.argmax(even[start : start + falls[0]]))
+        if even[top] >= least:
+            begin = max(0, top - width)
+            return begin + int(np.argmax(force[begin : top + width + 1]))
+        start += int(falls[0])
     return int(np.argmax(force))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.analysis.steps.events import Contact
+from plantar.recordings.let_go import LARGE, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["StepLoad", "StepLoads", "cell_threshold"]
@@ -47,9 +48,11 @@ class StepLoads:
 
     def __init__(self, recording: PressureRecording, foot: FootRecording, threshold: NDArray[np.float64]) -> None:
         self.recording, self.foot, self.threshold = recording, foot, threshold
+        self._read = 0
 
     def of(self, contact: Contact) -> StepLoad:
         """Forces and pressures of one contact."""
+        self._count(contact)
         span = slice(contact.begin, contact.end)
         time = self.recording.time[span]
         force = self.foot.force[span]
@@ -61,9 +64,17 @@ class StepLoads:
 
     def highest(self, contact: Contact) -> NDArray[np.float64]:
         """Largest force (k,) of each cell in one contact."""
+        self._count(contact)
         part = self.foot.force[contact.begin : contact.end]
         missing = np.isnan(part)
         return np.asarray((np.where(missing, 0.0, part) if missing.any() else part).max(axis=0))
+
+    def _count(self, contact: Contact) -> None:
+        """Let the contacts that were read before go, now and then."""
+        self._read += (contact.end - contact.begin) * self.foot.force.shape[1] * 8
+        if self._read > LARGE:
+            let_go(self.foot.force)
+            self._read = 0
 
 
 def _filled(time: NDArray[np.float64], force: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -97,6 +108,7 @@ def cell_threshold(
         air[contact.begin : contact.end] = False
     pairs = np.flatnonzero(air[:-1] & air[1:])[:NOISE_FRAMES]
     steps = np.abs(foot.force[pairs + 1] - foot.force[pairs])
+    let_go(foot.force)
     steps = steps[np.isfinite(steps).all(axis=1)]
     if len(steps) < 20:
         return np.full(k, base)

@@ -1,0 +1,46 @@
+"""Large tables of frames: what lies in a file behaves as what lies in memory."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar.recordings import let_go as module
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.let_go import blocks_of_frames, column_maxima, let_go, room, scale_frames
+
+
+@pytest.mark.parametrize("large", [0, 10**9])
+def test_a_table_keeps_its_numbers_wherever_it_lies(monkeypatch: pytest.MonkeyPatch, large: int) -> None:
+    """Growing, letting go, scaling and reading again; with a limit of 0 everything lies in a file."""
+    monkeypatch.setattr(module, "LARGE", large)
+    monkeypatch.setattr("plantar.recordings.frame_table.LARGE", large)
+    monkeypatch.setattr(module, "_BLOCK", 50)
+    truth = np.random.default_rng(0).normal(0.0, 1.0, (101, 7))
+    table = FrameTable(7, 3)
+    for begin in range(0, 101, 10):
+        table.add(truth[begin : begin + 10])
+    rows = table.rows
+    assert np.array_equal(rows, truth)
+    scale_frames(rows, np.arange(7.0))
+    let_go(rows)
+    assert np.array_equal(rows, truth * np.arange(7.0))
+    assert sum(part.stop - part.start for part in blocks_of_frames(rows)) == 101
+    rows[5, 3] = np.nan
+    assert column_maxima(rows) == pytest.approx(np.nanmax(np.vstack([rows, np.zeros(7)]), axis=0))
+
+
+@pytest.mark.skipif("not __import__('sys').platform.startswith('linux')", reason="reads /proc")
+def test_room_in_a_file_takes_no_memory() -> None:
+    table = room(50_000_000, 4)
+    table[::10_000_000] = 1.0
+    held = {
+        line.split(":")[0]: int(line.split()[1])
+        for line in Path("/proc/self/status").read_text().splitlines()
+        if line.startswith("VmRSS")
+    }
+    assert table[10_000_000].tolist() == [1.0] * 4
+    assert held["VmRSS"] < 1_200_000  # kB: of a table of 1.6 GB
+    assert room(2, 3).shape == (2, 3)
