@@ -22,7 +22,7 @@ LINES: list[tuple[str, str, tuple[str, ...], bool]] = [
     ("steps in place, 16 and 40 N s", "push-step", (), False),
     ("the same, ankles alone", "push-step", ("control.step_adjustment=false", "control.step_timing=false"), True),
     ("the same, felt by the skin", "push-step", ("control.push_estimate=skin",), True),
-    ("the same, felt by the soles", "push-step", ("control.push_estimate=soles",), True),
+    ("the same, push not estimated", "push-step", ("control.push_estimate=off",), True),
     ("at the shoulders", "push-height", (), False),
     ("at the CoM", "push-height", ("push.place=com",), False),
     ("at the hips", "push-height", ("push.place=hip",), False),

@@ -36,7 +36,7 @@ VARIANTS: dict[str, tuple[str, ...]] = {
     "as it is": (),
     "ankle only": ("control.step_adjustment=false", "control.step_timing=false"),
     "push felt by the skin": ("control.push_estimate=skin",),
-    "push felt by the soles": ("control.push_estimate=soles",),
+    "push not estimated": ("control.push_estimate=off",),
 }
 COLUMNS = ("impulse_Ns", "delivered_Ns", "fell", "first_held")
 
@@ -76,6 +76,7 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
         "push.small=0",
         "push.verdict=walk",
         "direction=angle",
+        "push.with_swing=false",
         "push.duration=0.1",
         f"walk.steps={STEPS}",
         f"walk.length={LENGTHS[cell.walk] * whole}",
@@ -111,6 +112,7 @@ def bounds(walk: str) -> dict[tuple[int, float], float]:
         longest=(1.0 + rules.longest) * single,
         double_support=double,
         swing_acceleration=rules.acceleration,
+        swing_sideways=rules.sideways,
         landing=rules.least_left,
         lasts=0.1,
         times=6,
@@ -212,23 +214,28 @@ def report() -> None:
     known = outcomes(rows)
     lines = ["| variant | walk | cells at 85 % of the bound | median share of the bound | joints that end it |"]
     lines.append("|---|---|---|---|---|")
-    figure, axes = new_figure(11.0, 5.5, 1, 2, subplot_kw={"projection": "polar"})
+    figure, axes = new_figure(11.0, 4.5, 1, 2)
     for variant in VARIANTS:
         for axis, walk in zip(axes, LENGTHS, strict=True):
             cells = [c for c in CELLS if (c.variant, c.walk) == (variant, walk) and c.name(goal(c)) in known]
             if not cells:
                 continue
-            shares = [survived(c, known)[0] / bounds(walk)[c.angle, c.phase] for c in cells]
+            # Where the goal was missed and nothing smaller was tried yet, nothing is known.
+            asked = [c for c in cells if survived(c, known)[0] > 0.0 or following(c, known) is None]
+            shares = [survived(c, known)[0] / bounds(walk)[c.angle, c.phase] for c in asked]
             reached = [known[c.name(goal(c))][0] for c in cells]
             held: dict[str, list[bool]] = {}
             for c in cells:
                 good, joint = known[c.name(goal(c))]
                 if not good and joint:
                     held.setdefault(joint, []).append(known.get(c.name(goal(c), joint), (False, ""))[0])
+            middle = f"{np.median(shares):.2f} of {len(asked)}" if asked else "-"
             told = ", ".join(f"{j}: {len(v)} (lifted {sum(v)})" for j, v in held.items()) or "-"
-            lines.append(f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {np.median(shares):.2f} | {told} |")
+            lines.append(f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {told} |")
             if variant == "as it is":
-                draw(axis, walk, {(c.angle, c.phase): s for c, s in zip(cells, shares, strict=True)})
+                missed = {(c.angle, c.phase) for c, good in zip(cells, reached, strict=True) if not good}
+                told_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
+                figure.colorbar(draw(axis, walk, told_shares, missed), ax=axis, shrink=0.8)
     save_figure(figure, FOLDER / "survival_map.png")
     commits = sorted({r["commit"] for r in rows})
     left = sum(1 for _ in missing())
@@ -236,20 +243,22 @@ def report() -> None:
     write_table(FOLDER / "survival_map.md", lines)
 
 
-def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float]) -> None:
-    """Draw one walk's map: direction around, phase outwards, colour by the share of the bound; goals have a dot."""
-    angles = np.radians(np.array([a - 22.5 for a in (*DIRECTIONS, 360)]))
+def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float], missed: set[tuple[int, float]]) -> Any:
+    """Draw one walk's map: direction across, phase upwards, colour by the share of the bound, an x where 85 % fail."""
     values = np.array([[shares.get((a, p), math.nan) for a in DIRECTIONS] for p in PHASES])
-    edges = 1.0 + np.arange(len(PHASES) + 1)
-    mesh = axis.pcolormesh(angles, edges, values, cmap="RdYlGn", vmin=0.0, vmax=1.2, edgecolors="white", linewidth=0.6)
-    axis.set_theta_zero_location("N")  # forward is up, left is to the left
-    axis.set_xticks(np.radians(DIRECTIONS), [f"{a} deg" for a in DIRECTIONS], fontsize=8)
-    axis.set_yticks([])
-    axis.set_title(f"{walk}: largest survived push over the bound\n(phase of the step grows outwards)", fontsize=9)
-    for (angle, phase), share in shares.items():
-        radius = 1.5 + PHASES.index(phase)
-        axis.text(math.radians(angle), radius, f"{share:.1f}", ha="center", va="center", fontsize=5.5)
-    axis.figure.colorbar(mesh, ax=axis, shrink=0.6)
+    mesh = axis.imshow(values, cmap="RdYlGn", vmin=0.0, vmax=1.2, origin="lower", aspect="auto")
+    axis.set_facecolor("#dddddd")
+    axis.set_xticks(range(len(DIRECTIONS)), [f"{a}" for a in DIRECTIONS], fontsize=8)
+    axis.set_yticks(range(len(PHASES)), [f"{p:g}" for p in PHASES], fontsize=8)
+    axis.set_xlabel("direction [deg], 0 forward, 90 left")
+    axis.set_ylabel("phase of the step, left foot swings")
+    axis.set_title(f"{walk}: largest survived push over the bound", fontsize=9)
+    for i, angle in enumerate(DIRECTIONS):
+        for j, phase in enumerate(PHASES):
+            share = shares.get((angle, phase))
+            words = ("" if share is None else f"{share:.2f}") + (" x" if (angle, phase) in missed else "")
+            axis.text(i, j, words, ha="center", va="center", fontsize=7)
+    return mesh
 
 
 if __name__ == "__main__":
