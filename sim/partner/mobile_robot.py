@@ -44,6 +44,7 @@ class MobileRobot:
         settings: Its settings.
         law: Its impedance controller, whose axis points at the robot.
         moved: How far in m it has truly come, towards the robot.
+        force: True force on its hand in N, towards the robot: negative where the robot pushes it away.
     """
 
     def __init__(self, settings: PartnerSettings, skin: BodySkin, body: BodyScale, height: float, seed: int) -> None:
@@ -54,6 +55,7 @@ class MobileRobot:
         self._start = math.nan
         self._place = self._axis = -1
         self.moved = 0.0
+        self.force = 0.0
         self._forces: list[float] = []
 
     def add_to(self, spec: Any) -> None:
@@ -133,6 +135,7 @@ class MobileRobot:
         """
         data, s = world.data, self.settings
         true = -float(skin.on_obstacles["partner_hand"][0])  # its axis points at the robot, against the world's x
+        self.force = true
         self._forces.append(true)
         self.moved = self._start - float(data.qpos[self._place])
         if data.time >= s.starts:

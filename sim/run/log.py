@@ -16,6 +16,8 @@ from plantar.sensing.reading import Reading
 from plantar.sides import SIDES
 from sim.model.contact_truth import GroundTruth
 from sim.model.world import World
+from sim.partner.mobile_robot import MobileRobot
+from sim.partner.touch import Touch
 
 __all__ = ["MOST_VERTICES", "RunLog"]
 
@@ -33,9 +35,18 @@ class RunLog:
         world: The world.
         metadata: What identifies the run.
         zmps: Whether the ZMPs of skin and ankles are recorded, too.
+        touch: Who touches the robot, and the skin that feels it; None for nobody.
     """
 
-    def __init__(self, path: Path, world: World, metadata: Mapping[str, object], *, zmps: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        world: World,
+        metadata: Mapping[str, object],
+        *,
+        zmps: bool = False,
+        touch: Touch | None = None,
+    ) -> None:
         k = len(world.servos)
         self._world = world
         self._recorder = Recorder(path, metadata, {s: world.robot.layouts[s] for s in SIDES})
@@ -54,6 +65,14 @@ class RunLog:
             "/foothold", [("step", 1), ("side", 1), ("area_ratio", 1), ("vrp", 2), ("polygon", 2 * MOST_VERTICES)]
         )
         self._zmps = channel("/zmp", [("skin", 2), ("force_torque", 2)]) if zmps else None
+        self._touch = touch
+        self._partner = None
+        if touch is not None:
+            self._touched = channel("/touch", [("force", 3), ("felt", 3)])
+            self._feet = channel("/feet", [(side, 3) for side in SIDES])
+            self._partner = next((p for p in touch.partners if isinstance(p, MobileRobot)), None)
+        if self._partner is not None:
+            self._partners = channel("/partner", [("moved", 1), ("reference", 1), ("force", 1)])
         self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
 
@@ -125,3 +144,19 @@ class RunLog:
         self._body.write(time, row)
         if command.footholds:
             self._footholds(time, command)
+        if self._touch is not None:
+            self._record_touch(self._touch, sensors, command)
+
+    def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
+        """Record the true force on the skin and the felt one, world frame, where feet shall be, and the partner."""
+        felt = np.full(3, np.nan)
+        if sensors.skin is not None:
+            skin, world = touch.sensor.skin, self._world
+            active = sensors.skin.force >= skin.thresholds
+            base = world.model.body_rootid[world.torso]
+            felt = world.data.xmat[base].reshape(3, 3) @ (sensors.skin.force[active] @ skin.normals[active])
+        self._touched.write(sensors.time, np.concatenate([touch.force, felt]))
+        self._feet.write(sensors.time, np.concatenate([command.feet[side].position for side in SIDES]))
+        if self._partner is not None:
+            row = np.array([self._partner.moved, self._partner.law.position, self._partner.force])
+            self._partners.write(sensors.time, row)

@@ -225,7 +225,8 @@ class Simulation:
         with ExitStack() as stack:
             log = film = None
             if record is not None:
-                log = stack.enter_context(RunLog(Path(record), self.world, self._identity(), zmps=bool(self.zmps)))
+                told, touch = self._identity(), self.touch
+                log = stack.enter_context(RunLog(Path(record), self.world, told, zmps=bool(self.zmps), touch=touch))
             if video is not None:
                 film = stack.enter_context(Film(video, self.world))
             result = self._loop(log, film, progress)
