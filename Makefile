@@ -13,13 +13,14 @@ PYTEST_OPTIONS ?= -n logical --dist loadfile --no-loadscope-reorder
 KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*.pxd)
 BUILT := $(VENV)/.kernels
 
-.PHONY: help setup demo test test-all bench lint format clean
+.PHONY: help setup demo test test-all bench docs lint format clean
 
 help:
 	@echo "make demo      build the H1 shoe, walk on plantar feedback, analyse the recording (into $(OUT)/)"
 	@echo "make test      run the tests, without the long ones"
 	@echo "make test-all  run every test"
 	@echo "make bench     measure run time against error (into $(OUT)/bench/)"
+	@echo "make docs      build the site (into $(OUT)/site/)"
 	@echo "make lint      ruff, mypy and the layering test"
 	@echo "make format    let ruff format the code"
 	@echo "make setup     only create .venv (about 2.5 GB: cadquery brings VTK)"
@@ -38,6 +39,11 @@ test-all: $(BUILT)
 
 bench: $(BUILT)
 	$(PLANTAR) bench all -o $(OUT)/bench
+
+docs: $(BUILT)
+	@$(PYTHON_IN_VENV) -m pip install --quiet --editable '.[docs]' --no-build-isolation
+	$(PYTHON_IN_VENV) tools/docs_pages.py
+	$(PYTHON_IN_VENV) -m mkdocs build --strict
 
 lint: $(BUILT)
 	$(PYTHON_IN_VENV) -m ruff check .

@@ -1,0 +1,84 @@
+"""The pages of the site: what they show runs from nothing to its end, and all of them can be gathered."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [ROOT / "docs" / "start.md", *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
+QUICK = {"sensor", "task"}
+"""Pages that take a second; the others walk, build or analyse, and run with the long tests."""
+BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def follow(page: Path, folder: Path) -> None:
+    """Do what a page says, in a folder, in its order."""
+    scripts = Path(sys.executable).parent
+    env = os.environ | {"PATH": f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}"}
+    names: dict[str, object] = {"__name__": "page"}
+    for language, text in BLOCK.findall(page.read_text(encoding="utf-8")):
+        if language == "python":
+            exec(compile(text, str(page), "exec"), names)
+            continue
+        for line in text.splitlines():
+            if line.startswith("plantar "):
+                done = subprocess.run(
+                    shlex.split(line, comments=True), cwd=folder, env=env, capture_output=True, text=True
+                )
+                expected = 1 if "# exit code 1" in line else 0
+                assert done.returncode == expected, f"{line}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+
+
+@pytest.mark.parametrize(
+    "page", [pytest.param(p, id=p.stem, marks=[] if p.stem in QUICK else [pytest.mark.long]) for p in PAGES]
+)
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_a_newcomer_comes_to_the_end_of_a_page(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    follow(page, tmp_path)
+
+
+@pytest.fixture(scope="module")
+def docs_pages() -> ModuleType:
+    """The script that gathers the pages."""
+    spec = importlib.util.spec_from_file_location("docs_pages", ROOT / "tools" / "docs_pages.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_site_has_every_page_and_names_no_other(
+    docs_pages: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    yaml = pytest.importorskip("yaml")
+    monkeypatch.setattr(docs_pages, "PAGES", tmp_path / "pages")
+    docs_pages.main()
+    nav = yaml.safe_load((ROOT / "mkdocs.yml").read_text())["nav"]
+    named = set(re.findall(r"[\w./-]+\.md", str(nav)))
+    made = {p.relative_to(tmp_path / "pages").as_posix() for p in (tmp_path / "pages").rglob("*.md")}
+    assert named <= made
+    assert {m for m in made - named if not m.startswith(("api/", "benchmarks/", "examples/"))} == set()
+    settings = (tmp_path / "pages" / "settings.md").read_text(encoding="utf-8")
+    assert settings.count("\n| `") > 500
+    assert "70.02 N = 0.083 weight" in settings.replace("`", "")
+    for page in (tmp_path / "pages").rglob("*.md"):
+        text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        links = [t for t in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text) if "://" not in t]
+        assert [t for t in links if not (page.parent / t).exists()] == [], page
+
+
+def test_every_error_is_explained(docs_pages: ModuleType) -> None:
+    from plantar import errors
+
+    assert set(docs_pages.WHAT_TO_DO) == set(errors.__all__)

@@ -1,0 +1,17 @@
+"""For mkdocstrings: docstrings say "Example:", which griffe knows as "Examples:"."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import griffe
+
+
+class Examples(griffe.Extension):
+    """Lets the examples of docstrings be drawn as code."""
+
+    def on_object(self, *, obj: Any, **_: Any) -> None:
+        """Rename the section of one object's docstring."""
+        if obj.docstring is not None:
+            obj.docstring.value = re.sub(r"^Example:$", "Examples:", obj.docstring.value, flags=re.MULTILINE)

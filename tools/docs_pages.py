@@ -1,0 +1,213 @@
+"""Gather the pages of the site in out/pages: those of docs/ and examples/, and generated ones.
+
+    python tools/docs_pages.py
+
+Generated are the settings with units and ranges, the errors, and a page of the API for each room of a package. Links to
+files that are no pages of the site become their names.
+"""
+
+from __future__ import annotations
+
+import ast
+import html
+import os
+import re
+import shutil
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = ROOT / "out" / "pages"
+PACKAGES = ("plantar", "shoes", "gait", "wholebody", "sim")
+HIDDEN = {"plantar.bench", "plantar.kernels"}
+"""Rooms that are no interface: measurements, and what is called through `plantar.geometry` and `plantar.percepts`."""
+
+LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)((?:#[^)]*)?)\)")
+
+
+def main() -> None:
+    """Write all pages anew."""
+    shutil.rmtree(PAGES, ignore_errors=True)
+    shutil.copytree(ROOT / "docs", PAGES)
+    for folder in ("examples", "benchmarks"):
+        (PAGES / folder).mkdir()
+        for page in (ROOT / folder).glob("*.md"):
+            shutil.copy(page, PAGES / folder / page.name)
+    shutil.copy(ROOT / "CHANGELOG.md", PAGES / "changelog.md")
+    for example in sorted((ROOT / "examples").glob("*.py")):
+        code = example.read_text(encoding="utf-8")
+        (PAGES / "examples" / f"{example.stem}.md").write_text(f"# {example.stem}\n\n```python\n{code}```\n")
+    (PAGES / "settings.md").write_text(settings_page(), encoding="utf-8")
+    (PAGES / "errors.md").write_text(errors_page(), encoding="utf-8")
+    (PAGES / "benchmarks.md").write_text(benchmarks_page(), encoding="utf-8")
+    write_api()
+    for page in PAGES.rglob("*.md"):
+        page.write_text(linked(page), encoding="utf-8")
+
+
+def linked(page: Path) -> str:
+    """A page's text, its links leading to pages of the site."""
+
+    def target(match: re.Match[str]) -> str:
+        picture, text, path, anchor = match.groups()
+        if "://" in path or path.startswith("mailto:"):
+            return match[0]
+        place = Path(os.path.normpath(page.parent / path))
+        known = place if place.exists() else PAGES / Path(os.path.normpath(_origin(page).parent / path)).name
+        inside = _of_the_site(page, path)
+        if inside is not None:
+            return f"{picture}[{text}]({inside}{anchor})"
+        return match[0] if known.exists() and known.is_relative_to(PAGES) else f"{picture}{text}"
+
+    parts = re.split(r"(^```.*?^```$)", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return "".join(part if part.startswith("```") else LINK.sub(target, part) for part in parts)
+
+
+def _origin(page: Path) -> Path:
+    """The file of the repository that a page was made of."""
+    relative = page.relative_to(PAGES)
+    if relative.parts[0] in ("examples", "benchmarks"):
+        return ROOT / relative
+    return ROOT / "CHANGELOG.md" if relative.name == "changelog.md" else ROOT / "docs" / relative
+
+
+def _of_the_site(page: Path, path: str) -> str | None:
+    """Where a link to a file of the repository leads on the site, from a page; None where the site lacks it."""
+    file = Path(os.path.normpath(_origin(page).parent / path))
+    if not file.is_relative_to(ROOT):
+        return None
+    inside = file.relative_to(ROOT)
+    if inside.parts[:1] == ("docs",):
+        place = PAGES.joinpath(*inside.parts[1:])
+    elif inside.parts[:1] == ("examples",) and inside.suffix == ".py":
+        place = PAGES / inside.with_suffix(".md")
+    elif inside.name == "CHANGELOG.md":
+        place = PAGES / "changelog.md"
+    else:
+        place = PAGES / inside
+    return os.path.relpath(place, page.parent) if place.is_file() else None
+
+
+def settings_page() -> str:
+    """Every setting with default, unit and range."""
+    from plantar.settings.setting_text import setting_rows
+    from sim.run.setting_list import settings_of_robot
+
+    rows = setting_rows(settings_of_robot(None, None))
+    tables: dict[str, list[str]] = {}
+    for row in rows:
+        table, _, name = row["name"].rpartition(".")
+        default = f"`{row['default']}` {row['unit']}".strip() + (f" = {row['share']}" if row["share"] else "")
+        cells = (f"`{name}`", default, row["allowed"], row["meaning"])
+        tables.setdefault(table or "scene", []).append("| " + " | ".join(_cell(c) for c in cells) + " |")
+    text = [
+        "# Settings",
+        "",
+        f"All {len(rows)} keys of a scene, as `plantar list settings` tells them, with the numbers of H1. A default "
+        "that grows with the robot is shown with its share. `--set TABLE.NAME=VALUE` changes one for a run, `--grid` "
+        "sweeps it; in a scene file each heading is a table.",
+    ]
+    for table, lines in tables.items():
+        text += ["", f"## {table}", "", "| name | default | allowed | meaning |", "|---|---|---|---|", *lines]
+    return "\n".join(text) + "\n"
+
+
+def _cell(text: str) -> str:
+    """A text that does not end its cell of a table."""
+    return html.escape(text, quote=False).replace("|", "\\|").replace("\n", " ")
+
+
+WHAT_TO_DO = {
+    "PlantarError": "Catch this one to catch all.",
+    "InputError": "The message names the argument and what is allowed; `plantar COMMAND --help` shows examples.",
+    "LayoutError": "The message names the field of the layout file. Positions in m, cells as corners in order.",
+    "ReadingError": "Give one value a taxel, in the order of the layout; NaN for a taxel that gave none.",
+    "RecordingError": "Check folder, space and rights; a recording that was cut off is read up to there.",
+    "FormatError": "`--format` names it; `--unit`, `--rate`, `--side`, `--layout` say what the file does not.",
+    "FootError": "`--unit`, `--up`, `--forward` and `--sole-z` say what the geometry leaves open.",
+    "RobotError": "`plantar robot check ROBOT.toml` measures what would go wrong, and which value works.",
+    "SceneError": "The nearest key is named; `plantar list settings` tells all with their ranges.",
+    "WorkerError": "What was run is kept: give the same command again when the workers are back.",
+    "DependencyError": "The message holds the `pip install` line; `plantar doctor` shows all at once.",
+}
+"""What a user does about each error."""
+
+
+def errors_page() -> str:
+    """Every error, what it means and what to do."""
+    tree = ast.parse((ROOT / "plantar" / "errors.py").read_text(encoding="utf-8"))
+    classes = [node for node in tree.body if isinstance(node, ast.ClassDef)]
+    text = [
+        "# Errors and what to do",
+        "",
+        "Every error that Plantar raises on purpose is one line: what is wrong, and what is allowed. The command line "
+        "prints it and ends with exit code 2, and leaves nothing behind. Anything else is a bug: please report it.",
+        "",
+        "| error | means | what to do |",
+        "|---|---|---|",
+    ]
+    for node in classes:
+        meaning = (ast.get_docstring(node) or "").splitlines()[0]
+        text.append(f"| `{node.name}` | {meaning} | {WHAT_TO_DO[node.name]} |")
+    return "\n".join(text) + "\n"
+
+
+def benchmarks_page() -> str:
+    """A list of what was counted and measured."""
+    lines = []
+    for page in sorted((ROOT / "benchmarks").glob("*.md")):
+        title = page.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
+        lines.append(f"- [{title}](benchmarks/{page.name})")
+    head = "# Benchmarks\n\nWhat was counted over seeds that nothing was tuned on, and what was measured.\n\n"
+    return head + "\n".join(lines) + "\n"
+
+
+def write_api() -> None:
+    """A page for each room of each package, and their list."""
+    (PAGES / "api").mkdir()
+    index = ["# API", "", "A package is laid out by question, one folder (a room) or one file each.", ""]
+    for package in PACKAGES:
+        index += [f"## {package}", "", "| room | what it is |", "|---|---|"]
+        for path in sorted((ROOT / package).iterdir()):
+            room = f"{package}.{path.stem}"
+            if room in HIDDEN or path.name.startswith("_") or not (path.is_dir() or path.suffix == ".py"):
+                continue
+            modules = _modules(path, room)
+            if not modules:
+                continue
+            first = _summary(path / "__init__.py" if path.is_dir() else path)
+            index.append(f"| [{room}]({room}.md) | {_cell(first)} |")
+            (PAGES / "api" / f"{room}.md").write_text(_api_page(room, modules), encoding="utf-8")
+        index.append("")
+    (PAGES / "api" / "index.md").write_text("\n".join(index), encoding="utf-8")
+
+
+def _modules(path: Path, room: str) -> list[str]:
+    """Modules of a room that have public names of their own."""
+    if path.suffix == ".py":
+        return [room]
+    found = []
+    for file in sorted(path.rglob("*.py")):
+        inside = file.relative_to(path).with_suffix("")
+        if not any(part.startswith("_") for part in inside.parts):
+            found.append(".".join([room, *inside.parts]))
+    return found
+
+
+def _summary(file: Path) -> str:
+    """First line of a module's docstring."""
+    told = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) if file.exists() else None
+    return (told or "").split("\n")[0]
+
+
+def _api_page(room: str, modules: list[str]) -> str:
+    """The page of a room: its modules one after the other, by their docstrings."""
+    parts = [f"# {room}", ""]
+    for module in modules:
+        parts += [f"## {module}", "", f"::: {module}", "    options:", "      heading_level: 3", ""]
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+    main()
