@@ -25,6 +25,7 @@ FACES = {"front": (1.0, 0.0), "back": (-1.0, 0.0), "left": (0.0, 1.0), "right": 
 _CELL = 691e-6 / 0.6**2  # leg^2: area of a taxel
 _RANGE = 1 / 12  # leg: how far a taxel sees, as those of a sole do
 _THRESHOLD = 0.15 / 843.0  # weight: force from which a taxel is active, 0.15 N for H1
+_SIGNS = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
 _SMALLEST = 0.05  # leg: least edge of the box
 
 
@@ -77,14 +78,21 @@ def upper_body_skin(model: Any, base: int, *, leg: float, weight: float) -> Body
 
 
 def _extent(model: Any, base: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lowest and highest coordinates (3,) in the base frame of all shapes that are welded to the base."""
+    """Lowest and highest coordinates (3,) in the base frame of all shapes that are welded to the base.
+
+    A model without shapes there, as those that `plantar robot` keeps of a robot's file, counts with the boxes that have
+    the links' masses and inertias.
+    """
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     turn, origin = data.xmat[base].reshape(3, 3), data.xpos[base]
     welded = model.body_weldid[model.geom_bodyid] == model.body_weldid[base]
     points = [_corners(model, data, g) for g in np.flatnonzero(welded).tolist()]
     if not points:
-        raise RobotError(f"the upper body on '{model.body(base).name}' has no shapes, so nothing carries skin")
+        links = np.flatnonzero((model.body_weldid == model.body_weldid[base]) & (model.body_mass > 0.0))
+        points = [_inertial_box(model, data, b) for b in links.tolist()]
+    if not points:
+        raise RobotError(f"the upper body on '{model.body(base).name}' has neither shapes nor mass to carry skin")
     local = (np.vstack(points) - origin) @ turn
     return local.min(axis=0), local.max(axis=0)
 
@@ -98,6 +106,12 @@ def _corners(model: Any, data: Any, geom: int) -> NDArray[np.float64]:
         local = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])].astype(float)
     else:
         box = model.geom_aabb[geom]
-        signs = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
-        local = box[:3] + signs * box[3:]
+        local = box[:3] + _SIGNS * box[3:]
     return np.asarray(local @ rotation.T + place)
+
+
+def _inertial_box(model: Any, data: Any, body: int) -> NDArray[np.float64]:
+    """Corners (8, 3) in the world of the solid box with the mass and inertia of a link."""
+    inertia, mass = model.body_inertia[body], float(model.body_mass[body])
+    half = np.sqrt(np.maximum(1.5 / mass * (inertia.sum() - 2.0 * inertia), 0.0))
+    return np.asarray(_SIGNS * half @ data.ximat[body].reshape(3, 3).T + data.xipos[body])

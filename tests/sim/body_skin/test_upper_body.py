@@ -67,3 +67,18 @@ def test_a_body_without_extent_is_refused() -> None:
     )
     with pytest.raises(RobotError, match="'stick' measures"):
         upper_body_skin(model, 1, leg=0.6, weight=10.0)
+
+
+def test_links_without_shapes_count_with_the_boxes_of_their_inertias() -> None:
+    edges = np.array([0.2, 0.3, 0.4])
+    inertia = 8.0 / 12.0 * (edges @ edges - edges**2)
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><body name="trunk" euler="0 0 40"><freejoint/>
+        <inertial pos="0 0 .1" mass="8" diaginertia="{inertia[0]} {inertia[1]} {inertia[2]}"/>
+        <body><joint name="hip"/><geom size=".5"/></body></body></worldbody></mujoco>"""
+    )
+    skin = upper_body_skin(model, 1, leg=0.6, weight=80.0)
+    faces = [skin.positions[skin.slices[name]] for name in ("front", "left")]
+    assert faces[0][:, 0] == pytest.approx(0.1)
+    assert faces[1][:, 1] == pytest.approx(0.15)
+    assert -0.1 <= skin.positions[:, 2].min() < skin.positions[:, 2].max() <= 0.3
