@@ -41,11 +41,9 @@ def box_plan(
         [('left', 0.05, 0.085), ('right', 0.05, -0.135), ('left', 0.05, 0.035)]
     """
     if steps % STEPS_A_ROUND:
-        raise InputError(
-            f"a box step has {STEPS_A_ROUND} steps a round, not {steps} steps in all; allowed: whole rounds"
-        )
+        raise InputError(f"steps is {steps}; allowed: whole rounds of {STEPS_A_ROUND} steps")
     if not 0.0 < stride < math.inf:
-        raise InputError(f"the stride of a box step is {stride} m; allowed: a finite number above 0")
+        raise InputError(f"length is {stride} m; allowed: a finite number above 0 as the side of a box")
     feet, _ = straight_plan(0, width=width, height=height)
     away = -1.0 if first == "left" else 1.0
     plan: list[Footstep] = []
