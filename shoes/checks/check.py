@@ -15,10 +15,12 @@ from plantar.optional_library import optional_library
 from shoes.build import Shoe, ShoeBuild
 from shoes.checks.mounting import Mounting, check_mounting
 from shoes.checks.printability import Printing, choose_direction, print_hours
+from shoes.checks.weights import Weights, weigh
 from shoes.geometry.outline import ring
 from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
 from shoes.plan.load_share import LoadShare
+from shoes.plan.pull_off import PullOff
 from shoes.plan.shoe_plan import ShoePlan
 from shoes.plan.strength import LoadCase, Member, check_strength
 from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
@@ -67,6 +69,8 @@ class ShoeCheck:
         load: The load case.
         members: Stresses under it.
         load_share: Share of the load that the taxels carry.
+        weights: Masses in g.
+        pull_off: How firmly it is held; None where nothing holds it, as asked for.
         checks: The single checks.
     """
 
@@ -83,6 +87,8 @@ class ShoeCheck:
     load: LoadCase
     members: tuple[Member, ...]
     load_share: LoadShare
+    weights: Weights
+    pull_off: PullOff | None
     checks: tuple[Check, ...]
 
     @property
@@ -117,6 +123,9 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p)
     load, members = check_strength(build.foot, build.shoes[0].plan.contact if shoe.side == "left" else _left(shoe), p)
     share = build.load_share
+    weights = weigh(shoe, build, volume)
+    retention = build.retention
+    held = retention.pull_off(build.foot, 1e-3 * weights.total, load.mass, p) if retention.places else None
     reach = _reach(shoe.plan, surface)
     checks = (
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
@@ -124,6 +133,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         *_layout_checks(shoe, p, step),
         *_mounting_checks(mounting, reach, shoe.plan.overhang, build),
         *_share_checks(share),
+        *(() if held is None else _holding_checks(held)),
         *_strength_checks(load, members, build, len(shoe.layout)),
         *_printing_checks(printing[0], shoe.plan, p),
     )
@@ -142,6 +152,8 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         load=load,
         members=members,
         load_share=share,
+        weights=weights,
+        pull_off=held,
         checks=checks,
     )
 
@@ -198,6 +210,18 @@ def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuil
     yield Check("overhang, mm", overhang <= p.overhang_max + 1e-2, round(overhang, 2), allowed)
     allowed = f"{p.reach_max:g} or less"
     yield Check("reach of lugs, clips and holder, mm", reach <= p.reach_max + 1e-2, round(reach, 2), allowed)
+
+
+def _holding_checks(held: PullOff) -> Iterator[Check]:
+    enough = held.force >= held.swing
+    yield Check("force that pulls the shoe off, N", enough, round(held.force, 1), f"{held.swing:.1f} or more (5 g)")
+    enough = held.moment >= held.scuff
+    yield Check(
+        "moment that holds the shoe in a scuff at the toe, N m",
+        enough,
+        round(held.moment, 2),
+        f"{held.scuff:.2f} or more",
+    )
 
 
 def _share_checks(share: LoadShare) -> Iterator[Check]:

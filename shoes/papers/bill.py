@@ -10,35 +10,10 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from shoes.build import Shoe, ShoeBuild
-from shoes.solid.pad import pad_surface, volume_of
+from shoes.checks.weights import BOARD_UP, Weights
 from shoes.units import to_mm
 
-__all__ = ["Part", "Weights", "bill_of_parts", "bill_text", "weigh"]
-
-_BOARD_DENSITY = 1.85e-3  # g/mm^3, glass fibre and copper
-_BOARD_UP = 12.0  # mm of board above the shelf
-
-
-@dataclass(frozen=True)
-class Weights:
-    """What one shoe weighs, in g.
-
-    Attributes:
-        printed: The printed part.
-        pad: The silicone pad.
-        skin: The taxels: their area times protrusion and pocket depth at the parameter skin_density.
-        board: The connection board.
-    """
-
-    printed: float
-    pad: float
-    skin: float
-    board: float
-
-    @property
-    def total(self) -> float:
-        """All together."""
-        return self.printed + self.pad + self.skin + self.board
+__all__ = ["Part", "bill_of_parts", "bill_text"]
 
 
 @dataclass(frozen=True)
@@ -60,29 +35,6 @@ class Part:
     size: str
     mass_g: float | None
     note: str
-
-
-def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
-    """Weigh a shoe.
-
-    Args:
-        shoe: The shoe.
-        build: What it belongs to.
-        volume: Volume of the printed part in mm^3.
-
-    Returns:
-        The masses.
-    """
-    p = build.parameters
-    cells = float(shoe.layout.areas.sum()) * 1e6
-    pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
-    board = p.board_length * _BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
-    return Weights(
-        printed=round(volume / 1000.0 * p.printed.density, 2),
-        pad=round(pad / 1000.0 * p.pad_density, 2),
-        skin=round(cells * (p.taxel_protrusion + p.pocket_depth) / 1000.0 * p.skin_density, 2),
-        board=round(board, 2),
-    )
 
 
 def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
@@ -119,7 +71,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
         Part("taxel", len(shoe.layout), "skin", f"{build.fit.cell_area:g} mm2 x {height:g} mm", weights.skin, note)
     )
     if plan.heel.board:
-        size = f"{p.board_length:g} x {_BOARD_UP:g} x {p.board_thickness:g} mm"
+        size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
     parts.append(
         Part(

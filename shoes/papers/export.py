@@ -17,12 +17,14 @@ from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from shoes.build import Progress, Shoe, ShoeBuild
 from shoes.checks.check import ShoeCheck, check_shoe
-from shoes.papers.bill import Part, Weights, bill_of_parts, bill_text, weigh
+from shoes.checks.weights import Weights
+from shoes.papers.bill import Part, bill_of_parts, bill_text
 from shoes.papers.drawing import draw_shoe
-from shoes.papers.package_3mf import write_3mf
+from shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
 from shoes.papers.picture import draw_picture
 from shoes.papers.stl import read_stl, write_stl
-from shoes.solid.pad import pad_surface
+from shoes.papers.wiring_list import cells_dxf, wiring_text
+from shoes.solid.pad import pad_surface, taxel_surfaces
 from shoes.solid.tray import read_step, write_step
 from shoes.units import to_m
 
@@ -166,8 +168,9 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
             surface, step, names = _write_solids(shoe, build, target)
             tell((i + 0.4) / count, f"checking the {side} shoe")
             checks[side] = check_shoe(shoe, build, surface=surface, step=step)
-            weights[side] = weigh(shoe, build, 1000.0 * checks[side].volume_cm3)
+            weights[side] = checks[side].weights
             bills[side] = bill_of_parts(shoe, build, weights[side])
+            names += _write_for_wiring(shoe, build, target)
             tell((i + 0.6) / count, f"drawing the {side} shoe")
             names += _draw(shoe, build, surface, target)
             files += names
@@ -175,7 +178,8 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         files.append(layout.name)
     if checks:
         write_text(target / "parts.csv", bill_text(bills))
-        files += ["parts.csv", "check.json"]
+        write_text(target / "wiring.csv", wiring_text(build.shoes))
+        files += ["parts.csv", "wiring.csv", "check.json"]
     report = ShoeReport(build, checks, tuple(files), weights, bills)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")
@@ -198,6 +202,26 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
     return read_stl(target / names[0]), read_step(str(target / names[1])), names
+
+
+def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
+    """Write the outlines of the cells, and the assembly with its parts by name; gives the files' names."""
+    assert shoe.surface is not None
+    side, p = shoe.side, build.parameters
+    names = [f"cells_{side}.dxf", f"assembly_{side}.3mf"]
+    bodies = [
+        NamedBody(f"shoe {side}", p.material, "#4C72B0", shoe.surface),
+        *(
+            NamedBody(f"taxel {k}", "skin", "#55A868", surface)
+            for k, surface in zip(shoe.layout.ids.tolist(), taxel_surfaces(shoe.plan, p), strict=True)
+        ),
+    ]
+    if p.pad_thickness > 0.0:
+        rubber = f"rubber of {p.pad_hardness:g} Shore A"
+        bodies.append(NamedBody("pad", rubber, "#333333", pad_surface(shoe.plan, p)))
+    write_text(target / names[0], cells_dxf(shoe, build))
+    write_assembly(bodies, f"{shoe.layout.name} {side}", target / names[1])
+    return names
 
 
 def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Path) -> list[str]:

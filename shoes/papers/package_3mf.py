@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 import zipfile
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["write_3mf"]
+__all__ = ["NamedBody", "write_3mf", "write_assembly"]
 
 _TYPES = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'
@@ -26,6 +28,23 @@ _RELATIONS = (
 _DATE = (2000, 1, 1, 0, 0, 0)  # the same input gives the same bytes
 
 
+@dataclass(frozen=True)
+class NamedBody:
+    """A body of an assembly.
+
+    Attributes:
+        name: Its name.
+        material: What it is made of.
+        colour: How it is shown, "#RRGGBB".
+        triangles: Closed surface (n, 3, 3) in mm, outward counter-clockwise.
+    """
+
+    name: str
+    material: str
+    colour: str
+    triangles: NDArray[np.float64]
+
+
 def write_3mf(triangles: NDArray[np.float64], name: str, path: str | os.PathLike[str]) -> Path:
     """Write a surface as a 3MF package with the unit millimetre.
 
@@ -37,27 +56,66 @@ def write_3mf(triangles: NDArray[np.float64], name: str, path: str | os.PathLike
     Returns:
         The path.
     """
+    title = _plain(name)
+    return _write(f'{_object(1, title, triangles)}</resources><build><item objectid="1"/></build></model>', title, path)
+
+
+def write_assembly(bodies: Sequence[NamedBody], name: str, path: str | os.PathLike[str]) -> Path:
+    """Write several bodies, each with its name and material, as one assembly in a 3MF package.
+
+    Args:
+        bodies: The bodies, in their places; one or more.
+        name: Name of the assembly.
+        path: File to write.
+
+    Returns:
+        The path.
+    """
+    title, first = _plain(name), 2
+    kinds = dict.fromkeys((b.material, b.colour) for b in bodies)
+    bases = "".join(f'<base name="{_plain(m)}" displaycolor="{c}"/>' for m, c in kinds)
+    place = {kind: i for i, kind in enumerate(kinds)}
+    objects = "".join(
+        _object(first + i, _plain(b.name), b.triangles, f' pid="1" pindex="{place[b.material, b.colour]}"')
+        for i, b in enumerate(bodies)
+    )
+    whole = first + len(bodies)
+    parts = "".join(f'<component objectid="{first + i}"/>' for i in range(len(bodies)))
+    return _write(
+        f'<basematerials id="1">{bases}</basematerials>{objects}'
+        f'<object id="{whole}" name="{title}" type="model"><components>{parts}</components></object>'
+        f'</resources><build><item objectid="{whole}"/></build></model>',
+        title,
+        path,
+    )
+
+
+def _plain(name: str) -> str:
+    return "".join(c if c.isalnum() or c in " -_." else " " for c in name)
+
+
+def _object(number: int, title: str, triangles: NDArray[np.float64], attributes: str = "") -> str:
+    """A mesh as an element of a model; triangles without an area are left out."""
     vertices, index = np.unique(np.round(triangles.reshape(-1, 3), 5) + 0.0, axis=0, return_inverse=True)
     faces = index.reshape(-1, 3)
     faces = faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
-    title = "".join(c if c.isalnum() or c in " -_." else " " for c in name)
-    model = [
+    corners = "".join(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in vertices.round(5))
+    sides = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in faces)
+    return (
+        f'<object id="{number}" name="{title}" type="model"{attributes}><mesh><vertices>{corners}</vertices>'
+        f"<triangles>{sides}</triangles></mesh></object>"
+    )
+
+
+def _write(resources: str, title: str, path: str | os.PathLike[str]) -> Path:
+    model = (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">'
-        f'<metadata name="Title">{title}</metadata><resources><object id="1" name="{title}" type="model">',
-        "<mesh><vertices>",
-        *(f'<vertex x="{x:.9g}" y="{y:.9g}" z="{z:.9g}"/>' for x, y, z in vertices.round(5)),
-        "</vertices><triangles>",
-        *(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in faces),
-        '</triangles></mesh></object></resources><build><item objectid="1"/></build></model>',
-    ]
+        f'<metadata name="Title">{title}</metadata><resources>{resources}'
+    )
     file = Path(path)
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as package:
-        for inside, text in (
-            ("[Content_Types].xml", _TYPES),
-            ("_rels/.rels", _RELATIONS),
-            ("3D/3dmodel.model", "".join(model)),
-        ):
+        for inside, text in (("[Content_Types].xml", _TYPES), ("_rels/.rels", _RELATIONS), ("3D/3dmodel.model", model)):
             entry = zipfile.ZipInfo(inside, _DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
             package.writestr(entry, text)

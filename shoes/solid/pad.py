@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from shoes.geometry.outline import GRID
+from shoes.geometry.outline import GRID, ring
 from shoes.parameters import ShoeParameters
 from shoes.plan.pad_outline import pad_rim
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["pad_surface", "volume_of"]
+__all__ = ["pad_surface", "taxel_surfaces", "volume_of"]
 
 Array = NDArray[np.float64]
 
@@ -56,6 +56,36 @@ def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
                 wall = np.array([[*a, z], [*b, z], [*b, up], [*a, up]])
                 parts.append(wall[[[0, 1, 2], [0, 2, 3]]])
     return np.concatenate(parts)
+
+
+def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
+    """Surface of each taxel: a head below the print, a base in the pocket; both closed.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Surfaces (n, 3, 3) in mm, outward counter-clockwise, in the order of the cells.
+    """
+    p = parameters
+    bases = [_prism(q, p.bottom, p.ceiling) for q in plan.pockets]
+    if p.taxel_protrusion <= 0.0:
+        return bases
+    return [np.concatenate([_prism(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)]
+
+
+def _prism(polygon: Any, low: float, high: float) -> Array:
+    """Closed surface of a polygon without holes between two heights."""
+    flat = _triangles(polygon)
+    a = ring(polygon)
+    b = np.roll(a, -1, axis=0)
+
+    def at(points: Array, z: float) -> Array:
+        return np.column_stack([points, np.full(len(points), z)])
+
+    walls = [(at(a, low), at(b, low), at(b, high)), (at(a, low), at(b, high), at(a, high))]
+    return np.concatenate([_at(flat, low)[:, ::-1], _at(flat, high), *(np.stack(w, axis=1) for w in walls)])
 
 
 def _triangles(face: Any) -> Array:

@@ -13,6 +13,7 @@ from shoes.foot.foot import Foot
 from shoes.geometry.outline import grown, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step, box_block
+from shoes.plan.pull_off import PullOff, clip_force, needed_force, pull_off
 from shoes.plan.shoe_plan import ShoePlan
 
 __all__ = ["Retention", "choose_retention", "retention_steps"]
@@ -23,6 +24,7 @@ _SLOT_PLAY = 2.0  # mm of slot more than the strap, along and up
 _ARM_GAP = 1.2  # mm between a clip's arm and the wall beside it
 _LEAST_ARM = 8.0  # mm: a shorter arm is too stiff
 _ROOT = 6.0  # mm of an arm's root within the plate
+_HEAVY = 1.4e-6  # kg/mm^3: worn mass over contact face and thickness, wall and skin counted
 _PLAY = 0.2  # mm between a clip's hook and the foot's edge
 
 
@@ -66,6 +68,21 @@ class Retention:
         if self.kind == "clips":
             return max(place.edge for place in self.places) + _hook_height(p)
         return p.rim_height
+
+    def pull_off(self, foot: Foot, worn: float, mass: float, parameters: ShoeParameters) -> PullOff:
+        """How firmly it holds.
+
+        Args:
+            foot: The left foot.
+            worn: Worn mass of the shoe in kg.
+            mass: Mass of the robot in kg.
+            parameters: Dimensions as used.
+
+        Returns:
+            Forces and moments.
+        """
+        arms = tuple((q.x, q.edge + 0.5 * _hook_height(parameters)) for q in self.places)
+        return pull_off(self.kind, arms, self.width, foot.sole.bounds[0], worn, mass, parameters)
 
 
 def choose_retention(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> Retention:
@@ -135,6 +152,10 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
                 return None, f"the foot's upper edge lies {edge:.0f} mm high, too low for an arm that bends"
             strain = max(strain, 1.5 * p.clip_thickness * p.clip_hook / arm**2)
             places.append(_Place(round(x, 3), side, round(edge, 3)))
+    hold = sum(clip_force(q.edge + 0.5 * _hook_height(p), p) for q in places)
+    needed = needed_force(_HEAVY * plan.contact.area * p.thickness)
+    if hold < needed:
+        return None, f"four clips would hold {hold:.0f} N, 5 g on the shoe in swing are {needed:.0f} N"
     if strain > p.printed.strain:
         return None, (
             f"a clip's arm would be strained by {100 * strain:.1f} %, {p.material} takes {100 * p.printed.strain:.1f} %"

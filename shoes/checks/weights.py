@@ -1,0 +1,59 @@
+"""What a shoe weighs: print, pad, taxels and board."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from shoes.build import Shoe, ShoeBuild
+from shoes.solid.pad import pad_surface, volume_of
+
+__all__ = ["BOARD_UP", "Weights", "weigh"]
+
+_BOARD_DENSITY = 1.85e-3  # g/mm^3, glass fibre and copper
+BOARD_UP = 12.0
+"""Length in mm of board above the shelf."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What one shoe weighs, in g.
+
+    Attributes:
+        printed: The printed part.
+        pad: The silicone pad.
+        skin: The taxels: their area times protrusion and pocket depth at the parameter skin_density.
+        board: The connection board.
+    """
+
+    printed: float
+    pad: float
+    skin: float
+    board: float
+
+    @property
+    def total(self) -> float:
+        """All together."""
+        return self.printed + self.pad + self.skin + self.board
+
+
+def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
+    """Weigh a shoe.
+
+    Args:
+        shoe: The shoe.
+        build: What it belongs to.
+        volume: Volume of the printed part in mm^3.
+
+    Returns:
+        The masses.
+    """
+    p = build.parameters
+    cells = float(shoe.layout.areas.sum()) * 1e6
+    pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
+    board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
+    return Weights(
+        printed=round(volume / 1000.0 * p.printed.density, 2),
+        pad=round(pad / 1000.0 * p.pad_density, 2),
+        skin=round(cells * (p.taxel_protrusion + p.pocket_depth) / 1000.0 * p.skin_density, 2),
+        board=round(board, 2),
+    )

@@ -1,0 +1,70 @@
+"""Tests of the wiring list, the cells' outlines and the assembly, on the one shoe that all tests share."""
+
+from __future__ import annotations
+
+import csv
+from collections import Counter
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+from shoes import ShoeReport
+from shoes.foot.mesh_file import read_mesh
+from shoes.solid.pad import taxel_surfaces
+
+
+def test_each_cell_is_wired_once_from_one_that_is(exported: tuple[ShoeReport, Path]) -> None:
+    report, folder = exported
+    with (folder / "wiring.csv").open() as file:
+        rows = [r for r in csv.DictReader(file) if r["side"] == "left"]
+    layout = report.build.shoes[0].layout
+    assert sorted(int(r["cell"]) for r in rows) == sorted(layout.ids.tolist())
+    hops = {r["cell"]: int(r["hop"]) for r in rows}
+    for row in rows:
+        i = layout.ids.tolist().index(int(row["cell"]))
+        np.testing.assert_allclose([float(row["x_mm"]), float(row["y_mm"])], layout.positions[i, :2] * 1e3, atol=1e-3)
+        if row["from_cell"]:
+            assert hops[row["cell"]] == hops[row["from_cell"]] + 1
+            port = np.array([float(row["port_x_mm"]), float(row["port_y_mm"])])
+            edge = shapely.Polygon(layout.cell_polygon(i) * 1e3).exterior
+            assert edge.distance(shapely.Point(port)) < 0.01
+        else:
+            assert row["hop"] == "0"
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_cells_come_back_from_the_dxf(exported: tuple[ShoeReport, Path], side: int) -> None:
+    report, folder = exported
+    shoe = report.build.shoes[side]
+    found = ezdxf.readfile(folder / f"cells_{shoe.side}.dxf").modelspace().query("POLYLINE")
+    count = Counter(line.dxf.layer for line in found)
+    assert count["CELLS"] == count["POCKETS"] == len(shoe.layout)
+    assert count["OUTLINE"] == 1
+    assert count["KEEPOUT"] >= len(shoe.plan.route) + 1
+    heads = [line for line in found if line.dxf.layer == "CELLS"]
+    cells = [shapely.Polygon([v.dxf.location.vec2 for v in line.vertices]) for line in heads]
+    assert sum(c.area for c in cells) == pytest.approx(1e6 * shoe.layout.areas.sum(), rel=1e-4)
+
+
+def test_the_assembly_holds_all_parts_by_name_in_their_places(exported: tuple[ShoeReport, Path]) -> None:
+    import zipfile
+
+    report, folder = exported
+    triangles, unit = read_mesh(folder / "assembly_left.3mf")
+    shoe, p = report.build.shoes[0], report.build.parameters
+    assert unit == "mm"
+    assert triangles[..., 2].min() == 0.0
+    with zipfile.ZipFile(folder / "assembly_left.3mf") as package:
+        model = package.read("3D/3dmodel.model").decode()
+    for name in ('name="shoe left"', 'name="taxel 0"', 'name="pad"', 'base name="PA12"', 'base name="skin"'):
+        assert name in model
+    taxels = [trimesh.Trimesh(**trimesh.triangles.to_kwargs(t)) for t in taxel_surfaces(shoe.plan, p)]
+    assert all(t.is_watertight for t in taxels)
+    cells, pockets = (sum(s.area for s in shapes) for shapes in (shoe.plan.cells, shoe.plan.pockets))
+    assert sum(t.volume for t in taxels) == pytest.approx(
+        cells * p.taxel_protrusion + pockets * p.pocket_depth, rel=1e-6
+    )
