@@ -71,11 +71,13 @@ from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
+from plantar.mechanics.external_wrench import external_acceleration
 from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
 from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
 from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
@@ -124,6 +126,7 @@ class ControllerSettings(Settings):
         step_weights: What a change of a footstep is weighed by in K 31.
         ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
         push: When the soles and the IMU tell of a push on the body; None expects none.
+        push_felt: Which taxels of the upper body feel a push; None goes by the soles alone.
         push_expected: How a push is expected to go on.
         feedback: False walks the plan in open loop, for comparison.
         zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
@@ -163,6 +166,7 @@ class ControllerSettings(Settings):
     step_weights: StepWeights = field(default_factory=StepWeights)
     ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
     push: PushRules | None = None
+    push_felt: NetWrenchRules | None = None
     push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)
     feedback: bool = switch(True)
     zmp_source: str = choice("skin", "force_torque")
@@ -248,6 +252,7 @@ class WalkingController:
             *self._gyro_bias(),
             None if settings.push is None else PushEstimate(settings.push, period),
         )
+        self._state: BaseState | None = None
         self._push = WrenchFilter(settings.push_expected, self.omega, period)
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -441,9 +446,21 @@ class WalkingController:
             sensed.soles,
             self.plan.at(sensors.time).com_acceleration,
             phase.swing if 0.2 < share < 0.5 and s.zmp_source == "skin" else None,
+            self._felt(sensors),
         )
         self._rotations_sole = state.rotations_sole
+        self._state = state
         return state
+
+    def _felt(self, sensors: Sensors) -> NDArray[np.float64] | None:
+        """Acceleration (2,) of the CoM in m/s^2 by what skin on the upper body feels; None where it feels nothing."""
+        s, state = self.settings, self._state
+        if s.push_felt is None or s.skin is None or sensors.skin is None or state is None:
+            return None
+        # Where the body was a tick ago: it has moved by a millimetre since.
+        base = (state.position_base, state.rotation_base_to_world)
+        felt = net_wrench(s.skin, sensors.skin, dict.fromkeys(s.skin.links, base), state.com, s.push_felt)
+        return external_acceleration(felt.wrench, s.mass, self.omega) if len(felt.taxels) else None
 
     def _swing(self, sensed: _Sensed, state: BaseState) -> tuple[FeetView, float]:
         """Advance the swing foot; where the feet are then, and by how much in m one that has just landed shall carry

@@ -24,6 +24,7 @@ from gait.propose.ssp_opt import StepRegionRules, StepWeights
 from gait.propose.step_adjustment import StepAdjustmentRules
 from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, PlantarError
+from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.settings.schema import Setting, Settings
 from plantar.settings.unknown_keys import refuse_unknown_keys
@@ -43,6 +44,7 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "step_weights": (StepWeights,),
     "ankle_strategy": (AnkleRules,),
     "push_estimate": (PushRules,),
+    "push_felt": (NetWrenchRules,),
     "push_expected": (WrenchFilterRules,),
     "compliance": (ComplianceGains,),
     "touchdown": (TouchdownGains,),

@@ -31,6 +31,7 @@ from gait.propose.step_timing import StepTimingRules
 from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side
 from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.net_wrench import NetWrenchRules
 from plantar.settings.body_scale import BodyScale
 from plantar.settings.schema import Settings
 from sim.robots.robot import Robot
@@ -118,6 +119,7 @@ def controller_settings(
         step_weights=made(StepWeights, "step_weights"),
         ankle_strategy=made(AnkleRules, "ankle_strategy"),
         push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
+        push_felt=made(NetWrenchRules, "push_felt") if control.push_estimate == "skin" else None,
         push_expected=made(WrenchFilterRules, "push_expected"),
         gains=balance_gains({**robot.balance, **scene.controller.get("balance", {})}),
         feedback=control.feedback,
@@ -185,6 +187,7 @@ def _refuse_unused(scene: Scene) -> None:
             ("push_estimate", "push_expected"),
             (control.push_estimate != "off", "control.push_estimate = 'soles' or 'skin'"),
         ),
+        "push_felt": (control.push_estimate == "skin", "control.push_estimate = 'skin'"),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),
         "conformity": (control.conform, "control.conform = true"),
         **dict.fromkeys(("contact", "foothold"), (control.footholds != "off", "control.footholds = 'force' or 'skin'")),
