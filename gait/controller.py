@@ -525,11 +525,14 @@ class WalkingController:
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         """The pendulum now, with what a push is expected to do until the phase ends."""
-        offset = np.zeros(2)
+        offset = pushed = np.zeros(2)
         if self.settings.push is not None:
-            self._push.update(self.estimator.push_acceleration / self.omega**2)
-            offset = self._push.mean(max(0.0, phase.end - time)) if self._push.acts and phase.swing else offset
-        return Pendulum(self.omega, dcm, self.plan.at(time), self.plan.dcm_after(phase), region, offset)
+            expected = self._push.update(self.estimator.push_acceleration / self.omega**2)
+            if self._push.acts and phase.swing:
+                offset = self._push.mean(max(0.0, phase.end - time))
+                # xi' = w u_w, summed over the time that the low pass remembers.
+                pushed = expected * (self.omega * self.settings.push_expected.time_constant)
+        return Pendulum(self.omega, dcm, self.plan.at(time), self.plan.dcm_after(phase), region, offset, pushed)
 
     def _level(self, slope: SoleSlope, phase: Phase, state: BaseState) -> None:
         """Turn a foot that comes down blindly, or has just landed, parallel to the one that stands."""

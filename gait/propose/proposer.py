@@ -53,6 +53,7 @@ class Pendulum(NamedTuple):
         goal: Where the plan has the DCM (2,) at the end of the phase in m.
         zmp_region: Convex polygon (k, 2) in the world in m in which the ZMP may lie, counter-clockwise.
         offset: u_w (2,) in m by which a push is expected to move the VRP off the ZMP until the phase ends (K 18).
+        pushed: By how much (2,) in m pushes have lately moved the DCM, had nobody resisted.
     """
 
     omega: float
@@ -61,6 +62,7 @@ class Pendulum(NamedTuple):
     goal: NDArray[np.float64]
     zmp_region: NDArray[np.float64]
     offset: NDArray[np.float64] = read_only(np.zeros(2))
+    pushed: NDArray[np.float64] = read_only(np.zeros(2))
 
 
 class Tick(NamedTuple):

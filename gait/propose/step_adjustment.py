@@ -12,6 +12,9 @@ Two ways to the best footstep and time:
   program says; one number is searched for, the others are in closed form.
 - "ssp_opt" solves K 31 (`gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
 
+Somebody who pushes may want the robot to go along. With less than full confidence a step moves by (1 - c) of what the
+push has moved the DCM by, even where the ankles could resist it: the plan gives way, and so does the DCM.
+
 A foot that lands while its step is adjusted ends the single support, whatever the plan's time is: the DCM does not
 wait. One that stands beside its place stands there from then on; legs that pull it back would make it slip.
 """
@@ -84,6 +87,13 @@ class _Foot(NamedTuple):
     velocity: NDArray[np.float64]
 
 
+class _Along(NamedTuple):
+    """By how much (2,) in m which step has gone along with a push."""
+
+    step: int
+    moved: NDArray[np.float64]
+
+
 class _Choice(NamedTuple):
     """A footstep: the time in s until it, by how much (2,) in m it moves, and what it costs in m."""
 
@@ -122,6 +132,7 @@ class StepAdjustment:
         self._adjusted = -1
         self._stands = -1
         self._foot: _Foot | None = None
+        self._along: _Along | None = None
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """Another footstep where that helps, or where it is now (see `gait.propose.proposer.Proposer`)."""
@@ -138,15 +149,41 @@ class StepAdjustment:
             return None
         left = tick.phase.end - tick.time
         # An error grows at most as without any feedback.
-        off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(*pendulum.offset.tolist())
+        off = math.dist(pendulum.dcm, pendulum.reference.dcm) + math.hypot(
+            *(pendulum.offset + pendulum.pushed).tolist()
+        )
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
-        if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
-            return None
         region = self._region(tick, swing)
+        if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
+            return self._go_along(tick, pendulum, foot, left, region)
         pendulum = pendulum._replace(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
         return self._change(tick, find(tick, pendulum, foot, left, region), left)
+
+    def _go_along(
+        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
+    ) -> PlanChange | None:
+        """The step farther along a push, as far as it has not moved already; it never comes back by itself."""
+        step, target = tick.phase.step, tick.plan.foothold(tick.phase.step).position[:2]
+        if self._along is None or self._along.step != step:
+            self._along = _Along(step, np.zeros(2))
+        more = (1.0 - self._rules.confidence) * pendulum.pushed - self._along.moved
+        size = math.hypot(*pendulum.pushed.tolist())
+        if (
+            left < self._rules.least_left
+            or size == 0.0
+            or float(more @ pendulum.pushed) <= self._rules.least_error * size
+        ):
+            return None
+        wanted = closest_point(region, target + more)
+        assert wanted is not None
+        move = self._reached(foot, wanted, left) - target
+        if float(move @ pendulum.pushed) <= 0.5 * self._rules.least_error * size:
+            return None
+        self._along = _Along(step, self._along.moved + move)
+        self._changed = tick.time
+        return _moved(tick.plan.foothold(step), step, move, "goes along with a push", 0.0)
 
     def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27).

@@ -220,3 +220,34 @@ def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of
 
     assert moved(0.5, 0.0) > moved(1.0, 0.0) + 0.005
     assert moved(0.5, 1.0) == pytest.approx(moved(1.0, 0.0), abs=1e-9)
+
+
+def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed: Any) -> None:
+    pushing = np.array([0.06, 0.0])
+
+    def moved(confidence: float, by: np.ndarray = pushing) -> np.ndarray:
+        change = proposed(pushed((0.0, 0.0), pushed=by)[1], confidence=confidence)
+        return np.zeros(2) if change is None else np.array(change.shift)
+
+    sizes = [float(moved(c)[0]) for c in (0.0, 0.3, 0.6, 1.0)]
+    assert sizes == pytest.approx([0.06, 0.042, 0.024, 0.0], abs=1e-9)
+    assert not moved(0.0, 0.1 * pushing).any()  # too little to change a step for
+
+
+def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed: Any) -> None:
+    steps = adjustment(confidence=0.5)
+    plan, tick = pushed((0.0, 0.0), pushed=np.array([0.06, 0.0]))
+    change = steps.propose(tick)
+    assert change is not None
+    assert change.reason == "goes along with a push"
+    assert change.shift == pytest.approx((0.03, 0.0), abs=1e-9)
+    plan.apply(change, NOW, tick.pendulum.zmp_region)
+    pendulum = tick.pendulum._replace(reference=plan.at(NOW), goal=plan.dcm_after(tick.phase), dcm=plan.at(NOW).dcm)
+    again = tick._replace(time=NOW + 0.1, plan=plan.view, pendulum=pendulum)
+    assert steps.propose(again) is None
+    fading = again._replace(pendulum=pendulum._replace(pushed=np.array([0.01, 0.0])))
+    assert steps.propose(fading) is None
+    more = again._replace(pendulum=pendulum._replace(pushed=np.array([0.1, 0.0])))
+    change = steps.propose(more)
+    assert change is not None
+    assert change.shift == pytest.approx((0.02, 0.0), abs=1e-9)
