@@ -223,14 +223,14 @@ def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of
 
 
 def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed: Any) -> None:
-    pushing = np.array([0.06, 0.0])
+    pushing = np.array([0.05, 0.0])
 
     def moved(confidence: float, by: np.ndarray = pushing) -> np.ndarray:
         change = proposed(pushed((0.0, 0.0), pushed=by)[1], confidence=confidence)
         return np.zeros(2) if change is None else np.array(change.shift)
 
     sizes = [float(moved(c)[0]) for c in (0.0, 0.3, 0.6, 1.0)]
-    assert sizes == pytest.approx([0.06, 0.042, 0.024, 0.0], abs=1e-9)
+    assert sizes == pytest.approx([0.05, 0.035, 0.02, 0.0], abs=1e-9)
     assert not moved(0.0, 0.1 * pushing).any()  # too little to change a step for
 
 
