@@ -26,8 +26,6 @@ from plantar.sides import SIDES
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
-from sim.judging.partner_truth import partner_reasons
-from sim.judging.push_truth import Pushed, PushTruth, Stride, step_changes, strides
 from sim.judging.recovery import Recovery
 from sim.judging.velocity_truth import VelocityTruth
 from sim.judging.verdict import Ending, reasons
@@ -36,21 +34,19 @@ from sim.judging.zmp_comparison import ZmpComparison
 from sim.model.ankle_limits import ankle_limits
 from sim.model.body import body_of
 from sim.model.world import World, build_leg_model, build_world, check_stable
-from sim.partner.hand_pushes import HandPushes
-from sim.partner.mobile_robot import MobileRobot
-from sim.partner.touch import Partner, Touch
 from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
 from sim.run.box_plan import box_plan
 from sim.run.controller_settings import controller_settings
-from sim.run.hand_pushing import hand_pushes, upper_body_skin_of
+from sim.run.hand_pushing import upper_body_skin_of
 from sim.run.log import RunLog
-from sim.run.pushing import Pusher, direction_name
+from sim.run.pushing import Pusher
 from sim.run.scene import SECTIONS, Push, Scene
 from sim.run.servos import LegServos
 from sim.run.shares import body_told, shares_told
 from sim.run.standing import stand
+from sim.run.touched import Touched
 from sim.sensing.sensors import SensorSuite, ankle_sensors
 from sim.terrain import Footprint, PlannedFeet
 
@@ -111,19 +107,14 @@ class Simulation:
         ground = scene.terrain.ground(self._planned_feet(), np.random.default_rng([seed, 0x7E]))
         self.ground = ground
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
-        partners: list[Partner] = []
-        self.hands: HandPushes | None = None
-        self.partner: MobileRobot | None = None
-        if skin is not None and scene.partner.kind == "mobile_robot":
-            height = scene.terrain.height + self.settings.com_height
-            self.partner = MobileRobot(scene.partner, skin, self.body, height, seed)
-            partners.append(self.partner)
-        if skin is not None and scene.push.by == "hands" and scene.push.strength > 0.0:
-            plan = (self.feet, self.steps)
-            self.hands = hand_pushes(scene.push, lambda: self.controller.schedule, plan, skin, self.body, seed)
-            partners.append(self.hands)
-        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, partners)
-        self.touch = None if skin is None else Touch(self.world, skin, partners, seed)
+        self.touched: Touched | None = None
+        if skin is not None:
+            chest = scene.terrain.height + self.settings.com_height
+            plan = (lambda: self.controller.schedule, self.feet, self.steps)
+            self.touched = Touched(scene, skin, self.body, *plan, seed, chest)
+        others = () if self.touched is None else self.touched.partners
+        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, others)
+        self.touch = None if self.touched is None else self.touched.enter(self.world)
         self.sensors = SensorSuite(
             self.world,
             scene.sensing,
@@ -153,7 +144,6 @@ class Simulation:
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
-        self.pushed: PushTruth | None = None if self.hands is None else PushTruth(self.body.mass, self.body.leg)
         self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps, self.body.leg))
 
     def _plan(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
@@ -263,9 +253,8 @@ class Simulation:
                 truth = judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
                 if self.speeds is not None:
                     self.speeds.update(data.time)
-                if self.touch is not None and self.pushed is not None:
-                    com = data.subtree_com[world.torso]
-                    self.pushed.update(data.time, com, truth.zmp, self.touch.wrench)
+                if self.touched is not None:
+                    self.touched.update(world, truth.zmp)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
                     self.recovery.update(data.time, truth.zmp, com, plan.vrp, plan.com)
@@ -337,9 +326,8 @@ class Simulation:
         landings = [x.time for x in judge.landings]
         if self.speeds is not None:
             why += self.speeds.reasons(landings)
-        why += self._push_reasons()
-        if self.partner is not None:
-            why += partner_reasons(self.scene.partner.role, self._way(), self.partner.moved)
+        if self.touched is not None:
+            why += self.touched.reasons(judge.steps.last_stands())
         ticks = np.array(result.ticks_us) if result.ticks_us else np.zeros(1)
         late = self.servos.out_of_reach_since
         sole = {s: 4.0 * float(np.prod(self.robot.sole_rectangle(s)[1])) for s in SIDES}
@@ -415,11 +403,10 @@ class Simulation:
             found["wrench_distribution"] = dict(self.controller.balance.states)
         if self.controller.guard is not None:
             found |= self.controller.guard.summary()
-        found |= self._of_hands()
-        if self.partner is not None:
+        if self.touched is not None:
             start = 0.5 * sum(self.feet[side].x + self._centers[side][0] for side in SIDES)
             walked = float(self.world.data.subtree_com[self.world.torso, 0]) - start
-            found["partner"] = {**self.partner.summary(), "robot_moved_m": round(walked, 4)}
+            found |= self.touched.summary(self.judge.steps.last_stands(), walked)
         if self.pusher.step is not None:
             found["push"] = {
                 "impulse_Ns": round(self.scene.push.strength, 4),
@@ -429,58 +416,6 @@ class Simulation:
                 "time_s": round(self.pusher.shoves[0].start, 3),
             }
         return found
-
-    def _pushes(self) -> list[Pushed]:
-        """The pushes by hands that came, for the judge."""
-        if self.hands is None:
-            return []
-        full = self.scene.push.strength
-        return [
-            Pushed(p.step, p.start, p.end, p.delivered[:2], float(np.hypot(*p.impulse)) < (1.0 - 1e-9) * full)
-            for p in self.hands.pushes
-            if p.start < math.inf
-        ]
-
-    def _changes(self) -> list[float]:
-        """How far each step came to be from its plan in m."""
-        return step_changes(self.judge.steps.last_stands(), self.feet, self.steps)
-
-    def _strides(self) -> list[Stride]:
-        """The way that each foot truly went with its step."""
-        return strides(self.judge.steps.last_stands(), self.feet, self.steps)
-
-    def _push_reasons(self) -> list[dict[str, Any]]:
-        """What failed of what a scene asks of pushes by hands."""
-        if self.pushed is None or self.scene.push.verdict == "walk":
-            return []
-        if self.scene.push.verdict == "steps":
-            return self.pushed.steps_reasons(self._pushes(), self._changes())
-        if self.scene.push.verdict == "stride":
-            return self.pushed.stride_reasons(self._pushes(), self._strides())
-        return self.pushed.acceleration_reasons(self._pushes())
-
-    def _way(self) -> float:
-        """How far forward in m the middle between the feet is planned to go."""
-        last = dict(self.feet) | {step.side: step for step in self.steps}
-        return 0.5 * sum(last[side].x - self.feet[side].x for side in SIDES)
-
-    def _of_hands(self) -> dict[str, Any]:
-        """What hands did, and what came of it."""
-        if self.hands is None or self.pushed is None:
-            return {}
-        told = self.hands.summary()
-        for row, found in zip(told["pushes"], self.pushed.accelerations(self._pushes()), strict=True):
-            row |= {name: round(value, 3) for name, value in found.items()}
-        return {
-            "push": {
-                "impulse_Ns": round(self.scene.push.strength, 4),
-                "dv_m_s": round(self.scene.push.strength / self.body.mass, 4),
-                "direction": direction_name(self.scene.push, self.seed),
-                "step_changes_m": [round(change, 4) for change in self._changes()],
-                "strides_m": [[round(v, 4) for v in stride.true] for stride in self._strides()],
-                **told,
-            }
-        }
 
     def _final_error(self) -> tuple[float, float]:
         """Distance in m and heading error in degrees of the true torso from the end of the walk's goal.
