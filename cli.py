@@ -70,6 +70,9 @@ def shoe(
     settings: Annotated[
         list[str] | None, Option("--set", metavar="NAME=VALUE", help="Change one parameter; repeatable.")
     ] = None,
+    preview: Annotated[
+        bool, Option("--preview", help="Only draw the foot with the axes that were found (preview.png), in 3 s.")
+    ] = False,
     output: Output = Path("out/shoe"),
     as_json: Json = False,
 ) -> None:
@@ -94,6 +97,14 @@ def shoe(
     used = (ShoeParameters() if parameters is None else read_parameters(parameters)).changed(settings or [])
     shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
     options: dict[str, Any] = vars(order) | {"taxels": taxels if order.taxels is None else order.taxels}
+    if preview:
+        from shoes.papers.preview import draw_preview
+
+        with output_folder(output) as folder:
+            draw_preview(shape, folder / "preview.png")
+        drawn = {"notes": list(shape.notes), "files": [str(output / "preview.png")]}
+        end_command(drawn, as_json, "\n".join(f"  {line}" for line in (*drawn["notes"], *drawn["files"])))
+        return
     with output_folder(output) as folder, progress_bar() as tell:
         build = build_shoe(shape, parameters=used, progress=part_of(tell, 0.0, 0.6), **options)
         report = export_shoe(build, folder, progress=part_of(tell, 0.6, 0.4))

@@ -17,7 +17,7 @@ _FINE = 0.002  # of the drawing's size: how far a curve's chord may lie from it
 
 
 def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
-    """Lines of a DXF's model space; what blocks hold is not drawn.
+    """Lines of a DXF's model space, blocks put in where they are inserted.
 
     Args:
         path: The file.
@@ -32,10 +32,11 @@ def lines_of_dxf(path: Path) -> dict[str, NDArray[Any]]:
     with optional_library("ezdxf", "shoes"):
         from ezdxf import path as paths
         from ezdxf import recover
+        from ezdxf.disassemble import recursive_decompose
         from ezdxf.lldxf.const import DXFError
     document, _ = recover.read(io.BytesIO(path.read_bytes()))
     found = []
-    for entity in document.modelspace():
+    for entity in recursive_decompose(document.modelspace()):
         try:
             found.append(paths.make_path(entity))
         except (TypeError, DXFError):

@@ -26,6 +26,8 @@ MOST_POINTS = 20_000
 """Points that a drawing may have, those on its curves counted."""
 
 _LONGEST_PATH, _LONGEST_TRANSFORM = 1_000_000, 10_000  # characters
+_MOST_USES = 20  # of each other
+_LINK = "{http://www.w3.org/1999/xlink}href"
 _SVG_UNITS: dict[str, tuple[Unit, float]] = {"mm": ("mm", 1.0), "cm": ("cm", 1.0), "in": ("in", 1.0)}
 
 
@@ -51,11 +53,24 @@ def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
     root = parse_xml(read_input(file, FootError, XML_MOST), FootError, str(file))
     unit, factor, start = _svg_unit(root)
     lines: Lines = []
-    count = 0
+    count = walked = 0
+    named = {e.get("id", ""): e for e in root.iter()}
 
-    def walk(element: ElementTree.Element, outer: NDArray[np.float64]) -> None:
-        nonlocal count
+    def walk(element: ElementTree.Element, outer: NDArray[np.float64], uses: int = 0) -> None:
+        nonlocal count, walked
         tag = str(element.tag).rpartition("}")[2]
+        walked += 1
+        if walked > MOST_POINTS or uses > _MOST_USES:
+            raise FootError(f"{file}: has more than {MOST_POINTS} shapes, or a shape that uses itself; reduce it")
+        if tag == "use":
+            used = named.get(element.get("href", element.get(_LINK, "")).removeprefix("#"))
+            place = np.eye(3)
+            place[:2, 2] = [float(_plain_length(k, element.get(k, "0"))) for k in ("x", "y")]
+            here = outer @ _svg_transform(element.get("transform")) @ place
+            if used is not None:
+                for drawn in used if str(used.tag).endswith("symbol") else (used,):
+                    walk(drawn, here, uses + 1)
+            return
         if tag in ("defs", "symbol", "clipPath", "mask", "marker", "pattern"):
             return
         here = outer @ _svg_transform(element.get("transform"))
@@ -76,7 +91,7 @@ def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
             if count > MOST_POINTS:
                 raise FootError(f"{file}: has more than {MOST_POINTS} points; reduce the drawing")
         for child in element:
-            walk(child, here)
+            walk(child, here, uses)
 
     with np.errstate(all="ignore"):  # what is not finite is told by who reads the drawing
         walk(root, start)

@@ -164,3 +164,20 @@ def test_a_sole_askew_on_the_sheet_is_pointed_out(tmp_path: Path, turn: float, s
     path = tmp_path / "turned.geojson"
     path.write_text(json.dumps({"type": "Polygon", "coordinates": [[*ring, ring[0]]]}))
     assert any("askew" in note and f"{abs(turn):.0f} degrees" in note for note in foot_from_drawing(path).notes) == said
+
+
+def test_blocks_of_a_dxf_and_used_shapes_of_an_svg_are_drawn(tmp_path: Path) -> None:
+    import ezdxf
+
+    document = ezdxf.new(units=4)
+    block = document.blocks.new("sole")
+    block.add_lwpolyline([(x - 7.0, y) for x, y in RING], close=True)
+    document.modelspace().add_blockref("sole", (7.0, 0.0))
+    document.saveas(tmp_path / "block.dxf")
+    up = " ".join(f"{x},{-y}" for x, y in RING)
+    shape = f'<defs><g id="a" transform="translate(-3 0)"><polygon points="{up}"/></g></defs><use href="#a" x="3"/>'
+    for file in (tmp_path / "block.dxf", svg(tmp_path / "use.svg", shape)):
+        assert foot_from_drawing(file).sole.symmetric_difference(OUTLINE).area < 1.0
+    for loop in ('<g id="a"><use href="#a"/></g>', '<use href="#none"/>'):
+        with pytest.raises(FootError):
+            foot_from_drawing(svg(tmp_path / "loop.svg", loop))
