@@ -1,4 +1,4 @@
-"""A mobile robot on the ground before the robot that walks, with its hand at the robot's chest (K Fig. 9).
+"""A mobile robot on the ground before the robot that walks, with its hand at the height of the CoM (K Fig. 9).
 
 Its wheels roll along the robot's heading at the start and hold sideways; its arm is a spring. It measures the force on
 its hand, moves a reference by its impedance controller, and drives its own mass after it with a limited force.
@@ -105,7 +105,7 @@ class MobileRobot:
         return (int(world.model.geom("partner_hand").id),)
 
     def place(self, world: World) -> None:
-        """Put its hand before the robot's chest.
+        """Put its hand before the robot's body.
 
         Args:
             world: The world, in which the robot stands.

@@ -100,7 +100,6 @@ class Touch:
     Attributes:
         sensor: The skin.
         partners: Who touches it.
-        largest: Largest true force in N that acted on the skin so far.
     """
 
     def __init__(self, world: World, skin: BodySkin, partners: Sequence[Partner], seed: int) -> None:
@@ -108,7 +107,6 @@ class Touch:
         self.partners = tuple(partners)
         geoms = [geom for partner in self.partners for geom in partner.bind(world)]
         self.sensor = SkinSensor(world.model, skin, skin_material(world.body), seed, geoms)
-        self.largest = 0.0
         self._near = True
 
     def place(self) -> None:
@@ -149,4 +147,3 @@ class Touch:
         for partner in self.partners:
             partner.drive(world, self.sensor)
         mujoco.mj_step2(world.model, world.data)
-        self.largest = max(self.largest, float(np.linalg.norm(self.force)))

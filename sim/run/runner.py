@@ -109,9 +109,9 @@ class Simulation:
         self.plant = drawn_plant(scene.plant, seed, self.body, len(robot.legs["left"].joints) * 2, robot.layouts)
         self.touched: Touched | None = None
         if skin is not None:
-            chest = scene.terrain.height + self.settings.com_height
+            reach = scene.terrain.height + self.settings.com_height
             plan = (lambda: self.controller.schedule, self.feet, self.steps)
-            self.touched = Touched(scene, skin, self.body, *plan, seed, chest)
+            self.touched = Touched(scene, skin, self.body, *plan, seed, reach)
         others = () if self.touched is None else self.touched.partners
         self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, others)
         self.touch = None if self.touched is None else self.touched.enter(self.world)

@@ -39,7 +39,7 @@ class Touched:
         feet: Where the feet stand at the start.
         steps: The footsteps as planned at the start.
         seed: Chooses what the scene leaves open, and the noise.
-        chest: Height in the world in m at which a partner before the robot has its hand.
+        reach: Height in the world in m at which a partner before the robot has its hand.
 
     Attributes:
         partners: Who touches the robot, to be added to its world.
@@ -58,7 +58,7 @@ class Touched:
         feet: Mapping[Side, Footstep],
         steps: Sequence[Footstep],
         seed: int,
-        chest: float,
+        reach: float,
     ) -> None:
         self._scene, self._skin, self._body, self._seed = scene, skin, body, seed
         self._feet, self._steps = feet, steps
@@ -68,7 +68,7 @@ class Touched:
         self.touch: Touch | None = None
         self.partners: list[Partner] = []
         if scene.partner.kind == "mobile_robot":
-            self.partner = MobileRobot(scene.partner, skin, body, chest, seed)
+            self.partner = MobileRobot(scene.partner, skin, body, reach, seed)
             self.partners.append(self.partner)
         if scene.push.by == "hands" and scene.push.strength > 0.0:
             self.hands = hand_pushes(scene.push, schedule, (feet, steps), skin, body, seed)
