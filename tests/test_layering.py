@@ -33,7 +33,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "controller_tables",
     ),
     "gait.analysis": (
-        *("measures", "options", "spread", "prints", "steps", "body_weight", "parameters", "pages"),
+        *("measures", "options", "spread", "prints", "steps", "body_weight", "activity", "parameters", "pages"),
         *("analyse", "compare", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),

@@ -13,6 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from gait.analysis.activity import activity_of, sway_measures
 from gait.analysis.body_weight import implied_weight, weight_doubts
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
 from gait.analysis.options import AnalysisOptions
@@ -208,16 +211,25 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         feet: The gait of each of its feet.
 
     Returns:
-        format, kind, frames, rate_hz, duration_s, raw, grid, feet, not_given, gait, warnings; see docs/metrics.md. In
+        format, kind, frames, rate_hz, duration_s, raw, grid, activity, feet, not_given, gait, warnings; see
+        docs/metrics.md. In
         a recording
         of raw counts the keys end in "_raw" where they would else name a unit of force or pressure.
     """
     warnings = list(recording.warnings)
+    activity = activity_of(recording, feet)
+    standing = activity.name == "standing"
+    if standing:
+        warnings.append(f"this is standing: {activity.why}; sway is measured, steps are not")
     for side, gait in feet.items():
+        if standing:
+            continue
         if not gait.contacts:
             warnings.append(f"the {side} foot carries no load above its noise: no steps")
         elif not gait.steps:
-            warnings.append(f"the {side} foot has no complete step: each contact is cut by the recording")
+            warnings.append(
+                f"the {side} foot has no complete step: each contact is cut by the recording{_lowest(gait)}"
+            )
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
     warnings += weight_doubts(recording, weight)
@@ -231,7 +243,10 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         "duration_s": float(recording.time[-1] - recording.time[0]),
         "raw": recording.raw,
         "grid": None if recording.grid is None else {"rows": recording.grid[0], "columns": recording.grid[1]},
-        "feet": {side: _foot(recording, gait) for side, gait in feet.items()},
+        "activity": dataclasses.asdict(activity),
+        "feet": {
+            side: _foot(recording, gait) | {"sway": _sway(recording, gait, standing)} for side, gait in feet.items()
+        },
         "not_given": not_given(recording.kind),
         "gait": {
             **gait_of_feet(feet),
@@ -240,6 +255,22 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         },
         "warnings": list(dict.fromkeys(warnings)),
     }
+
+
+def _lowest(gait: FootGait) -> str:
+    """What to say of a foot whose force never comes down: it stands, or its sensor has an offset that no walk shows."""
+    force = gait.foot.vertical_force[np.isfinite(gait.foot.vertical_force)]
+    low, high = (float(v) for v in np.percentile(force, (2.0, 95.0))) if len(force) else (0.0, 0.0)
+    return f"; its force never falls below {low:.3g}" if low > 0.2 * high > 0.0 else ""
+
+
+def _sway(recording: PressureRecording, gait: FootGait, standing: bool) -> dict[str, float] | None:
+    """How a foot's CoP wanders in standing, and its share of the load; None of anything else."""
+    if not standing:
+        return None
+    load = {side: float(np.nanmean(foot.vertical_force)) for side, foot in recording.feet.items()}
+    share = 100.0 * load[gait.foot.side] / sum(load.values())
+    return {"load_percent": share, **({} if gait.cop is None else sway_measures(recording.time, gait.cop))}
 
 
 def not_given(kind: str) -> dict[str, str]:

@@ -43,6 +43,7 @@ MEASURES: Mapping[str, Measure] = {
     "swing_percent": Measure("Swing", "% of stride", 1.0, _TIME),
     "double_support_percent": Measure("Double support", "% of stride", 1.0, _TIME),
     "single_support_percent": Measure("Single support", "% of stride", 1.0, _TIME),
+    "flight_time_s": Measure("Flight time, both feet off the ground", "s", 1.0, _TIME),
     "peak_force_N": Measure("Peak force", "N", 1.0, _FORCE),
     "mean_force_N": Measure("Mean force over the contact", "N", 1.0, _FORCE),
     "first_peak_N": Measure("First peak (loading)", "N", 1.0, _FORCE),

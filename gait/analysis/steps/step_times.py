@@ -17,6 +17,10 @@ __all__ = ["OtherFoot", "stride_times", "time_measures"]
 PAUSE = 1.75
 """A stride longer than so many times the median of its foot holds a pause or a step that was not recorded."""
 
+_LONGEST_FLIGHT = 0.6
+"""Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s at the
+most."""
+
 
 def stride_times(contacts: Sequence[Contact]) -> list[float]:
     """Stride time of each complete contact; NaN where the next heel strike is not the next step's.
@@ -81,6 +85,7 @@ def time_measures(
         if len(between) == 1:
             out["step_time_s"] = strike - float(between[0])
         both = 100.0 * others.overlap(strike, lift) / stride
+        out["flight_time_s"] = others.flight(lift)
         out["double_support_percent"] = both
         out["single_support_percent"] = share - both
     return out
@@ -108,6 +113,20 @@ class OtherFoot:
         """
         first, last = np.searchsorted(self.strikes, begin, "right"), np.searchsorted(self.strikes, end, "left")
         return self.strikes[first:last]
+
+    def flight(self, lift: float) -> float:
+        """How long both feet are off the ground after this one leaves it.
+
+        Args:
+            lift: Its toe off in s.
+
+        Returns:
+            The time in s to the other foot's heel strike, 0 where that foot is on the ground; NaN where none follows.
+        """
+        if ((self._begin <= lift) & (self._end > lift)).any():
+            return 0.0
+        after = self.strikes[self.strikes > lift]
+        return float(after[0]) - lift if len(after) and after[0] - lift < _LONGEST_FLIGHT else float("nan")
 
     def overlap(self, strike: float, lift: float) -> float:
         """How long of a contact the other foot is on the ground too.

@@ -1,0 +1,85 @@
+"""Walking, running and standing told apart, and the sway of standing against closed forms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gait.analysis.activity import activity_of, sway_measures
+from gait.analysis.analyse import metrics_of
+from gait.analysis.parameters import analyse_feet
+from plantar.formats.nominal_insole import nominal_insole
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+from .walks import made_walk
+
+
+@pytest.mark.parametrize("one_foot", [False, True])
+@pytest.mark.parametrize(
+    ("stride", "stance", "name"),
+    [
+        (1.1, 0.62, "walking"),
+        (1.8, 0.7, "walking"),
+        (0.9, 0.56, "walking"),
+        (0.7, 0.36, "running"),
+        (0.62, 0.3, "running"),
+    ],
+)
+def test_a_run_has_flight_and_a_walk_none(stride: float, stance: float, name: str, one_foot: bool) -> None:
+    recording = made_walk(stride=stride, stance=stance, strides=7).recording
+    if one_foot:
+        recording = replace(recording, feet={"left": recording.feet["left"]})
+    feet = analyse_feet(recording)
+    assert activity_of(recording, feet).name == name
+    if not one_foot:
+        flight = np.median([s["flight_time_s"] for g in feet.values() for s in g.used[1:-1]])
+        truth = max(0.0, (0.5 - stance) * stride)
+        assert flight == pytest.approx(truth, abs=0.03 if truth else 1e-9)  # events lie at a share of the force
+
+
+def standing(seconds: float = 20.0, seed: int = 0) -> PressureRecording:
+    """Two feet that carry 350 N each, whose CoP wanders over 4 and 2 mm (standard deviations)."""
+    random = np.random.default_rng(seed)
+    time = np.arange(0.0, seconds, 0.02)
+    feet = {}
+    for side in ("left", "right"):
+        layout = nominal_insole("x", side)  # type: ignore[arg-type]
+        kernel = np.exp(-0.5 * (np.arange(-50, 51) / 12.0) ** 2)
+        wander = np.array([np.convolve(random.normal(0, 1, len(time) + 100), kernel, "valid") for _ in "xy"]).T
+        wander *= np.array([0.004, 0.002]) / wander.std(axis=0)
+        near = layout.positions[:, None, :2] - (layout.positions[:, :2].mean(axis=0) + wander)
+        load = np.exp(-0.5 * (near**2).sum(axis=2) / 0.03**2).T
+        feet[side] = FootRecording(side, 350.0 * load / load.sum(axis=1, keepdims=True), layout)  # type: ignore[arg-type]
+    return PressureRecording(Path("standing"), "synthetic", 50.0, time, feet)  # type: ignore[arg-type]
+
+
+def test_standing_is_named_and_its_sway_measured() -> None:
+    recording = standing()
+    feet = analyse_feet(recording)
+    metrics = metrics_of(recording, feet)
+    assert metrics["activity"]["name"] == "standing"
+    assert not any("cut by the recording" in w for w in metrics["warnings"])
+    for side in feet:
+        sway = metrics["feet"][side]["sway"]
+        assert sway["load_percent"] == pytest.approx(50.0)
+        assert 0.002 < sway["sway_ap_m"] < 0.005
+        assert sway["sway_ap_m"] > 1.4 * sway["sway_ml_m"]
+        assert sway["sway_velocity_m_s"] == pytest.approx(sway["sway_path_m"] / 20.0, rel=0.01)
+    walk = made_walk().recording
+    assert metrics_of(walk, analyse_feet(walk))["feet"]["left"]["sway"] is None
+
+
+def test_the_ellipse_holds_95_of_100_points() -> None:
+    random = np.random.default_rng(2)
+    turn = np.array([[0.8, -0.6], [0.6, 0.8]])
+    points = random.normal(0.0, 1.0, (4000, 2)) * (0.006, 0.002) @ turn.T
+    area = sway_measures(np.arange(4000) * 0.01, points)["sway_ellipse_m2"]
+    assert area == pytest.approx(np.pi * 5.991 * 0.006 * 0.002, rel=0.05)
+    inverse = np.linalg.inv(np.cov(points.T))
+    scale = area / np.pi / np.sqrt(np.linalg.det(np.cov(points.T)))
+    inside = np.einsum("ni,ij,nj->n", points, inverse, points) < scale
+    assert inside.mean() == pytest.approx(0.95, abs=0.01)
+    assert sway_measures(np.arange(100) * 0.01, points[:100]) == {}
