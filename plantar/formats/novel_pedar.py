@@ -133,7 +133,7 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
                 yield line
 
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
-    bad = 0
+    bad, lost = 0, []
     for block in blocks_of_lines(frames(), max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1)))):
         rows = _frames(block, cells)
         if not len(times):
@@ -142,12 +142,13 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
         times.add(rows[:, :1])
         for table, span in zip(values, spans, strict=True):
             table.add(rows[:, 1 + span.start : 1 + span.stop])
-        bad += int(np.isnan(rows[:, 1]).sum())
+        lost.append(np.isnan(rows[:, 1]))
+        bad += int(lost[-1].sum())
         if bad > max(0.5 * len(times), 8):  # no use in reading on
             break
     if not len(times):
         raise FormatError(f"{path}: the file holds no whole frame of {cells} cells")
-    damaged = np.isnan(values[0].rows[:, 0])
+    damaged = np.concatenate(lost)
     warnings: list[str] = []
     if damaged[-1]:
         for table in (times, *values):

@@ -183,9 +183,11 @@ def _cells(ids: Sequence[int]) -> str:
 
 
 def _frames(mask: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Frames of a mask, of very many every n-th."""
+    """Frames of a mask, of very many some in a row at 40 places: they lie together in a file."""
     index = np.flatnonzero(mask)
-    return index[:: -(-len(index) // _FRAMES) or 1]
+    if len(index) <= _FRAMES:
+        return index
+    return np.concatenate([part[: _FRAMES // 40] for part in np.array_split(index, 40)])
 
 
 def _in_swing(foot: FootRecording, frames: NDArray[np.int64]) -> NDArray[np.float64]:
