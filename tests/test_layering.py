@@ -34,7 +34,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "gait.analysis": (
         *("measures", "options", "spread", "prints", "steps", "body_weight", "activity", "parameters", "pages"),
-        *("analyse", "compare", "study"),
+        *("analyse", "compare", "custom", "exports", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (

@@ -65,8 +65,9 @@ def _packed(
 ) -> tuple[NDArray[np.int64], list[dict[str, Any]]]:
     """The frames that are shown and what each foot shows of them: every other one until all of it is small enough."""
     chosen = _frames(recording, feet)
+    highest = max(_highest(recording, gait, chosen) for gait in feet.values())
     while True:
-        packed = [_foot(recording, gait, chosen) for gait in feet.values()]
+        packed = [_foot(recording, gait, chosen, highest) for gait in feet.values()]
         # Base64 takes 4 bytes for 3.
         if len(chosen) <= FEWEST_FRAMES or sum(len(f["pressure"]) for f in packed) <= MOST_BYTES * 4 // 3:
             return chosen, packed
@@ -97,8 +98,15 @@ def _frames(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> NDAr
     return np.arange(begin, end, every)
 
 
-def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> dict[str, Any]:
-    """What the player shows of one foot."""
+def _highest(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64]) -> float:
+    """Largest value in some frames of a foot, in the unit that is shown: both feet have one scale."""
+    assert gait.foot.layout is not None
+    force = np.nan_to_num(gait.foot.force[chosen])
+    return float((force if recording.raw else force / gait.foot.layout.areas / 1e3).max(initial=0.0))
+
+
+def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64], most: float) -> dict[str, Any]:
+    """What the player shows of one foot; the largest value of both is the colours' upper end."""
     layout = gait.foot.layout
     assert layout is not None
     force = gait.foot.force[chosen]
@@ -108,7 +116,7 @@ def _foot(recording: PressureRecording, gait: FootGait, chosen: NDArray[np.int64
     if recording.kind == "platform":
         cells, outline = stepped_on(layout, np.asarray(loaded.any(axis=0)))
     value = force[:, cells] if recording.raw else force[:, cells] / layout.areas[cells] / 1e3
-    highest = float(value.max(initial=0.0)) or 1.0
+    highest = most or 1.0
     cop = gait.cop[chosen] if gait.cop is not None else np.full((len(chosen), 2), np.nan)
     return {
         "side": gait.foot.side,

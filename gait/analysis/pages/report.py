@@ -12,7 +12,7 @@ from gait.analysis.measures import MEASURES
 from gait.analysis.pages.page import Section, asset, figures_of, number, page, warning_list
 from gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
 
-__all__ = ["comparison_page", "report_page"]
+__all__ = ["comparison_page", "report_page", "summary_text"]
 
 _GAIT = (
     ("cadence_steps_per_min", "Cadence", "steps/min", 1.0),
@@ -43,7 +43,7 @@ def report_page(
     Returns:
         HTML that refers to no other file and no network.
     """
-    sections = [Section("summary", "Summary", _tiles(metrics))]
+    sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
     if player is not None:
@@ -62,6 +62,42 @@ def report_page(
     )
     script = "" if player is None else f"<script>{asset('report.js')}</script>"
     return page(f"Gait analysis: {title}", about, sections, script)
+
+
+def summary_text(metrics: Mapping[str, Any]) -> str:
+    """The recording in two sentences: what it is of, and how the feet load.
+
+    Args:
+        metrics: What `analyse_recording` returns.
+
+    Returns:
+        Plain text.
+    """
+    activity = metrics.get("activity", {"name": "unknown"})["name"]
+    counts = [f"{len(foot['steps_used'])} of {foot['steps']} {side}" for side, foot in metrics["feet"].items()]
+    cadence = metrics["gait"].get("steady_cadence_steps_per_min")
+    pace = "" if cadence is None else f" at {number(cadence)} steps/min"
+    what = "A recording" if activity == "unknown" else f"This is {activity}"
+    first = (
+        f"{what}: {' and '.join(counts)} steps are in the means{pace}."
+        if activity != "standing"
+        else (
+            f"This is standing for {number(metrics['duration_s'])} s: "
+            + ", ".join(
+                f"{number(foot['sway']['load_percent'])} % on the {side} foot" for side, foot in metrics["feet"].items()
+            )
+            + "."
+        )
+    )
+    peaks = {side: foot["measures"].get("peak_force_N") for side, foot in metrics["feet"].items()}
+    weight = metrics["gait"].get("implied_weight_N")
+    shown = [
+        f"{number(100.0 * peak['mean'] / weight)} % of the body weight that the forces imply "
+        f"({number(peak['mean'])} N) {side}"
+        for side, peak in peaks.items()
+        if weight and peak and peak["mean"] is not None
+    ]
+    return first + (f" Peak force is {' and '.join(shown)}." if shown else "")
 
 
 def _not_given(metrics: Mapping[str, Any]) -> str:
@@ -114,7 +150,7 @@ def _tiles(metrics: Mapping[str, Any]) -> str:
 
 def _player(data: Mapping[str, Any]) -> str:
     text = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
-    scales = "; ".join(f"{foot['side']} 0 to {number(foot['highest'])} {data['unit']}" for foot in data["feet"])
+    scales = f"0 to {number(data['feet'][0]['highest'])} {data['unit']}"
     part = "" if data["whole"] else f" The first {data['times'][-1] - data['times'][0]:.0f} s of walking are shown."
     options = "".join(
         f'<option value="{value}"{" selected" if value == 1 else ""}>{name}</option>'

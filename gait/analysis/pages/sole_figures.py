@@ -15,12 +15,13 @@ from gait.analysis.prints.regions import REGIONS
 from gait.analysis.steps.events import Contact
 from gait.analysis.steps.foot_gait import FootGait
 from plantar.formats.polygon_layout import subset
+from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.layouts.layout import SoleLayout
 from plantar.plotting import COLOURS, draw_cells, draw_classes, new_figure
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["figure_pair", "figure_pressure", "figure_regions"]
+__all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions"]
 
 MOST_PATHS = 12
 """CoP paths drawn a foot, thin, beside the mean one; of more steps every n-th: the map below has to be seen."""
@@ -210,8 +211,23 @@ def _draw_axis_and_thirds(panel: Any, print_: Footprint) -> None:
         u = k * print_.toeless_length / 3.0
         line = print_.from_foot(np.array([[u, low], [u, high]]))
         panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=0.8, linestyle=":")
-    line = print_.from_foot(np.array([[0.0, 0.0], [print_.length, 0.0]]))
-    panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=1.4)
+    if axis_is_inside(print_):
+        line = print_.from_foot(np.array([[0.0, 0.0], [print_.length, 0.0]]))
+        panel.plot(-line[:, 1], line[:, 0], color="#111111", linewidth=1.4, label="foot axis")
+
+
+def axis_is_inside(print_: Footprint) -> bool:
+    """Whether a print's axis lies within the print from heel to toes; one beside the foot is not drawn.
+
+    Args:
+        print_: The print.
+
+    Returns:
+        True where both ends and the middle of the axis are no farther outside its hull than a twentieth of its width.
+    """
+    hull = convex_hull(print_.rings.reshape(-1, 2))
+    places = np.array([0.02, 0.5, 0.98]) * print_.length
+    return all(signed_margin(hull, np.array([u, 0.0])) >= -0.05 * print_.width for u in places)
 
 
 def _list_regions(panel: Any, used: set[int]) -> None:
@@ -219,5 +235,4 @@ def _list_regions(panel: Any, used: set[int]) -> None:
     for i, (colour, title) in enumerate(zip(REGION_COLOURS, REGIONS.values(), strict=True)):
         if i in used:
             panel.plot([], [], "s", color=colour, label=title)
-    panel.plot([], [], color="#111111", label="foot axis")
     panel.plot([], [], ":", color="#111111", label="thirds without toes")

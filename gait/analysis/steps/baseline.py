@@ -24,6 +24,9 @@ OFFSET = 0.10
 """A level in swing of more than so much of the walk's range of force is an offset; shoes press less on their
 insoles."""
 
+_TOLD = 0.03
+"""A level in swing of more than so much of the range is told, though it is not taken off."""
+
 HOT = 0.5
 """A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
 
@@ -162,6 +165,11 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
                 "off as its baseline (--baseline keep leaves it)"
             )
         else:
+            if np.abs(rest.level).max() > _TOLD * rest.span:
+                notes.append(
+                    f"the {side} foot's sensor reads {offset:.3g} {'counts' if recording.raw else 'N'} in swing, "
+                    f"{100.0 * offset / rest.span:.0f} % of its range: it stays in the forces, as a shoe may press so"
+                )
             hot = _hot_cells(foot, rest)
             if len(hot):
                 feet[side] = _without_hot(foot, rest, hot)

@@ -45,7 +45,8 @@ def test_a_walk_on_an_offset_is_the_walk_without_it(offset: float, drift: float,
 def test_what_a_shoe_presses_in_swing_stays_in_the_forces() -> None:
     """Vendors leave it there, too; 5 % of the force is within what shoes do."""
     made = made_walk(offset=35.0)
-    assert without_baselines(made.recording) is not made.recording
+    notes = without_baselines(made.recording).warnings
+    assert sum("it stays in the forces" in w for w in notes) == 2
     assert without_baselines(made.recording).feet["left"].force is made.recording.feet["left"].force
 
 

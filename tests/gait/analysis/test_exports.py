@@ -1,0 +1,71 @@
+"""Exports are read again, by Plantar and by ezc3d, and say what they hold."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from gait.analysis.analyse import Analysis, analyse, metrics_of
+from gait.analysis.exports import export_analysis
+from gait.analysis.parameters import analyse_feet
+from plantar import InputError
+from plantar.formats.format import ReadOptions
+from plantar.formats.nominal_insole import nominal_insole
+
+from .walks import made_walk
+
+
+@pytest.fixture(scope="module")
+def analysis() -> Analysis:
+    recording = made_walk(strides=4, rate=50.0).recording
+    feet = analyse_feet(recording)
+    return Analysis(recording, feet, metrics_of(recording, feet))
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".csv"])
+def test_what_was_exported_measures_the_same(tmp_path: Path, analysis: Analysis, suffix: str) -> None:
+    files = export_analysis(analysis, tmp_path / "made" / f"walk{suffix}")
+    assert [f.name for f in files] == [f"walk{suffix}", "walk.json"]
+    layout = nominal_insole("x", "left") if suffix == ".csv" else None
+    again = analyse(files[0], options=ReadOptions(layout=layout))
+    for side, gait in analysis.feet.items():
+        assert again.recording.feet[side].force == pytest.approx(gait.foot.force, rel=1e-8, abs=1e-6)
+        for one, other in zip(gait.steps, again.feet[side].steps, strict=True):
+            assert other["peak_force_N"] == pytest.approx(one["peak_force_N"], rel=1e-6)
+            assert other["cop_path_m"] == pytest.approx(one["cop_path_m"], rel=1e-5)
+
+
+def test_the_sidecar_says_what_the_file_holds(tmp_path: Path, analysis: Analysis) -> None:
+    _, sidecar = export_analysis(analysis, tmp_path / "walk.csv")
+    held = json.loads(sidecar.read_text())
+    assert held["SamplingFrequency"] == 50.0
+    assert held["TaskName"] == "walking"
+    assert held["Columns"] == {"left": 99, "right": 99}
+    strikes = [e["onset"] for e in held["Events"] if (e["side"], e["trial_type"]) == ("left", "heel_strike")]
+    assert strikes == [s.heel_strike_s for s in analysis.feet["left"].steps]
+
+
+def test_a_c3d_file_has_forces_and_events(tmp_path: Path, analysis: Analysis) -> None:
+    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
+    file = ezc3d.c3d(str(path))
+    labels = file["parameters"]["ANALOG"]["LABELS"]["value"]
+    force = file["data"]["analogs"][0, labels.index("left.Fz")]
+    assert force == pytest.approx(analysis.feet["left"].foot.vertical_force, rel=1e-5, abs=1e-3)
+    event = file["parameters"]["EVENT"]
+    left = [
+        seconds
+        for seconds, side, label in zip(
+            event["TIMES"]["value"][1], event["CONTEXTS"]["value"], event["LABELS"]["value"], strict=True
+        )
+        if (side, label) == ("Left", "Foot Strike")
+    ]
+    assert left == pytest.approx([s.heel_strike_s for s in analysis.feet["left"].steps], abs=1e-4)
+
+
+def test_other_suffixes_are_refused(tmp_path: Path, analysis: Analysis) -> None:
+    with pytest.raises(InputError, match=r"cannot export to 'walk.xls'; allowed: .npz, .csv, .c3d"):
+        export_analysis(analysis, tmp_path / "walk.xls")
+    assert list(tmp_path.iterdir()) == []
