@@ -12,8 +12,8 @@ Two ways to the best footstep and time:
   program says; one number is searched for, the others are in closed form.
 - "ssp_opt" solves K 31 (`gait.propose.ssp_opt`), with the place that the foot can reach in the planned time.
 
-Somebody who pushes may want the robot to go along. With less than full confidence a step moves by (1 - c) of what the
-push has moved the DCM by, even where the ankles could resist it: the plan gives way, and so does the DCM.
+Somebody who pushes may want the robot to go along. A robot that yields moves a step by (1 - c) of what the push has
+moved the DCM by, even where the ankles could resist it: the plan gives way, and so does the DCM.
 
 A foot that lands while its step is adjusted ends the single support, whatever the plan's time is: the DCM does not
 wait. One that stands beside its place stands there from then on; legs that pull it back would make it slip.
@@ -49,6 +49,8 @@ class StepAdjustmentRules(Settings):
     Attributes:
         method: How the footstep is found: "search" or "ssp_opt".
         confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
+        yielding: Share of what a push moves the DCM by that the steps of a robot without confidence go along with, even
+            where its ankles could resist; 0 steps for balance alone.
         least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
         sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
@@ -65,6 +67,7 @@ class StepAdjustmentRules(Settings):
 
     method: str = choice("search", "ssp_opt")
     confidence: float = number(0.0, "1", 0, 1)
+    yielding: float = number(0.0, "1", 0, 1)
     least_error: float = share(0.0433, "sole", 0, 0.2)
     acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
     sideways: float = number(0.5, "1", 0.01, 1)
@@ -168,7 +171,7 @@ class StepAdjustment:
         step, target = tick.phase.step, tick.plan.foothold(tick.phase.step).position[:2]
         if self._along is None or self._along.step != step:
             self._along = _Along(step, np.zeros(2))
-        more = (1.0 - self._rules.confidence) * pendulum.pushed - self._along.moved
+        more = self._rules.yielding * (1.0 - self._rules.confidence) * pendulum.pushed - self._along.moved
         size = math.hypot(*pendulum.pushed.tolist())
         if (
             left < self._rules.least_left

@@ -226,16 +226,17 @@ def test_a_step_goes_along_with_a_push_as_far_as_it_is_not_confident(pushed: Any
     pushing = np.array([0.05, 0.0])
 
     def moved(confidence: float, by: np.ndarray = pushing) -> np.ndarray:
-        change = proposed(pushed((0.0, 0.0), pushed=by)[1], confidence=confidence)
+        change = proposed(pushed((0.0, 0.0), pushed=by)[1], confidence=confidence, yielding=1.0)
         return np.zeros(2) if change is None else np.array(change.shift)
 
     sizes = [float(moved(c)[0]) for c in (0.0, 0.3, 0.6, 1.0)]
     assert sizes == pytest.approx([0.05, 0.035, 0.02, 0.0], abs=1e-9)
+    assert proposed(pushed((0.0, 0.0), pushed=pushing)[1]) is None  # one that does not yield
     assert not moved(0.0, 0.1 * pushing).any()  # too little to change a step for
 
 
 def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed: Any) -> None:
-    steps = adjustment(confidence=0.5)
+    steps = adjustment(confidence=0.5, yielding=1.0)
     plan, tick = pushed((0.0, 0.0), pushed=np.array([0.06, 0.0]))
     change = steps.propose(tick)
     assert change is not None
