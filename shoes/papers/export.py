@@ -24,7 +24,7 @@ from shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
 from shoes.papers.picture import draw_picture
 from shoes.papers.stl import read_stl, write_stl
 from shoes.papers.wiring_list import cells_dxf, wiring_text
-from shoes.solid.pad import pad_surface, taxel_surfaces
+from shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces
 from shoes.solid.tray import read_step, write_step
 from shoes.units import to_m
 
@@ -197,8 +197,9 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
         write_step(shoe.solid, str(target / names[1]))
         write_3mf(shoe.surface, f"{shoe.layout.name} {side}", target / names[2])
         if p.pad_thickness > 0.0:
-            names.append(f"pad_{side}.stl")
+            names += [f"pad_{side}.stl", f"mould_{side}.stl"]
             write_stl(pad_surface(shoe.plan, p), target / names[3])
+            write_stl(mould_surface(shoe.plan, p), target / names[4])
     except OSError as error:
         raise InputError(f"cannot write the {side} shoe to {target}: {error.strerror}") from None
     return read_stl(target / names[0]), read_step(str(target / names[1])), names

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -13,7 +14,9 @@ from shoes.parameters import ShoeParameters
 from shoes.plan.pad_outline import pad_rim
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["pad_surface", "taxel_surfaces", "volume_of"]
+__all__ = ["mould_surface", "pad_surface", "taxel_surfaces", "volume_of"]
+
+_MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
 
 Array = NDArray[np.float64]
 
@@ -28,31 +31,55 @@ def pad_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
     Returns:
         Closed surface (n, 3, 3) in mm, outward counter-clockwise.
     """
+    faces, tops = _faces(plan, parameters)
+    return _height_field(faces, tops)
+
+
+def mould_surface(plan: ShoePlan, parameters: ShoeParameters) -> Array:
+    """Surface of an open mould that the pad is cast in, its flat lower face up, level with the mould's edge.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions; `pad_thickness` above 0.
+
+    Returns:
+        Closed surface (n, 3, 3) in mm, outward counter-clockwise, standing on z = 0; turned about x against the pad.
+    """
+    faces, tops = _faces(plan, parameters, _MOULD_WALL)
+    height = max(tops) + _MOULD_FLOOR
+    surface = _height_field(faces, [height - top for top in tops])
+    return np.asarray((surface * np.array([1.0, -1.0, 1.0]))[:, ::-1])
+
+
+def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list[Any], list[float]]:
+    """The pad from above, and so much around it, as polygons that share their corners; how high the pad is in each."""
     import shapely
 
-    p = parameters
     rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
-    lines = shapely.union_all([plan.contact.boundary, rim.boundary], grid_size=GRID)
-    faces = [f for f in shapely.polygonize([lines]).geoms if plan.contact.buffer(GRID).covers(f)]
-    high = [rim.buffer(GRID).covers(f) for f in faces]
+    whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
+    lines = shapely.union_all([plan.contact.boundary, rim.boundary, whole.boundary], grid_size=GRID)
+    faces = [f for f in shapely.polygonize([lines]).geoms if whole.buffer(GRID).covers(f)]
+    return faces, [full if raised.covers(f) else p.pad_thickness if pad.covers(f) else 0.0 for f in faces]
+
+
+def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
+    """Closed surface over z = 0 of polygons that share their corners, each up to its own height."""
+    import shapely
+
     parts = []
-    for face, raised in zip(faces, high, strict=True):
+    owners: dict[tuple[tuple[float, float], tuple[float, float]], float] = {}
+    for face, top in zip(faces, tops, strict=True):
         flat = _triangles(face)
-        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, full if raised else p.pad_thickness)]
-    owners: dict[tuple[tuple[float, float], tuple[float, float]], bool] = {}
-    for face, raised in zip(faces, high, strict=True):
+        parts += [_at(flat, 0.0)[:, ::-1], _at(flat, top)]
         face = shapely.geometry.polygon.orient(face)
         for line in (face.exterior, *face.interiors):
-            points = [tuple(c) for c in np.array(line.coords)]
-            owners |= dict.fromkeys(pairwise(points), raised)
-    for (a, b), raised in owners.items():
-        beyond = owners.get((b, a))
-        top = full if raised else p.pad_thickness
-        low = 0.0 if beyond is None else (full if beyond else p.pad_thickness)
-        if top > low:
-            levels = [low, p.pad_thickness, top] if low < p.pad_thickness < top else [low, top]
-            for z, up in pairwise(levels):
+            owners |= dict.fromkeys(pairwise([tuple(c) for c in np.array(line.coords)]), top)
+    levels = sorted(set(tops))
+    for (a, b), top in owners.items():
+        low = owners.get((b, a), 0.0)
+        if top > low:  # cut at every height, so that walls that meet share their corners
+            for z, up in pairwise([low, *(v for v in levels if low < v < top), top]):
                 wall = np.array([[*a, z], [*b, z], [*b, up], [*a, up]])
                 parts.append(wall[[[0, 1, 2], [0, 2, 3]]])
     return np.concatenate(parts)

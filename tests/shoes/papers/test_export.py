@@ -22,7 +22,7 @@ from shoes.solid.tray import read_step
 def test_every_file_is_there_and_says_the_same(exported: tuple[ShoeReport, Path]) -> None:
     report, folder = exported
     assert sorted(report.files) == sorted(f.name for f in folder.iterdir())
-    assert len(report.files) == 2 * 10 + 3
+    assert len(report.files) == 2 * 11 + 3
     figures = json.loads((folder / "check.json").read_text())
     assert figures == json.loads(json.dumps(report.as_dict()))
     assert figures["holds"] is True

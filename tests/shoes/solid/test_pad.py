@@ -8,7 +8,7 @@ import trimesh
 
 from shoes import Foot, ShoeParameters, build_shoe
 from shoes.plan.pad_outline import pad_rim
-from shoes.solid.pad import pad_surface, volume_of
+from shoes.solid.pad import mould_surface, pad_surface, volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])
@@ -29,3 +29,17 @@ def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, 
     cells = shapely.union_all(plan.cells)
     assert rim.is_empty or rim.distance(cells) == pytest.approx(0.3, abs=0.01)
     assert rim.is_empty or plan.contact.buffer(2e-3).covers(rim)
+
+
+def test_the_mould_is_what_the_pad_leaves_of_a_block(small_foot: Foot) -> None:
+    build = build_shoe(small_foot, layout_only=True)
+    p, plan = build.parameters, build.shoes[0].plan
+    mould = trimesh.Trimesh(**trimesh.triangles.to_kwargs(mould_surface(plan, p)))
+    assert mould.is_watertight
+    assert mould.is_winding_consistent
+    height = p.pad_thickness + p.pad_rim_height + 3.0
+    block = plan.contact.buffer(6.0, join_style="mitre").area * height
+    assert mould.volume + volume_of(pad_surface(plan, p)) == pytest.approx(block, rel=1e-5)
+    assert mould.bounds[:, 2] == pytest.approx([0.0, height])
+    low, high = plan.contact.bounds[1], plan.contact.bounds[3]
+    assert mould.bounds[:, 1] == pytest.approx([-high - 6.0, -low + 6.0], abs=1e-6)  # turned about x
