@@ -1,0 +1,58 @@
+"""Steps that move for balance, in scenes: whether they catch what ankles do not, and leave alone what they do."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from sim.run.runner import Simulation
+from sim.run.scene import load_scene
+
+SHORT = ["walk.steps=3", "walk.length=0", "walk.lean=true", "push.step=1", "push.phase=0.25", "push.direction=forward"]
+STEPS = ["control.step_adjustment=true", "control.push_estimate=soles"]
+
+
+def run(scene: str, seed: int, *settings: str, robot: str = "h1") -> tuple[Simulation, dict[str, Any]]:
+    simulation = Simulation(load_scene(scene, list(settings), robot), seed)
+    return simulation, simulation.run()
+
+
+def moved(simulation: Simulation) -> float:
+    """By how much in m balance moved the steps in all."""
+    return sum(math.hypot(*a.change.shift) for a in simulation.controller.plan.record)
+
+
+def test_a_step_catches_the_push_that_ankles_do_not() -> None:
+    hard = "push.dv=0.192 leg/beat"  # 40 N s
+    stepped, out = run("push", 1, *SHORT, *STEPS, hard)
+    assert out["tilt_max_deg"] < 12.0
+    assert moved(stepped) > 0.1
+    _, fallen = run("push", 1, *SHORT, hard, "control.step_timing=false")
+    assert fallen["tilt_max_deg"] > 30.0
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(4))
+def test_small_pushes_move_no_step_and_large_ones_do(seed: int) -> None:
+    _, out = run("push-step", seed)
+    assert out["completed"], out["reasons"]
+    _, ankles = run("push-step", seed, "control.step_adjustment=false", "control.push_estimate=off")
+    assert not ankles["completed"]
+
+
+@pytest.mark.long
+def test_who_is_not_confident_follows_and_who_is_leads() -> None:
+    ways = []
+    for confidence in (0.0, 1.0):
+        led = ["partner.role=leader", "walk.length=0", f"step_adjustment.confidence={confidence}"]
+        _, out = run("leader-follower", 0, *led)
+        ways.append(out["partner"]["robot_moved_m"])
+    assert ways[0] < -0.1 < ways[1]
+
+
+@pytest.mark.long
+def test_pushed_steps_of_the_box_become_longer() -> None:
+    _, out = run("box-step", 0)
+    assert out["completed"], out["reasons"]
