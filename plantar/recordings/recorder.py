@@ -2,7 +2,8 @@
 
 The container is MCAP with the profile "ros2": each topic has one message type of float64 fields, encoded as CDR (a
 4-byte header, then the little-endian values). Rows are gathered in one array a topic and become messages in one
-vectorised step a chunk: under 3 us a message with everything, where building them one by one takes 4 and more.
+vectorised step a chunk, which is compressed: under 3 us a message with everything, where building them one by one takes
+4 and more.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ __all__ = ["RecordChannel", "Recorder"]
 
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
-_CHUNK_HEAD = struct.Struct("<BQQQQIIQ")  # opcode, length, first and last time, size, CRC, no compression, size
+_CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last time, size, CRC, compression, packed size
+_COMPRESSION = b"zstd"
 _CDR_LITTLE_ENDIAN = (0, 1, 0, 0)
 _FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
 
@@ -144,6 +146,7 @@ class Recorder:
     ) -> None:
         from mcap import records  # here, so that reading other formats does not need it
         from mcap.data_stream import RecordBuilder
+        from zstandard import ZstdCompressor  # which mcap brings
 
         if not (math.isfinite(chunk_duration) and chunk_duration > 0.0):
             raise RecordingError(f"chunk duration is {chunk_duration} s; allowed: above 0")
@@ -159,6 +162,7 @@ class Recorder:
         self.chunk_duration = chunk_duration
         self._records: Any = records
         self._builder_type: Any = RecordBuilder
+        self._compress = ZstdCompressor(level=1).compress  # a third less, in 1 us a message
         self._channels: list[RecordChannel] = []
         self._definitions: list[Any] = []  # schema and channel records that no chunk holds yet
         self._summary: list[Any] = []
@@ -250,24 +254,22 @@ class Recorder:
             indexes.append((channel._number, index.end()))
             parts.append(messages.view(np.uint8).data)
             offset += messages.nbytes
-        crc = 0
-        for part in parts:
-            crc = zlib.crc32(part, crc)
-        # The chunk's data go to the file as they are: the library's chunk record would copy them three times.
-        start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + offset, low, high, offset, crc, 0, offset))
-        for part in parts:
-            self._put(part)
+        data = b"".join(parts)
+        packed = self._compress(data)
+        head = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))
+        start = self._put(_CHUNK_HEAD.pack(_CHUNK, _CHUNK_HEAD.size - 9 + len(packed), *head))
+        self._put(packed)
         offsets = {number: self._put(index) for number, index in indexes}
         self._chunk_indexes.append(
             self._records.ChunkIndex(
                 chunk_start_offset=start,
-                chunk_length=_CHUNK_HEAD.size + offset,
+                chunk_length=_CHUNK_HEAD.size + len(packed),
                 message_index_offsets=offsets,
                 message_index_length=sum(len(index) for _, index in indexes),
                 message_start_time=low,
                 message_end_time=high,
-                compression="",
-                compressed_size=offset,
+                compression=_COMPRESSION.decode(),
+                compressed_size=len(packed),
                 uncompressed_size=offset,
             )
         )

@@ -195,7 +195,7 @@ def record(path: Path, messages: int, error: BaseException | None) -> None:
     with Recorder(path) as recorder:
         channel = recorder.channel("/a", [("x", 100)])
         for i in range(messages):
-            channel.write(0.1 * i, np.ones(100))
+            channel.write(0.1 * i, np.random.default_rng(i).normal(size=100))  # which does not compress
         if error is not None:
             raise error
 
@@ -239,3 +239,19 @@ def test_a_folder_is_no_name_for_a_recording(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="it is a folder"):
         Recorder(tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_chunks_are_compressed_and_a_foreign_reader_unpacks_them(tmp_path: Path) -> None:
+    from mcap.reader import make_reader
+
+    rows = np.round(np.random.default_rng(0).normal(size=(2000, 6)), 3)
+    with Recorder(tmp_path / "run.mcap") as recorder:
+        channel = recorder.channel("/a", [("values", 6)])
+        for k, row in enumerate(rows):
+            channel.write(0.005 * k, row)
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        chunks = make_reader(stream).get_summary().chunk_indexes
+        assert {c.compression for c in chunks} == {"zstd"}
+        assert sum(c.compressed_size for c in chunks) < 0.75 * sum(c.uncompressed_size for c in chunks)
+        assert sum(1 for _ in make_reader(stream).iter_messages()) == len(rows)
+    assert np.array_equal(read_mcap(tmp_path / "run.mcap").topics["/a"].fields["values"], rows)
