@@ -74,6 +74,28 @@ def test_the_emed_step_is_a_foot(real_data: Path) -> None:
     assert set(foot["regions"]) >= {"heel", "midfoot", "forefoot_central", "hallux", "toes"}
 
 
+def test_the_emed_step_by_another_packages_definitions(real_data: Path) -> None:
+    """pressuRe's definitions, computed here from the frames: sums times frame time, cells above 0."""
+    analysis = analyse(real_data / "recordings" / "emed_step.lst")
+    (gait,) = analysis.feet.values()
+    (step,) = gait.steps
+    pressure, layout = gait.foot.pressure(), gait.foot.layout
+    assert pressure is not None
+    assert layout is not None
+    force, frame = pressure @ layout.areas, 1.0 / analysis.recording.rate_hz
+    theirs = {
+        "peak_pressure_Pa": (pressure.max(), 1e-9),
+        "peak_force_N": (force.max(), 1e-9),
+        "impulse_Ns": (force.sum() * frame, 0.001),
+        "pressure_time_integral_Pas": (pressure.max(axis=1).sum() * frame, 0.005),
+        "pressure_time_integral_cell_Pas": (pressure.sum(axis=0).max() * frame, 0.002),
+        "footprint_area_m2": (layout.areas[(pressure > 0.0).any(axis=0)].sum(), 0.005),
+        "contact_time_s": ((force > 0.0).sum() * frame, 0.01),
+    }
+    for key, (value, share) in theirs.items():
+        assert step[key] == pytest.approx(value, rel=share), key
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_a_hundred_corruptions_of_each(real_data: Path, tmp_path: Path, name: str) -> None:
