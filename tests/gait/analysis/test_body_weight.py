@@ -23,7 +23,7 @@ def of_side(recording: PressureRecording, side: str) -> PressureRecording:
 @pytest.mark.parametrize(("unit", "doubted"), [(1.0, False), (6.895, True), (0.1333, True), (10.0, True), (0.1, True)])
 def test_a_wrong_unit_implies_nobodys_weight(unit: float, doubted: bool, only: str) -> None:
     """Units of pressure that are mistaken for kPa: psi, mmHg, N/cm2."""
-    recording = made_walk(weight=700.0 * unit).recording
+    recording = made_walk(weight=700.0 * unit, rate=50.0, strides=5).recording
     recording = of_side(recording, only) if only else recording
     weight = implied_weight(recording, analyse_feet(recording))
     over_a_stride = 2.0 * 0.62 * float(np.mean(two_humps(np.linspace(0.0, 1.0, 1001))))  # body weights, of both feet

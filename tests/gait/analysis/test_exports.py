@@ -19,7 +19,7 @@ from .walks import made_walk
 
 @pytest.fixture(scope="module")
 def analysis() -> Analysis:
-    recording = made_walk(strides=4, rate=50.0).recording
+    recording = made_walk(strides=3, rate=50.0).recording
     feet = analyse_feet(recording)
     return Analysis(recording, feet, metrics_of(recording, feet))
 

@@ -32,9 +32,9 @@ def test_intervals_of_a_difference_are_students_and_welchs() -> None:
 
 def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
     random = np.random.default_rng(5)
-    draws = [effect_of(random.normal(0, 1, 15), random.normal(0.8, 1, 15), False, 1.0, 1.0) for _ in range(300)]
+    draws = [effect_of(random.normal(0, 1, 15), random.normal(0.8, 1, 15), False, 1.0, 1.0) for _ in range(200)]
     assert np.mean([d.effect_size for d in draws]) == pytest.approx(0.8, abs=0.06)
-    assert 0.91 < np.mean([d.effect_low < 0.8 < d.effect_high for d in draws]) < 0.99
+    assert 0.90 < np.mean([d.effect_low < 0.8 < d.effect_high for d in draws]) < 0.99
 
 
 @pytest.mark.parametrize("paired", [True, False])
@@ -69,10 +69,10 @@ def test_the_null_stays_null_in_95_of_100(paired: bool) -> None:
     """Curves without a difference: a cluster, or a largest |t|, is called significant in 1 of 20 draws or about."""
     random = np.random.default_rng(11)
     found = []
-    for _ in range(60):
-        test = permutation_test(smooth(random, 7), smooth(random, 7), paired, CHAIN, permutations=120)
+    for _ in range(40):
+        test = permutation_test(smooth(random, 7), smooth(random, 7), paired, CHAIN, permutations=100)
         found.append((test.significant.any(), (test.p_all <= 0.05).any()))
-    assert np.mean(found, axis=0).max() <= 0.12  # 60 draws of 0.05: more than 7 is one in 120
+    assert np.mean(found, axis=0).max() <= 0.15  # 40 draws of 0.05: more than 6 is one in 100
 
 
 def test_a_difference_is_found_where_it_is() -> None:
