@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
@@ -34,7 +35,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     for side in SIDES:
         table = recording.topics.get(f"/skin/{side}")
         if table is not None and "force" in table.fields and len(table) > 0:
-            tables[side] = table
+            tables[side] = _once(table)
     if not tables:
         return _other_bag(path, options, ", ".join(recording.topics) or "none")
     first = next(iter(tables.values()))
@@ -65,6 +66,14 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         warnings=tuple(warnings),
         kind="robot",
     )
+
+
+def _once(table: Table) -> Table:
+    """A topic without the frames that were written again for the same instant, as a run's first is: the last counts."""
+    kept = np.append(np.diff(table.time) != 0.0, True)
+    if kept.all() or not kept[-1]:
+        return table
+    return replace(table, time=table.time[kept], fields={name: values[kept] for name, values in table.fields.items()})
 
 
 def _placement(recording: Recording, side: Side, time: NDArray[np.float64]) -> NDArray[np.float64] | None:

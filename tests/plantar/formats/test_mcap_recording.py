@@ -63,3 +63,16 @@ def test_a_layout_of_another_size_is_refused(tmp_path: Path, layout: SoleLayout)
     write(tmp_path / "run.mcap", {"left": layout}, ("left",), 5)
     with pytest.raises(FormatError, match="5 taxels"):
         read_recording(tmp_path / "run.mcap")
+
+
+def test_a_frame_that_is_written_twice_counts_once(tmp_path: Path, layout: SoleLayout) -> None:
+    """A run writes its first instant when it begins and again with its first tick: nothing of that is damage."""
+    path = tmp_path / "run.mcap"
+    with Recorder(path, {}, {"left": layout}) as recorder:
+        channel = recorder.channel("/skin/left", [("force", len(layout))])
+        for i, t in enumerate([0.0, 0.0, *(0.004 * np.arange(1, 60))]):
+            channel.write(t, np.full(len(layout), float(i)))
+    recording = read_recording(path)
+    assert not any("damaged" in w for w in recording.warnings)
+    assert recording.time == pytest.approx(0.004 * np.arange(60))
+    assert recording.feet["left"].force[:3, 0].tolist() == [1.0, 2.0, 3.0]
