@@ -224,14 +224,17 @@ def report() -> None:
             asked = [c for c in cells if survived(c, known)[0] > 0.0 or following(c, known) is None]
             shares = [survived(c, known)[0] / bounds(walk)[c.angle, c.phase] for c in asked]
             reached = [known[c.name(goal(c))][0] for c in cells]
-            held: dict[str, list[bool]] = {}
+            held: dict[str, list[bool | None]] = {}
             for c in cells:
                 good, joint = known[c.name(goal(c))]
                 if not good and joint:
-                    held.setdefault(joint, []).append(known.get(c.name(goal(c), joint), (False, ""))[0])
+                    held.setdefault(joint, []).append(known.get(c.name(goal(c), joint), (None,))[0])
             middle = f"{np.median(shares):.2f} of {len(asked)}" if asked else "-"
-            told = ", ".join(f"{j}: {len(v)} (lifted {sum(v)})" for j, v in held.items()) or "-"
-            lines.append(f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {told} |")
+            told = ", ".join(
+                f"{joint}: {len(lifted)} (lifted {lifted.count(True)} of {len(lifted) - lifted.count(None)} tried)"
+                for joint, lifted in held.items()
+            )
+            lines.append(f"| {variant} | {walk} | {sum(reached)} of {len(cells)} | {middle} | {told or '-'} |")
             if variant == "as it is":
                 missed = {(c.angle, c.phase) for c, good in zip(cells, reached, strict=True) if not good}
                 told_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
