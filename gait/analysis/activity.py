@@ -84,10 +84,8 @@ def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dic
 
     Returns:
         sway_ellipse_m2 (area of the 95 % prediction ellipse of a normal distribution with the points' covariance, pi
-        times
-        5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m,
-        sway_velocity_m_s
-        (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty for less than 5 s.
+        times 5.99 times the root of its determinant; Schubert & Kirchner 2014, Gait Posture 39:518), sway_path_m,
+        sway_velocity_m_s (path over time), sway_ap_m and sway_ml_m (standard deviations). Empty for less than 5 s.
 
     Example:
         >>> t = np.linspace(0.0, 10.0, 1001)

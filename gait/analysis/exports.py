@@ -30,10 +30,8 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
     Args:
         analysis: The analysis: its recording as it was measured, baselines taken off, and the events of its feet.
         path: File ending in .npz (times, forces in N of each cell, layouts and events; `plantar analyze` reads it),
-        .csv (a
-            column a cell, `left 12 [N]`; the same) or .c3d (total force and CoP of each foot as analog channels,
-            events in the
-            group EVENT; needs ezc3d).
+            .csv (a column a cell, `left 12 [N]`; the same) or .c3d (total force of each foot as an analog channel, its
+            CoP as a point, events in the group EVENT; needs ezc3d).
 
     Returns:
         The files written: the export and its sidecar, of the keys that BIDS uses for recorded motion and physiology.

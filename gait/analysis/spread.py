@@ -13,8 +13,7 @@ __all__ = ["Spread", "spread"]
 
 @dataclass(frozen=True)
 class Spread:
-    """Mean, standard deviation (n - 1), coefficient of variation in percent and median of n steps; None where
-    undefined."""
+    """Mean, standard deviation (n - 1), coefficient of variation in percent and median of n steps; or None."""
 
     mean: float | None
     sd: float | None

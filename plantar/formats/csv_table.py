@@ -121,8 +121,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 def _side_by_side(
     table: NDArray[np.float64], names: list[str], at: int | None, of_side: int, warnings: list[str]
 ) -> tuple[NDArray[np.float64], list[str]]:
-    """A table of both feet in columns, from one whose rows are of either foot; the times come first where it has
-    them."""
+    """A table of both feet in columns, from one whose rows are of either foot; the times come first."""
     rows = rows_of_sides(table[:, of_side], warnings)
     cells = [i for i in range(table.shape[1]) if i not in (at, of_side)]
     time = np.arange(len(table), dtype=float) if at is None else table[:, at]

@@ -39,8 +39,7 @@ def gait_of_feet(feet: Mapping[Side, FootGait]) -> dict[str, float | int | None]
     Returns:
         landings (heel strikes of all feet), stride_time_s (mean of all complete steps, as vendors give it),
         cadence_steps_per_min (two steps in that stride), steady_cadence_steps_per_min (in that of the steps in the
-        means),
-        double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
+        means), double_support_percent, single_support_percent, step_length_m, step_width_m, stride_length_m and
         walking_speed_m_s (means); None where the recording cannot tell.
     """
     stride = spread([step["stride_time_s"] for gait in feet.values() for step in gait.steps]).mean

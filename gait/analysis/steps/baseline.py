@@ -21,8 +21,7 @@ from plantar.recordings.pressure_recording import FootRecording, PressureRecordi
 __all__ = ["RestingLevel", "resting_level", "without_baselines"]
 
 OFFSET = 0.10
-"""A level in swing of more than so much of the walk's range of force is an offset; shoes press less on their
-insoles."""
+"""A level in swing of more than so much of the walk's range of force is an offset; shoes press less."""
 
 _TOLD = 0.03
 """A level in swing of more than so much of the range is told, though it is not taken off."""
@@ -31,8 +30,7 @@ HOT = 0.5
 """A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
 
 _WINDOWS = (12.0, 6.0)
-"""Lengths in s of the stretches in which the level in swing is looked for, ten strides or five where it drifts
-quickly."""
+"""Lengths in s of the stretches in which the level in swing is looked for, ten strides or five."""
 
 _FLAT = 0.06
 """Range of a level in swing, as a share of the range of force."""

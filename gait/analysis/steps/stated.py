@@ -57,8 +57,7 @@ def stated_beside_own(events: StatedEvents | None, gait: FootGait) -> dict[str, 
 
     Returns:
         heel_strikes_s and toe_offs_s as stated; heel_strike_difference_s and toe_off_difference_s of those that were
-        found
-        too, each in the order of the stated ones, None where none was found within 0.25 s. None without events.
+        found too, each in the order of the stated ones, None where none was found within 0.25 s. None without events.
     """
     if events is None:
         return None

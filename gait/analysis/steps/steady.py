@@ -1,5 +1,4 @@
-"""Which steps are in the means: those of steady walking; and which of them are odd, which is said and changes
-nothing."""
+"""Which steps are in the means: those of steady walking; and which of them are odd, which is said."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ _ODD = 4.0
 """Robust standard deviations from the median beyond which a step is odd: one of 16,000 of a normal variable."""
 
 _JUDGED = {"contact_time_s": 0.03, "stride_time_s": 0.03, "peak_force_N": 0.04, "impulse_Ns": 0.05}
-"""Measures by which a step is judged, and the least standard deviation, as a share of the median, that steps may
-have."""
+"""Measures by which a step is judged, and the least standard deviation, as a share of the median."""
 
 _WORDS = {
     "contact_time_s": ("contact", "s"),

@@ -18,8 +18,7 @@ PAUSE = 1.75
 """A stride longer than so many times the median of its foot holds a pause or a step that was not recorded."""
 
 _LONGEST_FLIGHT = 0.6
-"""Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s at the
-most."""
+"""Time in s after which the other foot's heel strike is not that of the next step: runners fly for 0.3 s."""
 
 
 def stride_times(contacts: Sequence[Contact]) -> list[float]:

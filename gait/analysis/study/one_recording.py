@@ -1,5 +1,4 @@
-"""One recording of a study: rows of its steps and feet, mean curves over the stance, and maps of the sole in one
-frame."""
+"""One recording of a study: rows of its steps and feet, mean curves over the stance, and maps of the sole."""
 
 from __future__ import annotations
 

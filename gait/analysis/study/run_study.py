@@ -98,8 +98,7 @@ def run_study(
     """Measure every recording of a folder; write steps.csv, recordings.csv, comparison.csv, study.json and study.html.
 
     Recordings that were measured before with the same options and version are not measured again: a study that was
-    stopped
-    goes on where it was. A recording that cannot be read is a row that says why.
+    stopped goes on where it was. A recording that cannot be read is a row that says why.
 
     Args:
         folder: The folder of recordings, looked through with its folders.

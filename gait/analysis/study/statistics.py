@@ -1,8 +1,7 @@
 """Two conditions compared: effect sizes with confidence intervals, and permutation tests that allow for many looks.
 
 A measure, a curve over the stance and a map of the sole are all (samples, values). Each value has a t statistic. How
-large
-the largest of all values' |t| is by chance, and how large the largest cluster of neighbouring values beyond a
+large the largest of all values' |t| is by chance, and how large the largest cluster of neighbouring values beyond a
 threshold, is found by permuting the labels: of independent samples who belongs to which condition, of pairs the sign of
 each difference (Nichols & Holmes 2002, Hum. Brain Mapp. 15:1; Maris & Oostenveld 2007, J. Neurosci. Methods 164:177).
 """
@@ -125,8 +124,7 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     """How one measure differs.
 
     The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
-    the
-    variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5.
+    the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5.
 
     Args:
         a: Values (n,) in A, two or more.
