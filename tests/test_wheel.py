@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import venv
 import zipfile
 from importlib.machinery import EXTENSION_SUFFIXES
@@ -121,6 +122,22 @@ def kernels_that_compile() -> set[str]:
 def test_a_fresh_clone_builds_a_wheel_with_every_kernel(tmp_path):
     built = built_wheel(tmp_path, copied_source(tmp_path, generated=False, compiled=False), CFLAGS="-O0")
     assert {n.partition(".")[0] for n in extensions_in(built)} == kernels_that_compile()
+
+
+@pytest.mark.long
+def test_the_sdist_holds_what_its_tests_need(tmp_path):
+    unwanted = shutil.ignore_patterns(".git", ".venv", "out", "build", "dist", ".*_cache", ".hypothesis", "__pycache__")
+    source = shutil.copytree(ROOT, tmp_path / "source", ignore=unwanted)
+    run(sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", tmp_path, source, cwd=tmp_path)
+    [built] = tmp_path.glob("*.tar.gz")
+    with tarfile.open(built) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+    for folder in ("tests", "examples", "docs", "tools", "plantar", "shoes", "gait", "wholebody", "sim"):
+        files = [p for p in (source / folder).rglob("*") if p.is_file() and not ends(p) & {".so", ".pyd", ".c"}]
+        missing = {p.relative_to(source).as_posix() for p in files} - names
+        assert missing == set()
+    assert {"Makefile", "constraints.txt", "mkdocs.yml", "CHANGELOG.md", ".ci/run"} <= names
+    assert built.stat().st_size < 10e6
 
 
 def test_the_wheel_holds_code_and_data(wheel):
