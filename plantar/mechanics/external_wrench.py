@@ -84,7 +84,8 @@ def external_acceleration(
         InputError: As `vrp_offset`.
 
     Example:
-        >>> omega = (9.81 / 0.83) ** 0.5
+        >>> from plantar.mechanics.lip import pendulum_frequency
+        >>> omega = pendulum_frequency(0.83)
         >>> external_acceleration([50.0, 0.0, 0.0, 0.0, 50.0 * 0.4, 0.0], 86.0, omega).round(3).tolist()
         [0.862, 0.0]
     """
