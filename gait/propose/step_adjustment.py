@@ -50,7 +50,7 @@ class StepAdjustmentRules(Settings):
         method: How the footstep is found: "search" or "ssp_opt".
         confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
         yielding: Share of what a push moves the DCM by that the steps of a robot without confidence go along with, even
-            where its ankles could resist; 0 steps for balance alone.
+            where its ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
         least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
         sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
@@ -67,7 +67,7 @@ class StepAdjustmentRules(Settings):
 
     method: str = choice("search", "ssp_opt")
     confidence: float = number(0.0, "1", 0, 1)
-    yielding: float = number(0.0, "1", 0, 1)
+    yielding: float = number(0.0, "1", 0, 2)
     least_error: float = share(0.0433, "sole", 0, 0.2)
     acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
     sideways: float = number(0.5, "1", 0.01, 1)
