@@ -61,6 +61,7 @@ from gait.propose.foothold_found import FootholdCarries
 from gait.propose.foothold_refused import StepGuard
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
+from gait.propose.learned_stride import LearnedStride, LearnedStrideRules
 from gait.propose.proposer import Pendulum, Proposer, Tick
 from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
 from gait.propose.ssp_opt import StepRegionRules, StepWeights
@@ -122,6 +123,7 @@ class ControllerSettings(Settings):
         foothold: When what is found moves the plan.
         step_timing: When a single support ends sooner or later than planned; None keeps the plan's times.
         step_adjustment: When a footstep moves for balance, in place of `step_timing`; None keeps the footsteps.
+        learned_stride: How strides learn from steps that go along with pushes; None forgets them.
         step_region: Where a footstep may move to.
         step_weights: What a change of a footstep is weighed by in K 31.
         ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
@@ -162,6 +164,7 @@ class ControllerSettings(Settings):
     foothold: FootholdRules = field(default_factory=FootholdRules)
     step_timing: StepTimingRules | None = None
     step_adjustment: StepAdjustmentRules | None = None
+    learned_stride: LearnedStrideRules | None = None
     step_region: StepRegionRules = field(default_factory=StepRegionRules)
     step_weights: StepWeights = field(default_factory=StepWeights)
     ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
@@ -331,6 +334,8 @@ class WalkingController:
             )
         elif s.step_timing is not None:
             on_ground.append(StepTiming(s.step_timing, s.period))
+        if s.learned_stride is not None:
+            on_ground.append(LearnedStride(s.learned_stride))
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
 
     @property

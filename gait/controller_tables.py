@@ -19,6 +19,7 @@ from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
+from gait.propose.learned_stride import LearnedStrideRules
 from gait.propose.slope_inside import SlopeRules
 from gait.propose.ssp_opt import StepRegionRules, StepWeights
 from gait.propose.step_adjustment import StepAdjustmentRules
@@ -40,6 +41,7 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "foothold": (FootholdRules,),
     "step_timing": (StepTimingRules,),
     "step_adjustment": (StepAdjustmentRules,),
+    "learned_stride": (LearnedStrideRules,),
     "step_region": (StepRegionRules,),
     "step_weights": (StepWeights,),
     "ankle_strategy": (AnkleRules,),

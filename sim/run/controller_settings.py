@@ -24,6 +24,7 @@ from gait.feet.ground_conformity import ConformityGains
 from gait.plan.phases import Timing
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
+from gait.propose.learned_stride import LearnedStrideRules
 from gait.propose.slope_inside import SlopeRules
 from gait.propose.ssp_opt import StepRegionRules, StepWeights
 from gait.propose.step_adjustment import StepAdjustmentRules
@@ -115,6 +116,7 @@ def controller_settings(
         # A robot that rocks keeps its own time, which its soles' edges make and no plan of the ZMP.
         step_timing=made(StepTimingRules, "step_timing") if control.step_timing and not robot.rocks else None,
         step_adjustment=made(StepAdjustmentRules, "step_adjustment") if adjusts else None,
+        learned_stride=made(LearnedStrideRules, "learned_stride") if adjusts and control.learn_strides else None,
         step_region=made(StepRegionRules, "step_region"),
         step_weights=made(StepWeights, "step_weights"),
         ankle_strategy=made(AnkleRules, "ankle_strategy"),
@@ -186,6 +188,10 @@ def _refuse_unused(scene: Scene) -> None:
         **dict.fromkeys(
             ("push_estimate", "push_expected"),
             (control.push_estimate != "off", "control.push_estimate = 'soles' or 'skin'"),
+        ),
+        "learned_stride": (
+            control.step_adjustment and control.learn_strides,
+            "control.step_adjustment = true and control.learn_strides = true",
         ),
         "push_felt": (control.push_estimate == "skin", "control.push_estimate = 'skin'"),
         "feasibility": (control.feasibility != "off", "control.feasibility = 'skin' or 'force_torque'"),

@@ -222,6 +222,7 @@ class Control(Settings):
             a robot that rocks.
         step_adjustment: Footsteps move for balance, in place and time; not of a robot that rocks. For ground where a
             foot may stand anywhere.
+        learn_strides: Strides become longer by what pushed steps went farther; needs `step_adjustment`.
         push_estimate: What tells of a push on the body: "off"; "soles", the acceleration that the ZMP does not explain;
             "skin" on the upper body, and the soles where that feels nothing.
         period: Control period in s.
@@ -238,6 +239,7 @@ class Control(Settings):
     identify: bool = switch(True)
     step_timing: bool = switch(True)
     step_adjustment: bool = switch(False)
+    learn_strides: bool = switch(False)
     push_estimate: str = choice("off", "soles", "skin")
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)

@@ -16,7 +16,7 @@ from sim.run.controller_settings import controller_settings
 from sim.run.scene import load_scene, setting_name
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
-ALL_ON += ["control.step_adjustment=true", "control.push_estimate=skin"]
+ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]
 PART_OF = {"balance": "gains", "push_estimate": "push"}
 
 
