@@ -81,6 +81,11 @@ for (const e of document.body.querySelectorAll('*')) {
 const named = e => (e.getAttribute('aria-label') || e.textContent || '').trim() ||
   (e.id && document.querySelector('label[for="' + e.id + '"]') ? 'label' : '');
 const outline = [];
+// A page that has just been opened may not have the focus yet, and then no element shows it.
+for (let i = 0; i < 200 && !document.hasFocus(); i++) {
+  window.focus();
+  await new Promise(r => setTimeout(r, 20));
+}
 for (const e of document.querySelectorAll('a, button, input, select, [tabindex="0"]')) {
   e.focus({focusVisible: true});
   if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') outline.push(e.tagName + ' ' + e.id);
