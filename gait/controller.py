@@ -55,6 +55,8 @@ from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from gait.plan.plan_change import AppliedChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.decide import decide
+from gait.propose.double_support_timing import DoubleSupportTiming, DoubleSupportTimingRules
+from gait.propose.dsp_opt import DspWeights
 from gait.propose.edge_beside import EdgeBeside
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_found import FootholdCarries
@@ -126,6 +128,8 @@ class ControllerSettings(Settings):
         learned_stride: How strides learn from steps that go along with pushes; None forgets them.
         step_region: Where a footstep may move to.
         step_weights: What a change of a footstep is weighed by in K 31.
+        double_support_timing: When a double support ends sooner or later.
+        dsp_weights: What another length of it is weighed by in K 37.
         ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
         push: When the soles and the IMU tell of a push on the body; None expects none.
         push_felt: Which taxels of the upper body feel a push; None goes by the soles alone.
@@ -167,6 +171,8 @@ class ControllerSettings(Settings):
     learned_stride: LearnedStrideRules | None = None
     step_region: StepRegionRules = field(default_factory=StepRegionRules)
     step_weights: StepWeights = field(default_factory=StepWeights)
+    double_support_timing: DoubleSupportTimingRules = field(default_factory=DoubleSupportTimingRules)
+    dsp_weights: DspWeights = field(default_factory=DspWeights)
     ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
     push: PushRules | None = None
     push_felt: NetWrenchRules | None = None
@@ -327,16 +333,22 @@ class WalkingController:
         if self.settings.compliance is not None and self.settings.footholds == "off":
             drop = _NO_GROUND * self.settings.ground_map.sensing_range
             on_ground.append(EdgeBeside(self.layouts, drop, rules.largest_shift))
-        s = self.settings
-        if s.step_adjustment is not None:
-            on_ground.append(
-                StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.ankle_strategy, s.period)
-            )
-        elif s.step_timing is not None:
-            on_ground.append(StepTiming(s.step_timing, s.period))
-        if s.learned_stride is not None:
-            on_ground.append(LearnedStride(s.learned_stride))
+        on_ground += self._for_balance()
         return (*([] if self.guard is None else [self.guard]), *on_ground, *start.commands)
+
+    def _for_balance(self) -> list[Proposer]:
+        """Who may propose other footsteps, or other times of them, by where the DCM is."""
+        s = self.settings
+        if s.step_adjustment is None:
+            return [] if s.step_timing is None else [StepTiming(s.step_timing, s.period)]
+        steps = StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.ankle_strategy, s.period)
+        found: list[Proposer] = [steps]
+        if s.step_adjustment.double_support:
+            confidence = s.step_adjustment.confidence
+            found.append(DoubleSupportTiming(s.double_support_timing, s.dsp_weights, confidence, s.period))
+        if s.learned_stride is not None:
+            found.append(LearnedStride(s.learned_stride))
+        return found
 
     @property
     def schedule(self) -> WalkSchedule:

@@ -17,6 +17,8 @@ from gait.estimate.wrench_filter import WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
+from gait.propose.double_support_timing import DoubleSupportTimingRules
+from gait.propose.dsp_opt import DspWeights
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.learned_stride import LearnedStrideRules
@@ -44,6 +46,8 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "learned_stride": (LearnedStrideRules,),
     "step_region": (StepRegionRules,),
     "step_weights": (StepWeights,),
+    "double_support_timing": (DoubleSupportTimingRules,),
+    "dsp_weights": (DspWeights,),
     "ankle_strategy": (AnkleRules,),
     "push_estimate": (PushRules,),
     "push_felt": (NetWrenchRules,),

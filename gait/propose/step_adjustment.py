@@ -34,7 +34,7 @@ from gait.plan.plan_change import PlanChange
 from gait.propose.proposer import Pendulum, Priority, Tick
 from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
 from plantar.geometry.polygon import closest_point, convex_hull, signed_margin
-from plantar.settings.schema import Settings, choice, number, share
+from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import Side, other_side
 
 __all__ = ["StepAdjustment", "StepAdjustmentRules"]
@@ -51,6 +51,8 @@ class StepAdjustmentRules(Settings):
         confidence: c of K 2.5: 1 keeps the nominal footsteps as long as balance lets it, 0 follows whoever pushes.
         yielding: Share of what a push moves the DCM by that the steps of a robot without confidence go along with, even
             where its ankles could resist; 0 steps for balance alone, above 1 it goes farther than it is pushed.
+        double_support: Whether double supports end sooner or later, too (`gait.propose.double_support_timing`). Off: in
+            pushes of 0.47 m/s on h1 and hrp2kai it changed no outcome for the better.
         least_error: Distance in m by which the DCM would be off at the end, below which the plan stays.
         acceleration: Largest acceleration in m/s^2 of the swing foot.
         sideways: Share of it that is left to the side. (With all of it the swing leg's hip, 71 N m on h1, rolls the
@@ -68,6 +70,7 @@ class StepAdjustmentRules(Settings):
     method: str = choice("search", "ssp_opt")
     confidence: float = number(0.0, "1", 0, 1)
     yielding: float = number(0.0, "1", 0, 2)
+    double_support: bool = switch(False)
     least_error: float = share(0.0433, "sole", 0, 0.2)
     acceleration: float = share(0.816, "leg/beat^2", 0.1, 100)
     sideways: float = number(0.5, "1", 0.01, 1)

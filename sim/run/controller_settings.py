@@ -22,6 +22,8 @@ from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
 from gait.plan.phases import Timing
+from gait.propose.double_support_timing import DoubleSupportTimingRules
+from gait.propose.dsp_opt import DspWeights
 from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_rules import FootholdRules
 from gait.propose.learned_stride import LearnedStrideRules
@@ -49,6 +51,12 @@ little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 
 
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 """Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
+
+_OF_STEPS = (
+    *("step_adjustment", "step_region", "step_weights", "ankle_strategy"),
+    *("double_support_timing", "dsp_weights"),
+)
+"""Tables of steps that move for balance."""
 
 _LEAST_START = 0.2
 """Least time in s of the first shift of the weight."""
@@ -119,6 +127,8 @@ def controller_settings(
         learned_stride=made(LearnedStrideRules, "learned_stride") if adjusts and control.learn_strides else None,
         step_region=made(StepRegionRules, "step_region"),
         step_weights=made(StepWeights, "step_weights"),
+        double_support_timing=made(DoubleSupportTimingRules, "double_support_timing"),
+        dsp_weights=made(DspWeights, "dsp_weights"),
         ankle_strategy=made(AnkleRules, "ankle_strategy"),
         push=made(PushRules, "push_estimate") if control.push_estimate != "off" else None,
         push_felt=made(NetWrenchRules, "push_felt") if control.push_estimate == "skin" else None,
@@ -182,7 +192,7 @@ def _refuse_unused(scene: Scene) -> None:
         "identification": (control.identify, "control.identify = true"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
         **dict.fromkeys(
-            ("step_adjustment", "step_region", "step_weights", "ankle_strategy"),
+            _OF_STEPS,
             (control.step_adjustment, "control.step_adjustment = true"),
         ),
         **dict.fromkeys(
