@@ -32,7 +32,7 @@ LINES: list[tuple[str, str, tuple[str, ...], bool]] = [
         (f"follows, c = {c / 10:g}", "leader-follower", (*FOLLOWER, f"confidence={c / 10:g}"), True)
         for c in range(1, 11)
     ),
-    ("box step, 16 pushes of 20 N s", "box-step", (), False),
+    ("box step, 16 pushes of 25 N s", "box-step", (), False),
     *((f"box step, {v} N s", "box-step", (f"push.impulse={v}",), True) for v in (10, 15, 25, 30)),
     ("on half a foothold, 10 N s", "push-partial", (), False),
     ("the same, taken for a whole one", "push-partial", ("footholds=off",), True),
