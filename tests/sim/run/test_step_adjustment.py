@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from sim.run.runner import Simulation
@@ -53,6 +54,15 @@ def test_who_is_not_confident_follows_and_who_is_leads() -> None:
 
 
 @pytest.mark.long
-def test_pushed_steps_of_the_box_become_longer() -> None:
-    _, out = run("box-step", 0)
+@pytest.mark.parametrize("learns", [False, True])
+def test_pushed_steps_of_the_box_become_longer_and_stay_so_where_strides_learn(learns: bool) -> None:
+    alone = ["push.repeat=6", "push.verdict=walk", f"control.learn_strides={str(learns).lower()}"]
+    _, out = run("box-step", 0, *alone)
     assert out["completed"], out["reasons"]
+    ways = np.array(out["push"]["strides_m"])
+    planned = ways[:6]  # the first round, which nobody pushes
+    along = planned / np.linalg.norm(planned, axis=1)[:, None]
+    grown = [(ways[k : k + 6] * along).sum(axis=1) / np.linalg.norm(planned, axis=1) for k in (6, 18)]
+    assert grown[0].min() > 1.2
+    assert grown[1] == pytest.approx(grown[1][0], rel=0.1)
+    assert grown[1].min() > 1.5 if learns else grown[1].max() < 1.05
