@@ -543,7 +543,7 @@ class WalkingController:
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         """The pendulum now, with what a push is expected to do until the phase ends."""
         offset = pushed = np.zeros(2)
-        if self.settings.push is not None:
+        if self.settings.push is not None and self.settings.step_adjustment is not None:
             expected = self._push.update(self.estimator.push_acceleration / self.omega**2)
             if self._push.acts and phase.swing:
                 offset = self._push.mean(max(0.0, phase.end - time))

@@ -163,6 +163,7 @@ class FloatingBaseEstimator:
             planned_acceleration: Horizontal CoM acceleration (2,) in m/s^2 that the plan asks for; 0 where None.
             airborne: Foot that is high in the air by plan: what it reads there becomes its tare.
             felt: Acceleration (2,) of the CoM in m/s^2 by a push that skin on the body feels; None goes by the soles.
+                Heeded where there is a `push` estimate beside it.
 
         Returns:
             The estimated state.
@@ -192,7 +193,8 @@ class FloatingBaseEstimator:
             cop = cops[s]
             points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
         zmp = zmp_of_feet(points, [loads[s] for s in SIDES])
-        self._feel(rotation.dot(accelerometer)[:2], zmp, felt)
+        if self.push is not None:
+            self.push_acceleration = self._pushed(self.push, rotation.dot(accelerometer)[:2], zmp, felt)
         self._observe(self._position + rotation.dot(posture.com), zmp)
         return BaseState(
             rotation,
@@ -325,18 +327,16 @@ class FloatingBaseEstimator:
             # No foot carries: the body goes on as it went.
             self._position = self._position + self.period * self._velocity
 
-    def _feel(
+    def _pushed(
         self,
+        push: PushEstimate,
         acceleration: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
-    ) -> None:
+    ) -> NDArray[np.float64]:
         """The push at this tick: what skin on the body feels of it, else what the soles tell."""
-        if self.push is not None:
-            pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
-            self.push_acceleration = self.push.update(acceleration, pendulum)
-        if felt is not None:
-            self.push_acceleration = felt
+        estimated = push.update(acceleration, None if zmp is None else self.omega**2 * (self._com[:2] - zmp))
+        return estimated if felt is None else felt
 
     def _observe(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> None:
         acceleration = np.zeros(3)
