@@ -7,6 +7,7 @@ proposer whose change was not chosen sees that in `Tick.plan.last` and proposes 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from enum import IntEnum
 from types import MappingProxyType
@@ -24,6 +25,7 @@ from gait.plan.plan_change import PlanChange
 from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
 from plantar.arrays import read_only
+from plantar.geometry.polygon import closest_point
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
@@ -63,6 +65,22 @@ class Pendulum(NamedTuple):
     zmp_region: NDArray[np.float64]
     offset: NDArray[np.float64] = read_only(np.zeros(2))
     pushed: NDArray[np.float64] = read_only(np.zeros(2))
+
+    def beyond_zmp(self, left: float) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+        """What keeps the DCM from its goal after some time, wherever the ZMP is kept (K 25-27).
+
+        Args:
+            left: Time in s.
+
+        Returns:
+            e^(w T) - 1; the ZMP (2,) in m that would bring the DCM to its goal; the nearest one to it of `zmp_region`,
+            which is not empty. The DCM misses its goal by the first times the way from the nearest to the wanted ZMP.
+        """
+        growth = math.expm1(self.omega * left)
+        wanted = self.dcm + (self.dcm - self.goal) / growth + self.offset
+        nearest = closest_point(self.zmp_region, wanted)
+        assert nearest is not None
+        return growth, wanted, nearest
 
 
 class Tick(NamedTuple):

@@ -160,16 +160,14 @@ class StepAdjustment:
         )
         if left < 2.0 * self._period or off * math.exp(pendulum.omega * left) < self._rules.least_error:
             return None
-        region = self._region(tick, swing)
         if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
-            return self._go_along(tick, pendulum, foot, left, region)
+            return self._go_along(tick, pendulum, foot, left)
+        region = self._region(tick, swing)
         pendulum = pendulum._replace(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
         return self._change(tick, find(tick, pendulum, foot, left, region), left)
 
-    def _go_along(
-        self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
-    ) -> PlanChange | None:
+    def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
         """The step farther along a push, as far as it has not moved already; it never comes back by itself."""
         step, target = tick.phase.step, tick.plan.foothold(tick.phase.step).position[:2]
         if self._along is None or self._along.step != step:
@@ -182,7 +180,8 @@ class StepAdjustment:
             or float(more @ pendulum.pushed) <= self._rules.least_error * size
         ):
             return None
-        wanted = closest_point(region, target + more)
+        assert tick.phase.swing is not None
+        wanted = closest_point(self._region(tick, tick.phase.swing), target + more)
         assert wanted is not None
         move = self._reached(foot, wanted, left) - target
         if float(move @ pendulum.pushed) <= 0.5 * self._rules.least_error * size:
@@ -250,14 +249,19 @@ class StepAdjustment:
         inside = len(region) and signed_margin(region, planned) >= 0.0
         return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))
 
+    def _bounds(self, tick: Tick, left: float) -> tuple[float, float]:
+        """The soonest and the latest time in s from now at which the single support may end."""
+        rules = self._rules
+        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
+        soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
+        return soonest, max(left, (1.0 + rules.longest) * usual - begun)
+
     def _searched(
         self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float, region: NDArray[np.float64]
     ) -> _Choice | None:
         """The best footstep by search over its time."""
         rules = self._rules
-        usual, begun = tick.plan.schedule.timing.single_support, tick.time - tick.phase.start
-        latest = max(left, (1.0 + rules.longest) * usual - begun)
-        soonest = min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun)))
+        soonest, latest = self._bounds(tick, left)
         target = tick.plan.foothold(tick.phase.step).position[:2]
         slope = _slope(tick, pendulum)
         price = rules.price_place * (0.1 + 0.9 * rules.confidence)
@@ -288,22 +292,21 @@ class StepAdjustment:
         vrp, target = plan.vrp(step), plan.foothold(step).position[:2]
         following = plan.schedule.following(tick.phase)
         last = step + 1 >= plan.count
-        begun = tick.time - tick.phase.start
+        begun, (soonest, latest) = tick.time - tick.phase.start, self._bounds(tick, left)
         usual = plan.schedule.timing.single_support
-        kept = _kept(pendulum, left)
         found = solve_ssp(
             SspProblem(
                 omega=pendulum.omega,
                 dcm=pendulum.dcm,
-                vrp=kept,
+                vrp=pendulum.beyond_zmp(left)[2],
                 offset=pendulum.offset,
                 stance=plan.stance_vrp(step),
                 elapsed=begun,
                 target=(*vrp.tolist(), begun + left),
                 nominal=(*vrp.tolist(), usual),
                 region=region + (vrp - target),
-                shortest=begun + min(left, max(rules.least_left, (1.0 - rules.shortest) * (usual - begun))),
-                longest=max(begun + left, (1.0 + rules.longest) * usual),
+                shortest=begun + soonest,
+                longest=begun + latest,
                 next_stride=np.zeros(2) if last else plan.vrp(step + 1) - vrp,
                 next_duration=usual,
                 double_support=following.end - following.start,
@@ -348,18 +351,9 @@ def _moved(planned: Footstep, step: int, move: NDArray[np.float64], reason: str,
     return PlanChange(reason, step, foothold=place, shift=(dx, dy), longer=longer, resets=True)
 
 
-def _kept(pendulum: Pendulum, left: float) -> NDArray[np.float64]:
-    """The ZMP (2,) of the support polygon that brings the DCM nearest to its goal in some time in s (K 25-27)."""
-    growth = math.expm1(pendulum.omega * left)
-    wanted = pendulum.dcm + (pendulum.dcm - pendulum.goal) / growth + pendulum.offset
-    nearest = closest_point(pendulum.zmp_region, wanted)
-    assert nearest is not None
-    return nearest
-
-
 def _missed(pendulum: Pendulum, left: float) -> NDArray[np.float64]:
     """By how much (2,) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
-    vrp = _kept(pendulum, left) - pendulum.offset
+    vrp = pendulum.beyond_zmp(left)[2] - pendulum.offset
     return vrp + math.exp(pendulum.omega * left) * (pendulum.dcm - vrp) - pendulum.goal
 
 

@@ -20,7 +20,6 @@ import math
 
 from gait.plan.plan_change import PlanChange
 from gait.propose.proposer import Pendulum, Priority, Tick
-from plantar.geometry.polygon import closest_point
 from plantar.settings.schema import Settings, number, share
 
 __all__ = ["StepTiming", "StepTimingRules"]
@@ -104,7 +103,5 @@ class StepTiming:
 
 def _missed(pendulum: Pendulum, left: float) -> float:
     """By how much in m the DCM misses its goal after some time in s, wherever its ZMP is kept."""
-    growth = math.expm1(pendulum.omega * left)
-    wanted = pendulum.dcm + (pendulum.dcm - pendulum.goal) / growth
-    nearest = closest_point(pendulum.zmp_region, wanted)
-    return 0.0 if nearest is None else growth * math.dist(wanted, nearest)
+    growth, wanted, nearest = pendulum.beyond_zmp(left)
+    return growth * math.dist(wanted, nearest)
