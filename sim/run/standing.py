@@ -79,9 +79,8 @@ def stand(
     torques = legs.static_torques(dict.fromkeys(SIDES, half), {s: np.array([*centers[s], ground]) for s in SIDES})
     data = world.data
     mujoco.mj_resetData(world.model, data)
-    data.qpos[: len(legs.configuration)] = (
-        legs.configuration
-    )  # the robot comes first; others have their places after it
+    # The robot comes first; others have their places after it.
+    data.qpos[: len(legs.configuration)] = legs.configuration
     data.time = -_SETTLING * world.period
     mujoco.mj_kinematics(world.model, data)
     mujoco.mj_collision(world.model, data)

@@ -161,9 +161,15 @@ def _skin(world: World, sensing: Sensing, side: Side, foam: float) -> SoleSkin:
     site, rubber = world.robot.legs[side].sole_site, _RUBBER * world.body.sole + foam
     layer = sensing.layer + foam if sensing.taxels == "elastic" else None
     return SoleSkin(
-        world.model, world.robot.layouts[side], site, geoms, rubber=rubber, reach=world.reach, layer=layer,
+        world.model,
+        world.robot.layouts[side],
+        site,
+        geoms,
+        rubber=rubber,
+        reach=world.reach,
+        layer=layer,
         rim_stiffness=world.robot.rim_stiffness,
-    )  # fmt: skip
+    )
 
 
 def _errors(world: World, plant: TruePlant | None, side: Side) -> TaxelErrors | None:
