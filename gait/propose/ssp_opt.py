@@ -52,10 +52,10 @@ class StepWeights(Settings):
 
 
 class StepRegionRules(Settings):
-    """Where the swing foot may land beside the stance foot, and when (K 32-33).
+    """Where the swing foot may land beside the stance foot (K 32).
 
     The paper's numbers are for a leg of 0.6 m with 0.15 m between the legs: 0.2 m forward and backward, 0 to 0.12 m out
-    beyond those 0.15 m, 0.7 to 1.7 s. Such a leg with its knee bent by 15 degrees reaches 0.33 m aside, and a walk with
+    beyond those 0.15 m. Such a leg with its knee bent by 15 degrees reaches 0.33 m aside, and a walk with
     steps of 0.2 m could not lengthen them at all: 0.25 m forward and 0.33 m outside are allowed here.
 
     Attributes:
@@ -63,16 +63,12 @@ class StepRegionRules(Settings):
         backward: Farthest backward in m.
         inside: Least distance in m between the soles' middle lines: nearer, one leg would cross the other.
         outside: Largest distance between them in m.
-        shortest: Shortest single support in s.
-        longest: Longest single support in s.
     """
 
     forward: float = share(0.417, "leg", 0, 1)
     backward: float = share(0.333, "leg", 0, 1)
     inside: float = share(0.25, "leg", 0, 1)
     outside: float = share(0.55, "leg", 0, 1)
-    shortest: float = share(2.83, "beat", 0.01, 10)
-    longest: float = share(6.87, "beat", 0.01, 100)
 
 
 def footstep_region(
