@@ -25,11 +25,11 @@ from gait.plan.plan_change import PlanChange
 from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
 from plantar.arrays import read_only
-from plantar.geometry.polygon import closest_point
+from plantar.kernels.convex import closest_point
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
-__all__ = ["Pendulum", "Priority", "Proposer", "Tick", "was_applied"]
+__all__ = ["Pendulum", "Priority", "Proposer", "Tick", "nearest_place", "was_applied"]
 
 
 class Priority(IntEnum):
@@ -66,21 +66,23 @@ class Pendulum(NamedTuple):
     offset: NDArray[np.float64] = read_only(np.zeros(2))
     pushed: NDArray[np.float64] = read_only(np.zeros(2))
 
-    def beyond_zmp(self, left: float) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
+    def beyond_zmp(self, left: float) -> tuple[float, tuple[float, float], tuple[float, float]]:
         """What keeps the DCM from its goal after some time, wherever the ZMP is kept (K 25-27).
+
+        Plain numbers: a search over the time asks for this dozens of times in a tick.
 
         Args:
             left: Time in s.
 
         Returns:
-            e^(w T) - 1; the ZMP (2,) in m that would bring the DCM to its goal; the nearest one to it of `zmp_region`,
-            which is not empty. The DCM misses its goal by the first times the way from the nearest to the wanted ZMP.
+            e^(w T) - 1; the ZMP (x, y) in m that would bring the DCM to its goal; the nearest one to it of
+            `zmp_region`, which is not empty. The DCM misses its goal by the first times the way from the nearest to the
+            wanted ZMP.
         """
         growth = math.expm1(self.omega * left)
-        wanted = self.dcm + (self.dcm - self.goal) / growth + self.offset
-        nearest = closest_point(self.zmp_region, wanted)
-        assert nearest is not None
-        return growth, wanted, nearest
+        (x, y), (gx, gy), (wx, wy) = self.dcm.tolist(), self.goal.tolist(), self.offset.tolist()
+        wanted = x + (x - gx) / growth + wx, y + (y - gy) / growth + wy
+        return growth, wanted, nearest_place(self.zmp_region, *wanted)
 
 
 class Tick(NamedTuple):
@@ -140,6 +142,25 @@ class Proposer(Protocol):
             The change, or None.
         """
         ...
+
+
+def nearest_place(region: NDArray[np.float64], x: float, y: float) -> tuple[float, float]:
+    """The place of a region that is nearest to a wanted one, in plain numbers.
+
+    Args:
+        region: Convex polygon (k, 2) in m, not empty.
+        x: Wanted place in m.
+        y: The same.
+
+    Returns:
+        Place (x, y) in m.
+
+    Example:
+        >>> nearest_place(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 2.0, 0.5)
+        (1.0, 0.5)
+    """
+    nx, ny = closest_point(region, x, y).tolist()
+    return nx, ny
 
 
 def was_applied(change: PlanChange, tick: Tick) -> bool:

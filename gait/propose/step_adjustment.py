@@ -31,9 +31,9 @@ from numpy.typing import NDArray
 from gait.balance.ankle_strategy import AnkleRules, shrunk_support
 from gait.plan.footsteps import Footstep
 from gait.plan.plan_change import PlanChange
-from gait.propose.proposer import Pendulum, Priority, Tick
+from gait.propose.proposer import Pendulum, Priority, Tick, nearest_place
 from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
-from plantar.geometry.polygon import closest_point, convex_hull, signed_margin
+from plantar.geometry.polygon import convex_hull, signed_margin
 from plantar.settings.schema import Settings, choice, number, share, switch
 from plantar.sides import Side, other_side
 
@@ -84,27 +84,27 @@ class StepAdjustmentRules(Settings):
 
 
 class _Foot(NamedTuple):
-    """The foot that swings: which step it takes, where (2,) in m it is, its heading in rad and its velocity (2,) in
-    m/s."""
+    """The foot that swings: which step it takes, where (x, y) in m it is, its heading in rad and its velocity (x, y)
+    in m/s."""
 
     step: int
-    place: NDArray[np.float64]
+    place: tuple[float, float]
     yaw: float
-    velocity: NDArray[np.float64]
+    velocity: tuple[float, float]
 
 
 class _Along(NamedTuple):
-    """By how much (2,) in m which step has gone along with a push."""
+    """By how much (x, y) in m which step has gone along with a push."""
 
     step: int
-    moved: NDArray[np.float64]
+    moved: tuple[float, float]
 
 
 class _Choice(NamedTuple):
-    """A footstep: the time in s until it, by how much (2,) in m it moves, and what it costs in m."""
+    """A footstep: the time in s until it, by how much (x, y) in m it moves, and what it costs in m."""
 
     left: float
-    move: NDArray[np.float64]
+    move: tuple[float, float]
     cost: float
 
 
@@ -132,7 +132,8 @@ class StepAdjustment:
         self._rules = rules
         self._box = region
         self._weights = weights
-        self._ankle = ankle
+        c, (forward, sideways) = rules.confidence, (ankle.forward, ankle.sideways)
+        self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         self._period = period
         self._changed = -math.inf
         self._adjusted = -1
@@ -169,46 +170,44 @@ class StepAdjustment:
 
     def _go_along(self, tick: Tick, pendulum: Pendulum, foot: _Foot, left: float) -> PlanChange | None:
         """The step farther along a push, as far as it has not moved already; it never comes back by itself."""
-        step, target = tick.phase.step, tick.plan.foothold(tick.phase.step).position[:2]
+        step, planned = tick.phase.step, tick.plan.foothold(tick.phase.step)
         if self._along is None or self._along.step != step:
-            self._along = _Along(step, np.zeros(2))
-        more = self._rules.yielding * (1.0 - self._rules.confidence) * pendulum.pushed - self._along.moved
-        size = math.hypot(*pendulum.pushed.tolist())
+            self._along = _Along(step, (0.0, 0.0))
+        yields, (px, py) = self._rules.yielding * (1.0 - self._rules.confidence), pendulum.pushed.tolist()
+        size, (mx, my) = math.hypot(px, py), self._along.moved
+        more = yields * px - mx, yields * py - my
         if (
             left < self._rules.least_left
             or size == 0.0
-            or float(more @ pendulum.pushed) <= self._rules.least_error * size
+            or more[0] * px + more[1] * py <= self._rules.least_error * size
         ):
             return None
         assert tick.phase.swing is not None
-        wanted = closest_point(self._region(tick, tick.phase.swing), target + more)
-        assert wanted is not None
-        move = self._reached(foot, wanted, left) - target
-        if float(move @ pendulum.pushed) <= 0.5 * self._rules.least_error * size:
+        wanted = nearest_place(self._region(tick, tick.phase.swing), planned.x + more[0], planned.y + more[1])
+        x, y = self._reached(foot, wanted, left)
+        dx, dy = x - planned.x, y - planned.y
+        if dx * px + dy * py <= 0.5 * self._rules.least_error * size:
             return None
-        self._along = _Along(step, self._along.moved + move)
+        self._along = _Along(step, (mx + dx, my + dy))
         self._changed = tick.time
-        return _moved(tick.plan.foothold(step), step, move, "goes along with a push", 0.0)
+        return _moved(planned, step, (dx, dy), "goes along with a push", 0.0)
 
     def _relied_on(self, tick: Tick, support: NDArray[np.float64]) -> NDArray[np.float64]:
         """The part (k, 2) in m of the support polygon that a changed footstep is planned with: f(c) S (K 27).
 
         A step that needs all of it leaves nothing for what no pendulum foresees, and ends on the new foot's outer edge.
         """
-        c, (forward, sideways) = self._rules.confidence, (self._ankle.forward, self._ankle.sideways)
-        used = replace(self._ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
         swing = tick.phase.swing
         assert swing is not None
-        return shrunk_support(support, used, support.mean(axis=0), tick.place(other_side(swing)).yaw)
+        return shrunk_support(support, self._ankle, support.mean(axis=0), tick.place(other_side(swing)).yaw)
 
     def _follow(self, tick: Tick, swing: Side) -> _Foot:
         """Where the swing foot is commanded and how fast."""
-        step, before = tick.place(swing), self._foot
-        place = step.position[:2]
-        velocity = np.zeros(2)
+        now, before, velocity = tick.place(swing), self._foot, (0.0, 0.0)
         if before is not None and before.step == tick.phase.step:
-            velocity = (place - before.place) / self._period
-        self._foot = _Foot(tick.phase.step, place, step.yaw, velocity)
+            x, y = before.place
+            velocity = (now.x - x) / self._period, (now.y - y) / self._period
+        self._foot = _Foot(tick.phase.step, (now.x, now.y), now.yaw, velocity)
         return self._foot
 
     def _change(self, tick: Tick, found: _Choice | None, left: float) -> PlanChange | None:
@@ -218,7 +217,7 @@ class StepAdjustment:
         # A whole number of ticks, so that phases begin at ticks.
         longer = round((found.left - left) / self._period) * self._period
         step, move = tick.phase.step, found.move
-        if abs(longer) < 1.5 * self._period and math.hypot(*move.tolist()) < 0.5 * self._rules.least_error:
+        if abs(longer) < 1.5 * self._period and math.hypot(*move) < 0.5 * self._rules.least_error:
             return None
         self._changed, self._adjusted = tick.time, step
         return _moved(tick.plan.foothold(step), step, move, "step adjusted", longer)
@@ -231,14 +230,14 @@ class StepAdjustment:
             return None
         self._stands = step
         place, planned = tick.place(side), tick.plan.foothold(step)
-        move = place.position[:2] - planned.position[:2]
-        if math.hypot(*move.tolist()) < self._rules.misplaced:
-            move, place = np.zeros(2), planned
+        move = place.x - planned.x, place.y - planned.y
+        if math.hypot(*move) < self._rules.misplaced:
+            move, place = (0.0, 0.0), planned
         # Down to its last tick: a phase has to have a length.
         longer = min(0.0, tick.time + self._period - phase.end) if phase.swing and self._adjusted == step else 0.0
-        if longer > -1.5 * self._period and not move.any():
+        if longer > -1.5 * self._period and not any(move):
             return None
-        reason = "landed beside its place" if move.any() else "landed early"
+        reason = "landed beside its place" if any(move) else "landed early"
         return _moved(replace(planned, yaw=place.yaw), step, move, reason, longer)
 
     def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
@@ -262,17 +261,16 @@ class StepAdjustment:
         """The best footstep by search over its time."""
         rules = self._rules
         soonest, latest = self._bounds(tick, left)
-        target = tick.plan.foothold(tick.phase.step).position[:2]
-        slope = _slope(tick, pendulum)
+        planned, slope = tick.plan.foothold(tick.phase.step), _slope(tick, pendulum)
         price = rules.price_place * (0.1 + 0.9 * rules.confidence)
 
         def tried(time: float) -> _Choice:
             missed = _missed(pendulum, time)
-            wanted = closest_point(region, target + missed / slope)
-            assert wanted is not None
-            move = self._reached(foot, wanted, time) - target
-            cost = math.dist(missed, slope * move) + rules.price_time * abs(time - left)
-            return _Choice(time, move, cost + price * math.hypot(*move.tolist()))
+            wanted = nearest_place(region, planned.x + missed[0] / slope, planned.y + missed[1] / slope)
+            x, y = self._reached(foot, wanted, time)
+            dx, dy = x - planned.x, y - planned.y
+            cost = math.dist(missed, (slope * dx, slope * dy)) + rules.price_time * abs(time - left)
+            return _Choice(time, (dx, dy), cost + price * math.hypot(dx, dy))
 
         step = (latest - soonest) / _COARSE
         best = tried(left)
@@ -317,44 +315,46 @@ class StepAdjustment:
         if found is None:
             return None
         time = found.time - begun
-        move = self._reached(foot, found.place - vrp + target, time) - target
-        return _Choice(time, move, 0.0)
+        px, py = (found.place - vrp + target).tolist()
+        (x, y), (tx, ty) = self._reached(foot, (px, py), time), target.tolist()
+        return _Choice(time, (x - tx, y - ty), 0.0)
 
-    def _reached(self, foot: _Foot, wanted: NDArray[np.float64], time: float) -> NDArray[np.float64]:
-        """The place (2,) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
+    def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
+        """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
 
         From rest a minimum-jerk motion gets a t^2 / 5.77 far with a peak of a. A foot that moves at v gets v t / 2
         farther and, for braking, v^2 / 5.77 a less far: as with a constant acceleration, whose numbers are 1/4.
         """
-        most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity.tolist(), foot.place.tolist()
+        most, (vx, vy), (x, y) = self._rules.acceleration, foot.velocity, foot.place
         c, s, narrow = math.cos(foot.yaw), math.sin(foot.yaw), self._rules.sideways
         # In the foot's axes, those to the side stretched: what it reaches is a circle then.
         ahead, aside = c * vx + s * vy, (c * vy - s * vx) / narrow
         reach = max(0.0, most * time * time - (ahead * ahead + aside * aside) / most) / _PEAK
-        wx, wy = (wanted - foot.place).tolist()
+        wx, wy = wanted[0] - x, wanted[1] - y
         dx, dy = c * wx + s * wy - 0.5 * time * ahead, (c * wy - s * wx) / narrow - 0.5 * time * aside
         far = math.hypot(dx, dy)
         if far <= reach:
             return wanted
         dx, dy = 0.5 * time * ahead + dx * (reach / far), narrow * (0.5 * time * aside + dy * (reach / far))
-        return np.array((x + c * dx - s * dy, y + s * dx + c * dy))
+        return x + c * dx - s * dy, y + s * dx + c * dy
 
 
 def _cost(choice: _Choice) -> float:
     return choice.cost
 
 
-def _moved(planned: Footstep, step: int, move: NDArray[np.float64], reason: str, longer: float) -> PlanChange:
+def _moved(planned: Footstep, step: int, move: tuple[float, float], reason: str, longer: float) -> PlanChange:
     """A change that moves a footstep and all after it."""
-    dx, dy = move.tolist()
-    place = replace(planned, x=planned.x + dx, y=planned.y + dy)
-    return PlanChange(reason, step, foothold=place, shift=(dx, dy), longer=longer, resets=True)
+    place = replace(planned, x=planned.x + move[0], y=planned.y + move[1])
+    return PlanChange(reason, step, foothold=place, shift=move, longer=longer, resets=True)
 
 
-def _missed(pendulum: Pendulum, left: float) -> NDArray[np.float64]:
-    """By how much (2,) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
-    vrp = pendulum.beyond_zmp(left)[2] - pendulum.offset
-    return vrp + math.exp(pendulum.omega * left) * (pendulum.dcm - vrp) - pendulum.goal
+def _missed(pendulum: Pendulum, left: float) -> tuple[float, float]:
+    """By how much (x, y) in m the DCM misses its goal after some time in s with the best ZMP of the support polygon."""
+    (px, py), (wx, wy) = pendulum.beyond_zmp(left)[2], pendulum.offset.tolist()
+    (x, y), (gx, gy), grown = pendulum.dcm.tolist(), pendulum.goal.tolist(), math.exp(pendulum.omega * left)
+    ux, uy = px - wx, py - wy
+    return ux + grown * (x - ux) - gx, uy + grown * (y - uy) - gy
 
 
 def _slope(tick: Tick, pendulum: Pendulum) -> float:
