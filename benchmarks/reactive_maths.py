@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
 from gait.balance.ankle_strategy import (
+    AnkleRules,
     dcm_after_double_support,
     dcm_after_single_support,
     double_support_pull,
@@ -23,15 +24,23 @@ from gait.balance.ankle_strategy import (
     target_dcms,
     within_support,
 )
+from gait.estimate.command_frame import CommandFrame
 from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
 from gait.feet.swing_fit import SwingFit, SwingFitRules
+from gait.plan.feet_view import FeetView
+from gait.plan.footsteps import straight_plan
+from gait.plan.phases import Timing
+from gait.plan.walk_plan import WalkPlan
 from gait.propose.dsp_opt import DspProblem, DspWeights, solve_dsp
+from gait.propose.proposer import Pendulum, Tick
 from gait.propose.ssp_opt import SspProblem, StepRegionRules, StepWeights, footstep_region, solve_ssp
+from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from plantar.atomic import write_text
 from plantar.mechanics.external_wrench import vrp_offset
 from plantar.sensing.link_skin import BodySkin, SkinPatch, SkinReading
 from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
+from plantar.sides import SIDES
 from sim.judging.capture_limit import CaptureLimits
 from sim.judging.periodic_walk import PeriodicWalk, capture_map
 
@@ -169,6 +178,24 @@ def beside_lbfgs(problems, solve, cost_of, start_of, place_of, gradient):
     yield timed(theirs, prepared), other / least - 1.0, None
 
 
+def pushed_ticks(rng, count, most) -> list[Tick]:
+    """A robot that steps in place and whose DCM is moved by up to some m, anywhere in the middle of a step."""
+    feet, steps = straight_plan(8, length=0.0)
+    plan = WalkPlan(feet, steps, Timing(), dict.fromkeys(SIDES, np.zeros(2)), OMEGA, 1.0)
+    phase = next(p for p in plan.schedule.phases if p.swing and p.step == 3)
+    frame, found = CommandFrame(np.zeros(3), PERIOD, 0.3), []
+    for _ in range(count):
+        now, angle = phase.start + rng.uniform(0.2, 0.6) * (phase.end - phase.start), rng.uniform(0.0, 2.0 * math.pi)
+        reference, off = plan.at(now), rng.uniform(0.0, most) * np.array([math.cos(angle), math.sin(angle)])
+        region = reference.vrp + SOLE
+        pendulum = Pendulum(OMEGA, reference.dcm + off, reference, plan.dcm_after(phase), region)
+        places = {side: (feet[side].position, 0.0) for side in SIDES}
+        places[phase.swing] = (feet[phase.swing].position + np.array([0.0, 0.0, 0.05]), 0.0)
+        view = FeetView(places, phase.swing, landed=False)
+        found.append(Tick(now, phase, plan.view, view, frame, pendulum=pendulum))
+    return found
+
+
 def layer(rng):
     """Name, function and cases of each part of a tick."""
     pushes = rng.normal(size=(COUNT, 6)) * [50, 50, 5, 10, 10, 2]
@@ -209,6 +236,12 @@ def layer(rng):
     yield "swing fit, goal and time new at each call (K 13-16)", lambda g: fit.aim(g, 0.3, 0.7 + g[0]), goals
     seen = np.zeros(3)
     yield "swing fit, with the measured foot", lambda g: fit.aim(g, 0.3, 0.7 + g[0], seen), goals
+    made = StepAdjustmentRules(pause=0.0), StepRegionRules(), WEIGHTS, AnkleRules(), PERIOD
+    for name, most in (("while the ZMP does", 0.001), ("searched (K 4.2)", 0.12)):
+        # One for each tick: it does not go back in time.
+        ticks = [(StepAdjustment(*made), tick) for tick in pushed_ticks(rng, COUNT, most)]
+        moved = [(steps, tick) for steps, tick in ticks if (steps.propose(tick) is not None) == (most > 0.1)]
+        yield f"step adjustment, {name}", lambda case: case[0].propose(case[1]), moved
 
 
 def closed_form_errors(rng, count=200) -> tuple[float, float]:
@@ -259,11 +292,14 @@ def main() -> None:
         "| part of a tick | median [us] | 99 % [us] |",
         "|---|---|---|",
     ]
-    total = 0.0
+    total = searched = 0.0
     for name, function, cases in layer(rng):
         times = timed(function, cases)
         lines.append(f"| {name} | {np.median(times):.1f} | {np.percentile(times, 99):.1f} |")
-        total += 0.0 if any(w in name for w in ("none active", "double", "new at each")) else float(np.median(times))
+        if "step adjustment" in name:
+            searched = float(np.median(times))
+        elif not any(w in name for w in ("none active", "double", "new at each")):
+            total += float(np.median(times))
     singles, doubles = single_supports(rng, COUNT), double_supports(rng, COUNT)
     few = COUNT // 4
     tables = [
@@ -290,7 +326,7 @@ def main() -> None:
             ),
         ),
     ]
-    solved = []
+    solved, solves = [], 0.0
     for name, rows in tables:
         for who, (times, excess, residual) in zip(("here", "scipy's L-BFGS-B"), rows, strict=True):
             worse = float(np.mean(excess > 1e-6))
@@ -299,10 +335,11 @@ def main() -> None:
                 f"| {name} | {who} | {np.median(times):.1f} | {np.percentile(times, 99):.1f} | {100 * worse:.1f} % | "
                 f"{excess.max():.1e} | {told} |"
             )
-            total += float(np.median(times)) if who == "here" and name.startswith("SSP") else 0.0
+            solves = float(np.median(times)) if who == "here" and name.startswith("SSP") else solves
     lines += [
         "",
-        f"The whole layer in a single support under a push, with skin: {total:.0f} us.",
+        f"The whole layer in a single support under a push, with skin: {total + searched:.0f} us where the footstep is",
+        f"searched for, {total + solves:.0f} us with SSP-Opt's solution in the search's place.",
         "",
         f"Optima of {few} pushes up to 60 N s, from all sides, at any time. Worse: cases in which a cost is more",
         "than 1e-6 above the least that either found; excess: by what share at most. Residual: of the KKT conditions,",
