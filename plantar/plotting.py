@@ -18,7 +18,17 @@ from plantar.atomic import replacing
 from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 
-__all__ = ["COLOURS", "FORMATS", "draw_cells", "draw_classes", "draw_raster", "new_figure", "save_figure", "thinned"]
+__all__ = [
+    "COLOURS",
+    "FORMATS",
+    "draw_cells",
+    "draw_classes",
+    "draw_raster",
+    "new_figure",
+    "save_figure",
+    "thinned",
+    "ticks_in_mm",
+]
 
 FORMATS: tuple[str, ...] = ("pdf", "png", "svg")
 """Formats that a figure is saved in, by the suffix of its path."""
@@ -134,8 +144,21 @@ def _cells(axes: Any, layout: SoleLayout, **style: Any) -> Any:
     axes.plot(-ring[:, 1], ring[:, 0], color=COLOURS["edge"], linewidth=1.0)
     axes.set_aspect("equal")
     axes.autoscale_view()
-    axes.locator_params(axis="x", nbins=3, steps=[1, 5, 10])
+    ticks_in_mm(axes)
     return cells
+
+
+def ticks_in_mm(axes: Any) -> None:
+    """Label axes whose data are in m in whole millimetres, close enough together to measure an 80 mm wide foot by.
+
+    Args:
+        axes: The axes, both of them lengths in m.
+    """
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+    for axis, most in ((axes.xaxis, 5), (axes.yaxis, 8)):
+        axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{1e3 * value:.0f}".replace("-", "−")))
 
 
 def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:

@@ -1,10 +1,11 @@
 import subprocess
 import sys
+from itertools import pairwise
 
 import pytest
 
 from plantar import InputError
-from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.plotting import COLOURS, new_figure, save_figure, ticks_in_mm
 
 
 def drawn():
@@ -51,3 +52,18 @@ def test_figures_need_no_display_and_matplotlib_waits_for_the_first():
         "assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-W", "error", "-c", code], check=True, env={"PATH": ""})
+
+
+@pytest.mark.parametrize("width", [0.06, 0.08, 0.12, 0.4])
+def test_ticks_of_a_foot_can_be_read(width):
+    """Every foot has three to six ticks across it, whole millimetres that do not run into each other."""
+    figure, axes = new_figure(2.6, 5.0)
+    axes.plot([-0.5 * width, 0.5 * width], [0.0, 3.0 * width])
+    ticks_in_mm(axes)
+    figure.draw_without_rendering()
+    low, high = axes.get_xlim()
+    labels = [t for t in axes.get_xticklabels() if low <= t.get_position()[0] <= high]
+    assert 3 <= len(labels) <= 6
+    assert all(float(t.get_text().replace("\u2212", "-")) == pytest.approx(1e3 * t.get_position()[0]) for t in labels)
+    boxes = [t.get_window_extent() for t in labels]
+    assert all(a.x1 + 2.0 < b.x0 for a, b in pairwise(boxes))

@@ -26,6 +26,8 @@ __all__ = ["axis_is_inside", "figure_pair", "figure_pressure", "figure_regions"]
 MOST_PATHS = 12
 """CoP paths drawn a foot, thin, beside the mean one; of more steps every n-th: the map below has to be seen."""
 
+_FORWARD, _RIGHT = "forward (mm)", "to the right (mm)"
+
 _STANCE = np.linspace(0.0, 1.0, 51)
 """Shares of the stance at which paths are averaged."""
 
@@ -54,8 +56,10 @@ def _panels(shown: Mapping[Side, _Cells], extra: float) -> tuple[Any, Any]:
     """A figure with one upright panel a foot."""
     extents = [np.ptp(cells.layout.outline, axis=0) for cells in shown.values()]
     slender = max(float(length / width) for length, width in extents)
-    size = 3.2 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
-    return new_figure(*size, columns=len(shown), squeeze=False)
+    size = 2.7 * len(shown) + extra, min(6.4, 1.8 + 2.5 * slender)
+    figure, axes = new_figure(*size, columns=len(shown), squeeze=False)
+    figure.set_layout_engine("compressed")  # panels of one aspect stand beside each other without a gap
+    return figure, axes
 
 
 def _highest(feet: Iterable[FootGait]) -> float:
@@ -71,7 +75,7 @@ def _draw_picture(panel: Any, gait: FootGait, cells: _Cells, factor: float, high
 
 
 def _finish(figure: Any, axes: Any, drawn: Any, what: str, raw: bool) -> None:
-    axes[0][0].set_ylabel("forward (m)")
+    axes[0][0].set_ylabel(_FORWARD)
     figure.colorbar(drawn, ax=list(axes[0]), label=f"{what} ({'counts' if raw else 'kPa'})", shrink=0.8)
 
 
@@ -97,10 +101,21 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
         drawn = _draw_picture(panel, gait, shown[side], factor, highest)
         _draw_paths(panel, gait)
         panel.set_title(f"{side} foot, {len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}")
-        panel.set_xlabel("to the right (m)")
+        panel.set_xlabel(_RIGHT)
     what = "maximum pressure" if platform else "maximum pressure, mean of the steps"
     _finish(figure, axes, drawn, what, recording.raw)
+    _legend(figure, axes[0], "outside lower center", ncols=2, facecolor="#8a8f98", labelcolor="#111111")
     return figure
+
+
+def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:
+    """One legend for all panels, each entry once, beside them: it hides nothing, and prints."""
+    entries: dict[str, Any] = {}
+    for panel in panels:
+        handles, names = panel.get_legend_handles_labels()
+        entries = dict(zip(names, handles, strict=True)) | entries
+    if entries:
+        figure.legend(entries.values(), entries.keys(), loc=place, fontsize=9, **look)
 
 
 def _draw_paths(panel: Any, gait: FootGait) -> None:
@@ -109,17 +124,14 @@ def _draw_paths(panel: Any, gait: FootGait) -> None:
     if gait.cop is None or not complete:
         return
     every = -(-len(complete) // MOST_PATHS)
-    name = "CoP path of a step" + (f" (every {every}th)" if every > 1 else "")
     paths = [gait.cop[contact.begin : contact.end] for contact in complete]
     for i, path in enumerate(paths[::every]):
-        panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=None if i else name)
+        name = None if i else "CoP path of a step"
+        panel.plot(-path[:, 1], path[:, 0], color="#ffffff", linewidth=0.7, alpha=0.6, label=name)
     mean = _mean_path(paths)
     if mean is not None:
         panel.plot(-mean[:, 1], mean[:, 0], color="#ffffff", linewidth=3.4)
         panel.plot(-mean[:, 1], mean[:, 0], color=COLOURS["cop"], linewidth=1.8, label="mean CoP path")
-    low, high = panel.get_ylim()
-    panel.set_ylim(low - 0.08 * (high - low), high)  # room for the legend below the heel
-    panel.legend(loc="lower center", fontsize=8, framealpha=0.9, facecolor="#8a8f98", labelcolor="#111111")
 
 
 def _mean_path(paths: Sequence[NDArray[np.float64]]) -> NDArray[np.float64] | None:
@@ -150,12 +162,13 @@ def figure_pair(recordings: Sequence[tuple[str, PressureRecording, Mapping[Side,
     panels = [(f"{n}, {s}", r, g) for n, r, feet in recordings for s, g in feet.items() if g.picture is not None]
     raw = panels[0][1].raw
     factor = 1.0 if raw else 1e-3
-    figure, axes = new_figure(2.6 * len(panels) + 1.4, 5.6, columns=len(panels), squeeze=False)
+    figure, axes = new_figure(2.4 * len(panels) + 1.4, 5.6, columns=len(panels), squeeze=False)
+    figure.set_layout_engine("compressed")
     highest = _highest(gait for _, _, gait in panels) * factor
     for panel, (name, recording, gait) in zip(axes[0], panels, strict=True):
         drawn = _draw_picture(panel, gait, _shown(gait, recording.kind == "platform"), factor, highest)
         panel.set_title(f"{name} foot")
-        panel.set_xlabel("to the right (m)")
+        panel.set_xlabel(_RIGHT)
     _finish(figure, axes, drawn, "maximum pressure", raw)
     return figure
 
@@ -190,10 +203,10 @@ def figure_regions(recording: PressureRecording, feet: Mapping[Side, FootGait]) 
         draw_classes(panel, layout, own.region[chosen], REGION_COLOURS)
         _draw_axis_and_thirds(panel, own.print_)
         panel.set_title(f"{side} foot")
-        panel.set_xlabel("to the right (m)")
-    axes[0][0].set_ylabel("forward (m)")
+        panel.set_xlabel(_RIGHT)
+    axes[0][0].set_ylabel(_FORWARD)
     _list_regions(axes[0][-1], {int(i) for own in drawn.values() for i in own.region})
-    figure.legend(loc="outside right center", fontsize=8)
+    _legend(figure, axes[0], "outside right center")
     return figure
 
 
