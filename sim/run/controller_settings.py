@@ -52,11 +52,11 @@ little as they land, which only the gyro shows. (Corrected by 2.0 a walk of 100 
 _SINGLE_SUPPORT, _DOUBLE_SUPPORT = 3.64, 1.21
 """Beats that the phases of a step last where neither scene nor robot says: 0.9 and 0.3 s on a leg of 0.6 m."""
 
-_OF_STEPS = (
-    *("step_adjustment", "step_region", "step_weights", "ankle_strategy"),
-    *("double_support_timing", "dsp_weights"),
-)
-"""Tables of steps that move for balance."""
+_OF_STEPS = ("step_adjustment", "step_region", "ankle_strategy")
+"""Tables of steps that move for balance, however they do."""
+
+_OF_DOUBLE_SUPPORTS = ("double_support_timing", "dsp_weights")
+"""Tables of double supports that end sooner or later for it."""
 
 _LEAST_START = 0.2
 """Least time in s of the first shift of the weight."""
@@ -89,7 +89,7 @@ def controller_settings(
         SceneError: If the scene sets something that it does not run, or asks for parts that need another one.
     """
     walk, control = scene.walk, scene.control
-    _refuse_unused(scene)
+    _refuse_unused(scene, robot)
     partial = control.footholds != "off" or control.conform
     crouch = robot.largest_crouch_partial if partial else robot.largest_crouch
     approach = 0.0 if robot.rocks else walk.approach_height  # a slow one takes longer than its swing
@@ -180,9 +180,12 @@ def walk_timing(walk: Walk, robot: Robot, body: BodyScale) -> Timing:
     return Timing(single, double, start, end, walk.settle)
 
 
-def _refuse_unused(scene: Scene) -> None:
+def _refuse_unused(scene: Scene, robot: Robot) -> None:
     """Refuse switches that need another one, and settings of what is switched off: they would do nothing."""
-    control = scene.control
+    control, steps = scene.control, StepAdjustmentRules()
+    table = {**robot.controller.get("step_adjustment", {}), **scene.controller.get("step_adjustment", {})}
+    solves = table.get("method", steps.method) == "ssp_opt"
+    adjusts_double = table.get("double_support", steps.double_support)
     if control.feasibility != "off" and not control.pfc:
         raise SceneError(f"control.feasibility is '{control.feasibility}'; allowed: off, or with pfc = true")
     if control.conform and not control.pfc:
@@ -191,9 +194,17 @@ def _refuse_unused(scene: Scene) -> None:
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
+        **dict.fromkeys(_OF_STEPS, (control.step_adjustment, "control.step_adjustment = true")),
+        "step_weights": (
+            control.step_adjustment and solves,
+            "control.step_adjustment = true and step_adjustment.method = 'ssp_opt'",
+        ),
         **dict.fromkeys(
-            _OF_STEPS,
-            (control.step_adjustment, "control.step_adjustment = true"),
+            _OF_DOUBLE_SUPPORTS,
+            (
+                control.step_adjustment and adjusts_double,
+                "control.step_adjustment = true and step_adjustment.double_support = true",
+            ),
         ),
         **dict.fromkeys(
             ("push_estimate", "push_expected"),

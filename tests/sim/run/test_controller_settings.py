@@ -17,6 +17,7 @@ from sim.run.scene import load_scene, setting_name
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
 ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]
+ALL_ON += ["step_adjustment.method=ssp_opt", "step_adjustment.double_support=true"]
 PART_OF = {"balance": "gains", "push_estimate": "push"}
 
 
@@ -58,6 +59,19 @@ def test_a_scene_goes_before_the_robot_and_the_robot_before_the_default() -> Non
         (["estimator.gravty=2"], "nearest: estimator.gravity"),
         (["estimator.gravity=-1"], r"\[estimator\] 'gravity' is -1; allowed: a number 0 to 50"),
         (["compliance.damping=0.05"], "does nothing; allowed: with control.pfc = true"),
+        (
+            ["control.step_adjustment=true", "step_weights.dynamics=10"],
+            "sets step_weights.dynamics, which does nothing; allowed: .* step_adjustment.method = 'ssp_opt'",
+        ),
+        (["step_adjustment.method=ssp_opt"], "does nothing; allowed: with control.step_adjustment = true"),
+        (
+            ["control.step_adjustment=true", "dsp_weights.dynamics=10"],
+            "allowed: .* step_adjustment.double_support = true",
+        ),
+        (
+            ["control.step_adjustment=true", "double_support_timing.pause=0.1"],
+            "allowed: .* step_adjustment.double_support = true",
+        ),
         (["landing.approach_height=0.01"], "no such key"),
         (["clearance=0.02"], "compliance.clearance, feasibility.clearance"),
     ],
