@@ -65,7 +65,7 @@ def timed(function, cases) -> np.ndarray:
 
 def single_supports(rng, count) -> list[SspProblem]:
     """A robot that steps in place and is pushed anyhow, up to 60 N s, anywhere in a single support."""
-    rules = StepRegionRules(forward=0.2, backward=0.2, inside=0.15, outside=0.27)
+    rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
     found = []
     for _ in range(count):
         elapsed, angle = rng.uniform(0.0, 0.7), rng.uniform(0.0, 2.0 * math.pi)
@@ -85,7 +85,7 @@ def single_supports(rng, count) -> list[SspProblem]:
                 elapsed=elapsed,
                 target=(*rng.normal([0.0, 0.2], 0.02), 0.8),
                 nominal=(0.0, 0.2, 0.8),
-                region=footstep_region(rules, "left", (0.0, 0.0, 0.0)),
+                region=footstep_region(rules, "left", (0.0, 0.0, 0.0), 0.14),
                 shortest=shortest,
                 longest=1.7,
                 next_stride=np.array([0.0, -0.2]),
@@ -236,7 +236,7 @@ def layer(rng):
     yield "swing fit, goal and time new at each call (K 13-16)", lambda g: fit.aim(g, 0.3, 0.7 + g[0]), goals
     seen = np.zeros(3)
     yield "swing fit, with the measured foot", lambda g: fit.aim(g, 0.3, 0.7 + g[0], seen), goals
-    made = StepAdjustmentRules(pause=0.0), StepRegionRules(), WEIGHTS, AnkleRules(), PERIOD
+    made = StepAdjustmentRules(pause=0.0), StepRegionRules(), 0.14, WEIGHTS, AnkleRules(), PERIOD
     for name, most in (("while the ZMP does", 0.001), ("searched (K 4.2)", 0.12)):
         # One for each tick: it does not go back in time.
         ticks = [(StepAdjustment(*made), tick) for tick in pushed_ticks(rng, COUNT, most)]

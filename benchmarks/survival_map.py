@@ -93,7 +93,7 @@ def settings(cell: Cell, impulse: float) -> tuple[str, ...]:
 def bounds(walk: str) -> dict[tuple[int, float], float]:
     """The largest push in N s that any footsteps, timing and ZMP capture, by direction and phase."""
     from gait.contact.foot_contacts import middle_of_sole
-    from gait.propose.ssp_opt import footstep_region
+    from gait.propose.ssp_opt import footstep_region, touching_distance
     from plantar.mechanics.lip import pendulum_frequency
     from sim.judging.capture_limit import CaptureLimits
     from sim.judging.periodic_walk import PeriodicWalk, capture_map
@@ -101,13 +101,14 @@ def bounds(walk: str) -> dict[tuple[int, float], float]:
     known = simulation()
     chosen, robot = known.settings, known.robot
     rules, timing = chosen.step_adjustment, chosen.timing
+    touching = touching_distance({side: layout.outline for side, layout in robot.layouts.items()})
     omega = float(pendulum_frequency(chosen.com_height))
     single, double = timing.single_support, timing.double_support
     limits = CaptureLimits(
         mass=chosen.mass,
         omega=omega,
         sole=robot.layouts["left"].outline,
-        region=footstep_region(chosen.step_region, "left", (0.0, 0.0, 0.0)),
+        region=footstep_region(chosen.step_region, "left", (0.0, 0.0, 0.0), touching),
         shortest=(1.0 - rules.shortest) * single,
         longest=(1.0 + rules.longest) * single,
         double_support=double,

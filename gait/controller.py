@@ -66,7 +66,7 @@ from gait.propose.foothold_seen import FootholdSeenAhead
 from gait.propose.learned_stride import LearnedStride, LearnedStrideRules
 from gait.propose.proposer import Pendulum, Proposer, Tick
 from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
-from gait.propose.ssp_opt import StepRegionRules, StepWeights
+from gait.propose.ssp_opt import StepRegionRules, StepWeights, touching_distance
 from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
 from gait.propose.step_timing import StepTiming, StepTimingRules
 from plantar.errors import InputError
@@ -341,7 +341,8 @@ class WalkingController:
         s = self.settings
         if s.step_adjustment is None:
             return [] if s.step_timing is None else [StepTiming(s.step_timing, s.period)]
-        steps = StepAdjustment(s.step_adjustment, s.step_region, s.step_weights, s.ankle_strategy, s.period)
+        touching = touching_distance({side: layout.outline for side, layout in self._soles()})
+        steps = StepAdjustment(s.step_adjustment, s.step_region, touching, s.step_weights, s.ankle_strategy, s.period)
         found: list[Proposer] = [steps]
         if s.step_adjustment.double_support:
             confidence = s.step_adjustment.confidence

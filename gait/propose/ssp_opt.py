@@ -18,6 +18,7 @@ tau is kept as a share of its upper bound, so that times of 100 s do not overflo
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,15 @@ from plantar.geometry.polygon import part_inside
 from plantar.settings.schema import Settings, number, share
 from plantar.sides import Side
 
-__all__ = ["SspProblem", "SspSolution", "StepRegionRules", "StepWeights", "footstep_region", "solve_ssp"]
+__all__ = [
+    "SspProblem",
+    "SspSolution",
+    "StepRegionRules",
+    "StepWeights",
+    "footstep_region",
+    "solve_ssp",
+    "touching_distance",
+]
 
 
 class StepWeights(Settings):
@@ -61,13 +70,14 @@ class StepRegionRules(Settings):
     Attributes:
         forward: Farthest forward in m.
         backward: Farthest backward in m.
-        inside: Least distance in m between the soles' middle lines: nearer, one leg would cross the other.
-        outside: Largest distance between them in m.
+        clearance: Least gap in m between the soles' inner edges, side by side. (With 10 mm on a leg of 0.6 m, soles of
+            a body that a push has rolled by 2 degrees touched.)
+        outside: Largest distance between the soles' middle lines in m.
     """
 
     forward: float = share(0.417, "leg", 0, 1)
     backward: float = share(0.333, "leg", 0, 1)
-    inside: float = share(0.25, "leg", 0, 1)
+    clearance: float = share(0.0233, "leg", 0, 0.5)
     outside: float = share(0.55, "leg", 0, 1)
 
 
@@ -75,6 +85,7 @@ def footstep_region(
     rules: StepRegionRules,
     swing: Side,
     stance: tuple[float, float, float],
+    touching: float,
     half_planes: tuple[tuple[float, float, float], ...] = (),
 ) -> NDArray[np.float64]:
     """Where the swing foot may land (K 32): the box beside the stance foot, less what lies beyond lines.
@@ -83,26 +94,42 @@ def footstep_region(
         rules: The box.
         swing: Which foot swings.
         stance: Place and heading (x, y, yaw) of the stance foot in the world in m, m, rad.
+        touching: Distance in m between the sole frames at which the soles' inner edges touch.
         half_planes: Lines (nx, ny, h) in the world: what has n . u > h is cut off.
 
     Returns:
         Convex polygon (k, 2) in the world in m, counter-clockwise; empty where nothing is left.
 
     Example:
-        >>> rules = StepRegionRules(forward=0.2, backward=0.2, inside=0.15, outside=0.27)
-        >>> footstep_region(rules, "left", (1.0, 0.0, 0.0)).tolist()
+        >>> rules = StepRegionRules(forward=0.2, backward=0.2, clearance=0.01, outside=0.27)
+        >>> footstep_region(rules, "left", (1.0, 0.0, 0.0), 0.14).round(9).tolist()
         [[0.8, 0.15], [1.2, 0.15], [1.2, 0.27], [0.8, 0.27]]
-        >>> len(footstep_region(rules, "right", (1.0, 0.0, 0.0), ((0.0, -1.0, 0.1),)))
+        >>> len(footstep_region(rules, "right", (1.0, 0.0, 0.0), 0.14, ((0.0, -1.0, 0.1),)))
         0
     """
     x, y, yaw = stance
-    near, far = (rules.inside, rules.outside) if swing == "left" else (-rules.outside, -rules.inside)
+    inside = touching + rules.clearance
+    near, far = (inside, rules.outside) if swing == "left" else (-rules.outside, -inside)
     c, s = math.cos(yaw), math.sin(yaw)
     corners = ((-rules.backward, near), (rules.forward, near), (rules.forward, far), (-rules.backward, far))
     region = np.array([(x + c * ahead - s * aside, y + s * ahead + c * aside) for ahead, aside in corners])
     for nx, ny, h in half_planes:
         region = part_inside(region, nx, ny, h)
     return region
+
+
+def touching_distance(outlines: Mapping[Side, NDArray[np.float64]]) -> float:
+    """Distance in m between the sole frames of feet side by side, whose inner edges touch.
+
+    Args:
+        outlines: Outline (k, 2) in m of each sole in its frame.
+
+    Example:
+        >>> square = np.array([(-0.1, -0.05), (0.1, -0.05), (0.1, 0.06), (-0.1, 0.06)])
+        >>> round(touching_distance({"left": square, "right": square}), 3)
+        0.11
+    """
+    return float(outlines["right"][:, 1].max() - outlines["left"][:, 1].min())
 
 
 class SspProblem(NamedTuple):
@@ -229,7 +256,7 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
     Example:
         A robot that steps in place is pushed to the left; the left foot lands farther out, and sooner.
 
-        >>> region = footstep_region(StepRegionRules(), "left", (0.0, -0.1, 0.0))
+        >>> region = footstep_region(StepRegionRules(), "left", (0.0, -0.1, 0.0), 0.14)
         >>> pushed = SspProblem(
         ...     omega=3.44, dcm=[0.0, 0.02], vrp=[0.0, -0.07], offset=[0.0, 0.0], stance=[0.0, -0.1], elapsed=0.3,
         ...     target=(0.0, 0.1, 0.8), nominal=(0.0, 0.1, 0.8), region=region, shortest=0.5, longest=1.7,
@@ -237,7 +264,7 @@ def solve_ssp(problem: SspProblem, weights: StepWeights) -> SspSolution | None:
         ... )
         >>> found = solve_ssp(pushed, StepWeights())
         >>> found.place.round(3).tolist(), round(found.time, 3), found.residual < 1e-8
-        ([0.0, 0.204], 0.65, True)
+        ([0.0, 0.202], 0.649, True)
     """
     region: list[list[float]] = array(problem.region, "region", ("k", 2), finite=True).tolist()
     if not region:

@@ -114,6 +114,7 @@ class StepAdjustment:
     Args:
         rules: When, and how far.
         region: Where a foot may land beside the other one.
+        touching: Distance in m between the sole frames at which the soles' inner edges touch.
         weights: Weights of "ssp_opt".
         ankle: Which part of the support polygon a changed footstep is planned with.
         period: Control period in s, the unit of a change of time.
@@ -125,12 +126,14 @@ class StepAdjustment:
         self,
         rules: StepAdjustmentRules,
         region: StepRegionRules,
+        touching: float,
         weights: StepWeights,
         ankle: AnkleRules,
         period: float,
     ) -> None:
         self._rules = rules
         self._box = region
+        self._touching = touching
         self._weights = weights
         c, (forward, sideways) = rules.confidence, (ankle.forward, ankle.sideways)
         self._ankle = replace(ankle, forward=forward + c * (1.0 - forward), sideways=sideways + c * (1.0 - sideways))
@@ -243,7 +246,7 @@ class StepAdjustment:
     def _region(self, tick: Tick, swing: Side) -> NDArray[np.float64]:
         """Where the swing foot may land (k, 2) in the world in m; the place where it is planned to among it."""
         stance, planned = tick.place(other_side(swing)), tick.plan.foothold(tick.phase.step).position[:2]
-        region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw))
+        region = footstep_region(self._box, swing, (stance.x, stance.y, stance.yaw), self._touching)
         # A walk may have longer steps than are allowed for balance; those it keeps.
         inside = len(region) and signed_margin(region, planned) >= 0.0
         return region if inside else convex_hull(np.vstack([region.reshape(-1, 2), planned]))

@@ -209,14 +209,14 @@ def test_nothing_overflows(longest: float, dcm: list[float], omega: float) -> No
 
 
 def test_the_region_lies_beside_the_stance_foot() -> None:
-    rules = StepRegionRules(forward=0.2, backward=0.1, inside=0.15, outside=0.27)
-    left = footstep_region(rules, "left", (1.0, 2.0, 0.0))
-    right = footstep_region(rules, "right", (1.0, 2.0, math.pi))
+    rules = StepRegionRules(forward=0.2, backward=0.1, clearance=0.01, outside=0.27)
+    left = footstep_region(rules, "left", (1.0, 2.0, 0.0), 0.14)
+    right = footstep_region(rules, "right", (1.0, 2.0, math.pi), 0.14)
     # Turned by half a turn, the right foot's place is where the left one's was, forward and backward exchanged.
     assert np.ptp(left, axis=0) == pytest.approx(np.ptp(right, axis=0))
     assert left.min(axis=0) == pytest.approx([0.9, 2.15])
     assert right.min(axis=0) == pytest.approx([0.8, 2.15])
-    cut = footstep_region(rules, "left", (1.0, 2.0, 0.0), ((1.0, 0.0, 1.05),))
+    cut = footstep_region(rules, "left", (1.0, 2.0, 0.0), 0.14, ((1.0, 0.0, 1.05),))
     assert cut.max(axis=0) == pytest.approx([1.05, 2.27])
 
 

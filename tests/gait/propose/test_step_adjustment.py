@@ -18,6 +18,7 @@ from plantar.sides import other_side
 PERIOD = 0.005
 RULES = StepAdjustmentRules()
 REGION = StepRegionRules()
+TOUCHING = 0.14  # m
 SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 WHOLE = AnkleRules(forward=1.0, sideways=1.0)
 ROOM = 0.03 * SQUARE  # m about the stance's VRP
@@ -49,7 +50,7 @@ def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Ca
 
 
 def adjustment(**rules: Any) -> StepAdjustment:
-    return StepAdjustment(replace(RULES, **rules), REGION, StepWeights(), WHOLE, PERIOD)
+    return StepAdjustment(replace(RULES, **rules), REGION, TOUCHING, StepWeights(), WHOLE, PERIOD)
 
 
 def proposed(tick: Tick, **rules: Any) -> PlanChange | None:
@@ -107,7 +108,7 @@ def test_the_footstep_stays_in_its_region_and_where_the_foot_gets_to(pushed: Any
     here = tick.place(swing).position[:2]
     assert math.dist(place, here) <= RULES.acceleration * (left + PERIOD) ** 2 / 5.77 + 1e-9
     stance = tick.place("right" if swing == "left" else "left")
-    near, far = sorted((1.0 if swing == "left" else -1.0) * d for d in (REGION.inside, REGION.outside))
+    near, far = sorted((1.0 if swing == "left" else -1.0) * d for d in (TOUCHING + REGION.clearance, REGION.outside))
     box = shapely.box(stance.x - REGION.backward, stance.y + near, stance.x + REGION.forward, stance.y + far)
     # Towards its place the foot may still be on its way into the box, from where it is.
     allowed = box.union(shapely.Point(planned)).union(shapely.Point(here)).convex_hull
@@ -120,7 +121,7 @@ def test_the_search_is_as_good_as_trying_everything(pushed: Any, seed: int) -> N
     rng = np.random.default_rng(seed)
     _, tick = pushed(rng.normal(0.0, 0.06, 2))
     rules = replace(RULES, acceleration=100.0)  # the foot gets everywhere
-    change = StepAdjustment(rules, REGION, StepWeights(), WHOLE, PERIOD).propose(tick)
+    change = StepAdjustment(rules, REGION, TOUCHING, StepWeights(), WHOLE, PERIOD).propose(tick)
     left, usual, begun = tick.phase.end - NOW, 0.9, NOW - tick.phase.start
     slope = (1.0 - math.exp(-3.5 * 0.3)) / (3.5 * 0.3)  # the plan's double support lasts 0.3 s
     price = 0.1 * rules.price_place
@@ -215,7 +216,7 @@ def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of
         # At its planned time, and wherever it gets to: nothing else is left to choose.
         rules = replace(RULES, confidence=confidence, price_place=0.0, acceleration=100.0, shortest=0.0, longest=0.0)
         anywhere, part = replace(REGION, forward=1.0), AnkleRules(forward=forward, sideways=1.0)
-        steps = StepAdjustment(rules, anywhere, StepWeights(), part, PERIOD)
+        steps = StepAdjustment(rules, anywhere, TOUCHING, StepWeights(), part, PERIOD)
         change = steps.propose(tick)
         return 0.0 if change is None else math.hypot(*change.shift)
 
