@@ -29,6 +29,7 @@ from gait.contact.support_strip import SupportStrip
 from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
 from gait.estimate.com_height import CoMHeight
 from gait.estimate.command_frame import CommandFrame
+from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from gait.estimate.estimator import (
     EstimatorGains,
     FloatingBaseEstimator,
@@ -120,6 +121,7 @@ class ControllerSettings(Settings):
         alignment_time: Time constant in s with which the command frame follows the real footholds.
         gains: Gains of the balance law; their class says which.
         estimator: Estimator gains.
+        dcm_filter: How far the Kalman filter of CoM and DCM trusts what; None leaves them to the estimator's observer.
         identification: What is identified of the robot's differences from its model; None believes the model.
         contact: How contact polygons are found from the taxels.
         foothold: When what is found moves the plan.
@@ -163,6 +165,7 @@ class ControllerSettings(Settings):
     alignment_time: float = share(1.21, "beat", 0.01, 100.0)
     gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
     estimator: EstimatorGains = field(default_factory=EstimatorGains)
+    dcm_filter: DcmFilterRules | None = None
     identification: IdentificationRules | None = None
     contact: ContactSettings = field(default_factory=ContactSettings)
     foothold: FootholdRules = field(default_factory=FootholdRules)
@@ -260,6 +263,7 @@ class WalkingController:
             settings.estimator,
             *self._gyro_bias(),
             None if settings.push is None else PushEstimate(settings.push, period),
+            None if settings.dcm_filter is None else DcmFilter(settings.dcm_filter, self.omega, period),
         )
         self._state: BaseState | None = None
         self._push = WrenchFilter(settings.push_expected, self.omega, period)

@@ -10,6 +10,7 @@ from gait.balance.dcm_balance import BalanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
+from gait.estimate.dcm_filter import DcmFilterRules
 from gait.estimate.estimator import EstimatorGains
 from gait.estimate.identification import IdentificationRules
 from gait.estimate.push_estimate import PushRules
@@ -37,6 +38,7 @@ __all__ = ["CONTROLLER_TABLES", "check_controller_table", "controller_keys", "co
 CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "balance": (BalanceGains, WrenchBalanceGains),
     "estimator": (EstimatorGains,),
+    "dcm_filter": (DcmFilterRules,),
     "identification": (IdentificationRules,),
     "landing": (Landing,),
     "contact": (ContactSettings,),

@@ -9,7 +9,8 @@ Position: the material point of each loaded sole that lies at its centre of pres
 by what the leg's kinematics say, weighted by load; a foot that rolls about its edge is followed too.
 
 Velocity of the CoM: an observer of the pendulum x'' = w^2 (x - p) with the taxels' ZMP p as input and the kinematic
-CoM as measurement, so that no encoder is differentiated. A push on the body, felt or estimated, is another input.
+CoM as measurement, so that no encoder is differentiated. A push on the body, felt or estimated, is another input. A
+Kalman filter (`gait.estimate.dcm_filter`) may do the same in its place, horizontally.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.estimate.dcm_filter import DcmFilter
 from gait.estimate.encoder_offsets import standing_base
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.push_estimate import PushEstimate
@@ -118,6 +120,7 @@ class FloatingBaseEstimator:
         gyro_bias: Identifies the gyro's bias; None takes the gyro at its word.
         steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
         push: Estimates a push on the body from the soles and the IMU; None expects none.
+        dcm_filter: Estimates the horizontal CoM and its velocity; None leaves them to the observer.
         push_acceleration: Acceleration (2,) of the CoM in m/s^2 that a push gives it at this tick.
     """
 
@@ -129,6 +132,7 @@ class FloatingBaseEstimator:
     gyro_bias: GyroBias | None = None
     steady: SteadyLoad | None = None
     push: PushEstimate | None = None
+    dcm_filter: DcmFilter | None = None
 
     def __post_init__(self) -> None:
         self._rotation: NDArray[np.float64] | None = None
@@ -230,6 +234,8 @@ class FloatingBaseEstimator:
         """Stand on the known footholds, with a unit vector (3,) against gravity in the base frame."""
         self._rotation, self._position = standing_base(posture, up, self.feet)
         self._com = self._position + self._rotation @ posture.com
+        if self.dcm_filter is not None:
+            self.dcm_filter.reset()
         for side in SIDES:
             self._heading[side] = self.feet[side][3]
 
@@ -351,3 +357,7 @@ class FloatingBaseEstimator:
         b = self.gains.observer
         self._com = self._com + min(1.0, 2.0 * b * self.period) * error
         self._velocity = self._velocity + min(1.0, b * b * self.period) * error
+        if self.dcm_filter is not None:
+            offset = self.push_acceleration / self.omega**2
+            told = self.dcm_filter.update(com[:2], None, zmp, offset)
+            self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)

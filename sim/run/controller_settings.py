@@ -14,6 +14,7 @@ from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.controller import ControllerSettings
 from gait.estimate.ankle_sensor import AnkleSensor
+from gait.estimate.dcm_filter import DcmFilterRules
 from gait.estimate.estimator import EstimatorGains
 from gait.estimate.identification import IdentificationRules
 from gait.estimate.push_estimate import PushRules
@@ -118,6 +119,7 @@ def controller_settings(
         else None,
         conformity=made(ConformityGains, "conformity") if control.conform else None,
         estimator=made(EstimatorGains, "estimator", **yaw),
+        dcm_filter=made(DcmFilterRules, "dcm_filter") if control.dcm_estimate == "kalman" else None,
         identification=made(IdentificationRules, "identification") if control.identify else None,
         contact=made(ContactSettings, "contact"),
         foothold=made(FootholdRules, "foothold"),
@@ -193,6 +195,7 @@ def _refuse_unused(scene: Scene, robot: Robot) -> None:
     runs = {
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
+        "dcm_filter": (control.dcm_estimate == "kalman", "control.dcm_estimate = 'kalman'"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
         **dict.fromkeys(_OF_STEPS, (control.step_adjustment, "control.step_adjustment = true")),
         "step_weights": (

@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
 from gait.estimate.estimator import FloatingBaseEstimator, Posture
 from gait.estimate.gyro_bias import GyroBias
 from plantar import Percept, Reading, SoleLayout, hex_layout
@@ -28,10 +29,11 @@ def weights_of(layout: SoleLayout) -> NDArray[np.float64]:
 
 
 class Swaying:
-    """Base pose over time; `posture` takes the time as its one joint."""
+    """Base pose over time; `posture` takes the time as its one joint. Somebody may lean on it with a force that moves
+    the ZMP by so many metres, and that nothing feels."""
 
-    def __init__(self, tilt: float, sway: float) -> None:
-        self.tilt, self.sway = tilt, sway
+    def __init__(self, tilt: float, sway: float, leans: float = 0.0) -> None:
+        self.tilt, self.sway, self.leans = tilt, sway, leans
 
     def rotation(self, time: float) -> NDArray[np.float64]:
         """About x, then about y of the world; written out, since it is asked for ten times a tick."""
@@ -64,7 +66,7 @@ class Swaying:
 
     def percepts(self, time: float, layout: SoleLayout = SOLE) -> dict[Side, Percept]:
         """Soles that feel the ZMP of the pendulum at this time."""
-        zmp = self.com(time)[:2] - self.acceleration(time)[:2] / OMEGA**2
+        zmp = self.com(time)[:2] - self.acceleration(time)[:2] / OMEGA**2 + np.array([self.leans, 0.0])
         left = float(np.clip((zmp[1] + 0.09) / 0.18, 0.0, 1.0))
         out: dict[Side, Percept] = {}
         for side, share in (("left", left), ("right", 1.0 - left)):
@@ -75,11 +77,16 @@ class Swaying:
 
 
 def follow(
-    robot: Swaying, duration: float, noise: float = 0.0, bias: float = 0.0, identified: GyroBias | None = None
+    robot: Swaying,
+    duration: float,
+    noise: float = 0.0,
+    bias: float = 0.0,
+    identified: GyroBias | None = None,
+    known: DcmFilter | None = None,
 ) -> tuple[float, float, float]:
     """Worst errors after the first second: orientation in rad, CoM in m, CoM velocity in m/s."""
     rng = np.random.default_rng(0)
-    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START, gyro_bias=identified)
+    estimator = FloatingBaseEstimator(robot, OMEGA, PERIOD, START, gyro_bias=identified, dcm_filter=known)
     worst = np.zeros(3)
     for k in range(round(duration / PERIOD)):
         time = k * PERIOD
@@ -108,6 +115,15 @@ def test_follows_a_swaying_base() -> None:
     assert turn < 2e-3
     assert com < 3e-3
     assert velocity < 5e-3
+
+
+def test_a_filter_learns_of_a_push_that_nothing_feels() -> None:
+    leans = Swaying(tilt=0.0, sway=0.01, leans=0.02)
+    plain = follow(leans, 1.6)[2]
+    turn, com, velocity = follow(leans, 1.6, known=DcmFilter(DcmFilterRules(), OMEGA, PERIOD))
+    assert turn < 2e-3
+    assert com < 2e-3
+    assert velocity < 0.3 * plain
 
 
 def test_noise_and_gyro_bias_stay_bounded() -> None:
