@@ -23,7 +23,8 @@ _FULL_LEG = 6  # joints of a leg that can give its sole any pose
 
 
 class LegModel:
-    """Kinematics of a free-floating robot whose only joints are its legs.
+    """Kinematics of a free-floating robot that moves its legs; other joints that it may have are where they are said to
+    be.
 
     Args:
         model: The robot alone, first joint free, one hinge a leg joint.
@@ -43,6 +44,8 @@ class LegModel:
         ids = [model.joint(name).id for name in joints]
         self._qpos = np.array([model.jnt_qposadr[i] for i in ids])
         self._dof = np.array([model.jnt_dofadr[i] for i in ids])
+        held = np.isin(np.arange(model.njnt), ids, invert=True) & (model.jnt_type != int(mujoco.mjtJoint.mjJNT_FREE))
+        self._others = model.jnt_qposadr[held]
         self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in SIDES}
         upright = model.body(torso).id
         self._root = int(model.body_rootid[upright])
@@ -88,6 +91,15 @@ class LegModel:
         self._data.qpos[3:7] = quaternion
         self._data.qpos[self._qpos] = joints
         self._reference.target = np.array(joints, dtype=float)
+
+    def hold_others(self, joints: NDArray[np.float64]) -> None:
+        """Say where the joints are that are of no leg, for all that is computed from now on.
+
+        Args:
+            joints: Their positions (o,) in the model's order in rad or m.
+        """
+        self._data.qpos[self._others] = joints
+        self._probe.qpos[self._others] = joints
 
     @property
     def configuration(self) -> NDArray[np.float64]:

@@ -104,13 +104,23 @@ def _compiled(spec: Any, robot: Robot) -> Any:
         raise RobotError(f"robot '{robot.name}': its model cannot be simulated: {text}") from None
 
 
-def build_leg_model(robot: Robot) -> LegModel:
+def build_leg_model(robot: Robot, worn: Sequence[Visitor] = ()) -> LegModel:
     """Kinematic model of the robot alone, which its controller uses.
+
+    Args:
+        robot: The robot.
+        worn: What it wears beside its file's model, such as an arm that moves.
+
+    Returns:
+        The model.
 
     Raises:
         RobotError: If the model cannot be read or simulated.
     """
-    model = _compiled(robot_spec(robot), robot)
+    spec = robot_spec(robot)
+    for part in worn:
+        part.add_to(spec)
+    model = _compiled(spec, robot)
     joints = [*robot.legs["left"].joints, *robot.legs["right"].joints]
     soles = {s: robot.legs[s].sole_site for s in SIDES}
     unit = body_of(robot, model).leg / REFERENCE_BODY.leg

@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 
 __all__ = ["BipedParameters", "biped_mjcf"]
 
@@ -134,9 +134,7 @@ def _mass_attributes(mass: float, size: Sequence[float], position: Sequence[floa
     )
 
 
-def _leg(
-    side: Literal["left", "right"], p: BipedParameters, sole: Mapping[str, Any], shoe_mass: float, thickness: float
-) -> str:
+def _leg(side: Side, p: BipedParameters, sole: Mapping[str, Any], shoe_mass: float, thickness: float) -> str:
     mirror = 1.0 if side == "left" else -1.0
     lower, upper = list(p.joint_lower), list(p.joint_upper)
     if side == "right":
@@ -256,10 +254,11 @@ def biped_mjcf(
     chest_z = _chest_height(p, np.asarray(posture, dtype=float), shoe_mass, shoe_thickness)
     w, d, h = p.chest_size[1], p.chest_size[0], p.chest_size[2]
 
-    def arm(mirror: float) -> str:
+    def arm(side: Side) -> str:
+        mirror = 1.0 if side == "left" else -1.0
         shoulder = f"0 {mirror * w * 0.5:.6g} {chest_z + 0.28:.6g}"
         return (
-            f'<geom class="look" type="capsule" size=".045" '
+            f'<geom name="{side}_arm_shape" class="look" type="capsule" size=".045" '
             f'fromto="{shoulder} 0 {mirror * w * 0.62:.6g} {chest_z - 0.25:.6g}"/>'
         )
 
@@ -287,8 +286,8 @@ def biped_mjcf(
         {_mass_attributes(chest, (d, w, h), (0, 0, chest_z))}
         <geom class="look" type="box" size="{d * 0.4:.6g} {w * 0.4:.6g} {h * 0.5:.6g}" pos="0 0 {chest_z + 0.08:.6g}"/>
         <geom class="look" type="sphere" size=".09" pos="0 0 {chest_z + 0.5 * h + 0.2:.6g}"/>
-        {arm(1.0)}
-        {arm(-1.0)}
+        {arm("left")}
+        {arm("right")}
       </body>{legs}
     </body>
   </worldbody>

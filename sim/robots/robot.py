@@ -14,7 +14,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.sides import Side
 from sim.robots.biped import BipedParameters
 
-__all__ = ["FootShape", "LegNames", "Robot"]
+__all__ = ["Arms", "FootShape", "LegNames", "Robot"]
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,21 @@ class FootShape:
     center: tuple[float, float]
     corner_radius: float
     taxels: int
+
+
+@dataclass(frozen=True)
+class Arms:
+    """Arms that a robot may wear where a scene wants one that moves; else they are part of its chest.
+
+    Attributes:
+        machine: Name or TOML file of the machine that has them (`sim.companion.machine`), with the same base.
+        chest: Body of the robot whose mass, centre and inertia count them in.
+        roots: First link of each arm in the machine.
+    """
+
+    machine: str
+    chest: str
+    roots: Mapping[Side, str]
 
 
 @dataclass(frozen=True)
@@ -99,6 +114,7 @@ class Robot:
         balance: Balance law and its gains.
         controller: Settings of the controller's other parts by table and name (`gait.controller_tables`).
         path: The TOML file.
+        arms: Arms that it may wear; None for a robot whose file names none.
     """
 
     name: str
@@ -136,6 +152,7 @@ class Robot:
     balance: Mapping[str, Any]
     controller: Mapping[str, Mapping[str, Any]]
     path: Path
+    arms: Arms | None = None
 
     def sole_rectangle(self, side: Side) -> tuple[tuple[float, float], tuple[float, float]]:
         """Bounding rectangle of a sole's outline: centre (x, y) and half size (x, y) in the sole frame in m."""

@@ -23,7 +23,7 @@ from plantar.mechanics.rotation import rotation_from_angles
 from plantar.settings.unknown_keys import refuse_unknown_keys
 from plantar.sides import SIDES, Side
 from sim.robots.biped import BipedParameters
-from sim.robots.robot import FootShape, LegNames, Robot
+from sim.robots.robot import Arms, FootShape, LegNames, Robot
 from sim.robots.robot_tables import RobotTables
 
 __all__ = ["builtin_robots", "load_robot"]
@@ -54,6 +54,7 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
         "rocks",
     ),
     "servo": ("stiffness", "damping", "effort_limits", "velocity_limits"),
+    "arms": ("machine", "chest", *SIDES),
 }
 """What each table of a robot file may hold; `biped` and `balance` check their own."""
 
@@ -135,6 +136,7 @@ class _RobotFile(RobotTables):
             foot=foot,
             legs=legs,
             path=self.path,
+            arms=self._arms() if "arms" in self.source else None,
             **parts,
         )
 
@@ -256,6 +258,14 @@ class _RobotFile(RobotTables):
                 f"{self.where}: the IMU's site and the soles' need different names, not {', '.join(sites)}"
             )
         return {"torso_body": self.text("body", "torso"), "imu_site": imu_site}
+
+    def _arms(self) -> Arms:
+        """Arms that it may wear: of a built-in machine, or of one whose file lies beside the robot's."""
+        machine = self.text("machine", "arms")
+        if machine.endswith(".toml"):
+            path = self.path.parent / machine
+            machine = str(named_file(path, (self.path.parent,), RobotError, f"{self.place('arms')} machine"))
+        return Arms(machine, self.text("chest", "arms"), {side: self.text(side, "arms") for side in SIDES})
 
     def _gait(self) -> dict[str, Any]:
         crouch = self.number("largest_crouch", "gait", 0.0, 0.5, 0.15)

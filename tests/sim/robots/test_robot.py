@@ -42,7 +42,7 @@ def test_a_robot_file_of_ones_own(own: Path) -> None:
         ("left = [0.0, 0.0, -20.0, 40.0, -20.0, 0.0]", "left = [0.0]", "left"),
         ('layout = "layout_{side}.json"', 'layout = "none.json"', "none.json"),
         ('body = "base"', "", "body"),
-        ("[legs.right]", "[arms.right]", "right"),
+        ("[legs.right]", "[wings.right]", "right"),
         ("effort_limits = [51.0, ", "effort_limits = [", "effort_limits"),
     ],
 )
