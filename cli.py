@@ -153,6 +153,9 @@ def analyze(
     events: Annotated[
         str, Option(help="own finds heel strikes and toe offs in the force; vendor takes the file's; or name a file.")
     ] = "own",
+    participant: Annotated[str, Option(help="Who walks, for the report's heading.", show_default=False)] = "",
+    mass: Annotated[float | None, Option(help="Mass of the body in kg: forces stand in percent of its weight.")] = None,
+    foot_length: Annotated[float | None, Option(help="Length of the foot in m, for the report's heading.")] = None,
     output: Output = Path("out/analysis"),
     as_json: Json = False,
 ) -> None:
@@ -165,6 +168,8 @@ def analyze(
     Example: plantar analyze walk.asc -o out/walk
 
     Example: plantar analyze out/demo/run.mcap --json
+
+    Example: plantar analyze walk.asc --participant P07 --mass 71.5
 
     Example: plantar analyze table.csv --layout insole.json --unit kPa
 
@@ -187,10 +192,16 @@ def analyze(
     options = ReadOptions(unit=unit, rate_hz=rate, side=cast(Any, side), insole_size=insole_size)
     from gait.analysis.analyse import with_layout
     from gait.analysis.options import AnalysisOptions, steps_of_text
+    from gait.analysis.subject import Subject
     from plantar.formats import is_study_folder
 
     choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), events)
+    subject = Subject(participant, mass, foot_length)
     if recording is not None and is_study_folder(recording):
+        if subject != Subject():
+            raise InputError(
+                "--participant, --mass and --foot-length are for one recording: a study has --participants"
+            )
         _analyze_folder(recording, participants, output, as_json, choices, with_layout(options, layout))
         return
     if participants is not None:
@@ -203,7 +214,9 @@ def analyze(
 
             if mm_per_pixel is not None:
                 raise InputError("--mm-per-pixel is for footprint images; --compare takes recordings over time")
-            result = compare_recordings(*compare, output, format, layout, tell, options=options, choices=choices)
+            result = compare_recordings(
+                *compare, output, format, layout, tell, options=options, choices=choices, subject=subject
+            )
         else:
             from gait.analysis.analyse import analyse_recording
 
@@ -216,6 +229,7 @@ def analyze(
                 options=options,
                 mm_per_pixel=mm_per_pixel,
                 choices=choices,
+                subject=subject,
             )
     parts = {"": result} if compare is None else {"A": result["a"], "B": result["b"]}
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())

@@ -33,8 +33,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "controller_tables",
     ),
     "gait.analysis": (
-        *("measures", "options", "spread", "prints", "steps", "body_weight", "activity", "parameters", "pages"),
-        *("analyse", "compare", "custom", "exports", "study"),
+        *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity", "parameters"),
+        *("pages", "analyse", "compare", "custom", "exports", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (

@@ -34,6 +34,7 @@ from gait.analysis.steps.baseline import without_baselines
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.force_curve import landing_impact
 from gait.analysis.steps.stated import stated_beside_own
+from gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format, read_recording
@@ -72,6 +73,7 @@ def analyse_recording(
     options: ReadOptions | None = None,
     mm_per_pixel: float | None = None,
     choices: AnalysisOptions | None = None,
+    subject: Subject | None = None,
 ) -> dict[str, Any]:
     """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
@@ -84,6 +86,7 @@ def analyse_recording(
         options: What else the user knows about the file.
         mm_per_pixel: Size of an image's pixel in mm.
         choices: Which steps are in the means, and whose events; a recording's only.
+        subject: Who walks, as far as it is known.
 
     Returns:
         What metrics.json holds, and "files": the paths written.
@@ -101,9 +104,9 @@ def analyse_recording(
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     with output_folder(out) as folder:
         if image:
-            metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side)
+            metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject)
         else:
-            analysis = analyse(path, format, known, tell, choices)
+            analysis = analyse(path, format, known, tell, choices, subject)
             metrics = dict(analysis.metrics)
             write_analysis(analysis, folder, lambda fraction, text: tell(0.5 + 0.5 * fraction, text))
         names = sorted(p.name for p in folder.iterdir())
@@ -134,6 +137,7 @@ def analyse(
     options: ReadOptions | None = None,
     progress: Callable[[float, str], None] | None = None,
     choices: AnalysisOptions | None = None,
+    subject: Subject | None = None,
 ) -> Analysis:
     """Read a recording and measure it; nothing is written.
 
@@ -143,6 +147,7 @@ def analyse(
         options: What the user knows about the file.
         progress: Called with a fraction 0..1 and what is being done; it ends at 0.5.
         choices: Which steps are in the means, and whose events.
+        subject: Who walks, as far as it is known.
 
     Returns:
         The recording, its feet and their measures.
@@ -160,7 +165,7 @@ def analyse(
     tell(0.3, "finding steps")
     feet = analyse_feet(recording, prints, chosen)
     tell(0.5, "drawing")
-    return Analysis(recording, feet, metrics_of(recording, feet))
+    return Analysis(recording, feet, metrics_of(recording, feet, subject))
 
 
 def write_analysis(analysis: Analysis, folder: Path, progress: Callable[[float, str], None] | None = None) -> None:
@@ -203,18 +208,20 @@ def write_analysis(analysis: Analysis, folder: Path, progress: Callable[[float, 
     (folder / "report.html").write_text(page, encoding="utf-8")
 
 
-def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> dict[str, Any]:
+def metrics_of(
+    recording: PressureRecording, feet: Mapping[Side, FootGait], subject: Subject | None = None
+) -> dict[str, Any]:
     """The analysis as plain JSON values; None where a value is not known.
 
     Args:
         recording: The recording.
         feet: The gait of each of its feet.
+        subject: Who walks, as far as it is known.
 
     Returns:
-        format, kind, frames, rate_hz, duration_s, raw, grid, activity, feet, not_given, gait, warnings; see
-        docs/metrics.md. In
-        a recording
-        of raw counts the keys end in "_raw" where they would else name a unit of force or pressure.
+        format, kind, subject, device, frames, rate_hz, duration_s, raw, grid, activity, feet, not_given, gait,
+        warnings; see docs/metrics.md. In a recording of raw counts the keys end in "_raw" where they would else name a
+        unit of force or pressure.
     """
     warnings = list(recording.warnings)
     activity = activity_of(recording, feet)
@@ -232,12 +239,15 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
             )
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
-    warnings += weight_doubts(recording, weight)
+    subject = subject or Subject()
+    warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
     named = _keys(recording.raw)
     indices = symmetry(feet)
     return {
         "format": recording.format,
         "kind": recording.kind,
+        "subject": dataclasses.asdict(subject),
+        "device": device_of(recording),
         "frames": recording.metadata.get("frames", len(recording.time)),
         "rate_hz": recording.rate_hz,
         "duration_s": float(recording.time[-1] - recording.time[0]),
@@ -251,6 +261,7 @@ def metrics_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> d
         "gait": {
             **gait_of_feet(feet),
             "implied_weight_N": weight,
+            "body_weight_N": None if recording.raw else subject.weight or weight,
             "symmetry_percent": {named(key): value for key, value in indices.items()},
         },
         "warnings": list(dict.fromkeys(warnings)),

@@ -18,6 +18,7 @@ from gait.analysis.pages.figure_files import write_figures
 from gait.analysis.pages.force_figures import STANCE, draw_sd, force_label, stance_curves
 from gait.analysis.pages.report import comparison_page
 from gait.analysis.pages.sole_figures import figure_pair
+from gait.analysis.subject import Subject
 from plantar.atomic import output_folder
 from plantar.errors import InputError
 from plantar.formats import ReadOptions, named_format
@@ -52,6 +53,7 @@ def compare_recordings(
     *,
     options: ReadOptions | None = None,
     choices: AnalysisOptions | None = None,
+    subject: Subject | None = None,
 ) -> dict[str, Any]:
     """Analyse two recordings and write them side by side: comparison.json, figures, report.html, and a folder for each.
 
@@ -64,6 +66,7 @@ def compare_recordings(
         progress: Called with a fraction 0..1 and what is being done.
         options: What else the user knows about both files.
         choices: Which steps are in the means, and whose events.
+        subject: Who walks in both, as far as it is known.
 
     Returns:
         "a" and "b": the metrics of each; "difference": of each foot that both have, or of A's foot and B's where each
@@ -82,7 +85,7 @@ def compare_recordings(
     with output_folder(out) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
             tell(0.4 * i, f"reading {key}")
-            analyses[key] = analyse(path, format, known, choices=choices)
+            analyses[key] = analyse(path, format, known, choices=choices, subject=subject)
             (folder / key).mkdir()
             write_analysis(analyses[key], folder / key, _later(tell, 0.4 * i + 0.1, 0.3))
         if analyses["a"].recording.raw != analyses["b"].recording.raw:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from gait.analysis.pages.heading import facts_of_image
 from gait.analysis.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from gait.analysis.prints.regions import REGIONS
 
@@ -39,9 +40,7 @@ def footprint_page(metrics: Mapping[str, Any], figures: Sequence[tuple[Path, str
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
     sections.append(figures_of(figures))
-    width, height = metrics["size_px"]
-    scale = "" if metrics["mm_per_pixel"] is None else f", {metrics['mm_per_pixel']:.4g} mm a pixel"
-    return page(f"Footprint: {title}", f"Image of {width} x {height} pixels{scale}.", sections)
+    return page(f"Footprint: {title}", facts_of_image(metrics, title), sections)
 
 
 def _table(metrics: Mapping[str, Any]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from gait.analysis.pages.footprint_figure import draw_footprints
 from gait.analysis.pages.footprint_page import footprint_page
 from gait.analysis.prints.footprint import Footprint, footprint_of_pixels
 from gait.analysis.prints.regions import REGIONS, regions_of, with_toe_line
+from gait.analysis.subject import Subject
 from plantar.formats.footprint_image import FootprintImage, Print, read_footprints
 from plantar.sides import SIDES, Side
 
@@ -25,7 +27,9 @@ _MOST_PIXELS = 40_000
 """Pixels a footprint is measured with; finer masks are thinned."""
 
 
-def analyse_image(path: Path, folder: Path, mm_per_pixel: float | None, side: Side | None = None) -> dict[str, Any]:
+def analyse_image(
+    path: Path, folder: Path, mm_per_pixel: float | None, side: Side | None = None, subject: Subject | None = None
+) -> dict[str, Any]:
     """Measure the footprints in an image and write metrics.json, footprints.csv, a figure and report.html.
 
     Args:
@@ -33,6 +37,7 @@ def analyse_image(path: Path, folder: Path, mm_per_pixel: float | None, side: Si
         folder: Folder to write to, which exists.
         mm_per_pixel: Size of a pixel in mm; the image's own resolution where None.
         side: Which foot a single footprint is of; told from its shape where None.
+        subject: Whose footprints they are, as far as it is known.
 
     Returns:
         What metrics.json holds.
@@ -53,6 +58,7 @@ def analyse_image(path: Path, folder: Path, mm_per_pixel: float | None, side: Si
     metrics: dict[str, Any] = {
         "format": "image",
         "kind": "image",
+        "subject": asdict(subject or Subject()),
         "frames": 1,
         "rate_hz": None,
         "size_px": [image.picture.shape[1], image.picture.shape[0]],

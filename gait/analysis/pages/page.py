@@ -13,6 +13,7 @@ from typing import NamedTuple
 __all__ = [
     "Section",
     "asset",
+    "embedded",
     "figures_of",
     "group_row",
     "number",
@@ -23,6 +24,10 @@ __all__ = [
     "titled",
     "warning_list",
 ]
+
+
+_WIDE = 1000
+"""Width in pixels from which a telephone scrolls a figure sideways, in its frame: fitted, nobody could read it."""
 
 
 class Section(NamedTuple):
@@ -38,7 +43,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "") 
 
     Args:
         title: Its title as plain text.
-        about: HTML of the line under the title.
+        about: HTML of what stands under the title: a line, or a list of facts.
         sections: Its parts, which the menu lists.
         script: HTML put at the end.
 
@@ -56,7 +61,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "") 
         f'<link rel="icon" href="data:,"><title>{html.escape(title)}</title>'
         f"<style>{asset('report.css')}</style></head>\n"
         '<body><a class="skip" href="#content">Skip to content</a>\n'
-        f'<header><h1>{html.escape(title)}</h1><p class="about">{about}</p>'
+        f"<header><h1>{html.escape(title)}</h1>{about}"
         f'<nav aria-label="Sections"><ul>{menu}</ul></nav></header>\n'
         f'<main id="content" tabindex="-1">\n{body}\n</main>\n{script}</body></html>\n'
     )
@@ -76,13 +81,30 @@ def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
     Returns:
         The section.
     """
-    return Section("figures", "Figures", "".join(_figure(path, caption) for path, caption in figures))
+    return Section("figures", "Figures", embedded(figures))
+
+
+def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = None) -> str:
+    """Figures that stand in the page itself.
+
+    Args:
+        figures: PNG files to embed, each with a caption that also serves as its alternative text.
+        names: Names without suffix of those to take; all where None.
+
+    Returns:
+        HTML.
+    """
+    taken = (one for one in figures if names is None or one[0].stem in names)
+    return "".join(_figure(path, caption) for path, caption in taken)
 
 
 def _figure(path: Path, caption: str) -> str:
-    data = base64.b64encode(path.read_bytes()).decode()
-    text = html.escape(caption)
-    return f'<figure><img alt="{text}" src="data:image/png;base64,{data}"><figcaption>{text}</figcaption></figure>\n'
+    content = path.read_bytes()
+    data, text = base64.b64encode(content).decode(), html.escape(caption)
+    width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
+    wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""
+    image = f'<img alt="{text}" decoding="async" src="data:image/png;base64,{data}">'
+    return f"<figure{wide}>{image}<figcaption>{text}</figcaption></figure>\n"
 
 
 def warning_list(warnings: Iterable[str]) -> str:
@@ -105,8 +127,9 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str]) ->
     """
     names = "".join(f'<th scope="col">{name}</th>' for name in head)
     return (
-        f'<div class="scroll" tabindex="0" role="region" aria-label="{label}"><table><caption>{caption}</caption>'
-        f"<thead><tr>{names}</tr></thead><tbody>{''.join(rows)}</tbody></table></div>\n"
+        f'<div class="scroll" tabindex="0" role="region" aria-label="Table: {label}">'
+        f"<table><caption>{caption}</caption><thead><tr>{names}</tr></thead>"
+        f"<tbody>{''.join(rows)}</tbody></table></div>\n"
     )
 
 

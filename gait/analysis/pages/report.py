@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from gait.analysis.measures import MEASURES
-from gait.analysis.pages.page import Section, asset, figures_of, number, page, warning_list
+from gait.analysis.pages.heading import facts_of
+from gait.analysis.pages.page import Section, asset, embedded, figures_of, number, page, warning_list
 from gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
+from plantar.gravity import GRAVITY
 
 __all__ = ["comparison_page", "report_page", "summary_text"]
 
@@ -46,22 +48,25 @@ def report_page(
     sections = [Section("summary", "Summary", f"<p>{html.escape(summary_text(metrics))}</p>{_tiles(metrics)}")]
     if metrics["warnings"]:
         sections.append(Section("assumed", "What was assumed", warning_list(metrics["warnings"])))
+    sections += _with_figures("pressure", "Pressure", "", figures, ("pressure",))
     if player is not None:
         sections.append(Section("frames", "Frames", _player(player)))
+    sections += _with_figures("load", "Force", "", figures, ("steps", "force"))
     sections.append(Section("measures", "Measures of the steps", measures_table(metrics) + _not_given(metrics)))
-    steps = steps_table(metrics)
-    if steps:
-        sections.append(Section("steps", "Each step", steps))
-    regions = regions_tables(metrics)
-    if regions:
-        sections.append(Section("regions", "Regions of the foot", regions))
-    sections.append(figures_of(figures))
-    about = (
-        f"Format {html.escape(str(metrics['format']))}, {metrics['frames']} frames at {metrics['rate_hz']:.6g} Hz "
-        f"({metrics['duration_s']:.4g} s)." + (" Readings are raw counts." if metrics.get("raw") else "")
-    )
+    sections += _with_figures("regions", "Regions of the foot", regions_tables(metrics), figures, ("regions",))
+    sections += _with_figures("sides", "Left and right", "", figures, ("symmetry",))
+    sections += _with_figures("wrench", "Wrench", "", figures, ("wrench",))
+    sections += _with_figures("steps", "Each step", steps_table(metrics), (), ())
     script = "" if player is None else f"<script>{asset('report.js')}</script>"
-    return page(f"Gait analysis: {title}", about, sections, script)
+    return page(f"Gait analysis: {title}", facts_of(metrics, title), sections, script)
+
+
+def _with_figures(
+    key: str, name: str, content: str, figures: Sequence[tuple[Path, str]], names: Sequence[str]
+) -> list[Section]:
+    """A section with the figures of these names; none where it would be empty."""
+    content += embedded(figures, names)
+    return [Section(key, name, content)] if content else []
 
 
 def summary_text(metrics: Mapping[str, Any]) -> str:
@@ -90,14 +95,17 @@ def summary_text(metrics: Mapping[str, Any]) -> str:
         )
     )
     peaks = {side: foot["measures"].get("peak_force_N") for side, foot in metrics["feet"].items()}
-    weight = metrics["gait"].get("implied_weight_N")
+    weight = metrics["gait"].get("body_weight_N")
+    stated = metrics["subject"]["mass_kg"] is not None
     shown = [
-        f"{number(100.0 * peak['mean'] / weight)} % of the body weight that the forces imply "
-        f"({number(peak['mean'])} N) {side}"
+        f"{number(100.0 * peak['mean'] / weight)} % ({number(peak['mean'])} N) on the {side}"
         for side, peak in peaks.items()
         if weight and peak and peak["mean"] is not None
     ]
-    return first + (f" Peak force is {' and '.join(shown)}." if shown else "")
+    if not shown:
+        return first
+    of = f"{number(weight / GRAVITY)} kg, {'as stated' if stated else 'which the forces imply'}"
+    return f"{first} Peak force relative to body weight ({of}) is {' and '.join(shown)} foot."
 
 
 def _not_given(metrics: Mapping[str, Any]) -> str:
@@ -135,7 +143,7 @@ def comparison_page(
         Section("measures", "Measures side by side", comparison_table(comparison)),
         figures_of(figures),
     ]
-    about = f"A is {html.escape(names[0])}, B is {html.escape(names[1])}."
+    about = f'<p class="about">A is {html.escape(names[0])}, B is {html.escape(names[1])}.</p>'
     return page(f"Comparison: {names[0]} and {names[1]}", about, sections)
 
 
@@ -143,7 +151,8 @@ def _tiles(metrics: Mapping[str, Any]) -> str:
     gait = metrics["gait"]
     tiles = [(f"Complete steps, {side}", str(foot["steps"])) for side, foot in metrics["feet"].items()]
     for key, name, unit, factor in _GAIT:
-        if gait.get(key) is not None:
+        same = key == "steady_cadence_steps_per_min" and gait.get(key) == gait.get("cadence_steps_per_min")
+        if gait.get(key) is not None and not same:
             tiles.append((name, f"{number(gait[key] * factor)} {unit}"))
     return '<dl class="tiles">' + "".join(f"<div><dt>{n}</dt><dd>{v}</dd></div>" for n, v in tiles) + "</dl>"
 

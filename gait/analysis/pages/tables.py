@@ -9,11 +9,15 @@ from typing import Any, NamedTuple
 from gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
 from gait.analysis.pages.page import group_row, number, row, scaled, table, titled
 from gait.analysis.prints.regions import REGIONS
+from plantar.gravity import GRAVITY
 
 __all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "steps_table"]
 
 EACH_STEP = ("contact_time_s", "stride_time_s", "peak_force_N", "impulse_Ns", "peak_pressure_Pa", "contact_area_m2")
 """Measures that are shown of each step."""
+
+_OF_BODY_WEIGHT = ("peak_force_N", "first_peak_N", "valley_N", "second_peak_N", "landing_impact_N")
+"""Forces that are shown in percent of body weight, too."""
 
 _MOST_STEPS = 80
 """Steps that the table shows."""
@@ -38,7 +42,7 @@ def _shown(key: str, measure: Measure, raw: bool) -> _Shown:
 
 
 def _mean_and_sd(spread: Mapping[str, Any], factor: float) -> str:
-    sd = "" if spread["sd"] is None else f" ± {number(spread['sd'] * factor, 2)}"
+    sd = "" if spread["sd"] is None else f"\u00a0±\u00a0{number(spread['sd'] * factor, 2)}"
     return number(spread["mean"] * factor) + sd
 
 
@@ -65,6 +69,7 @@ def measures_table(metrics: Mapping[str, Any]) -> str:
 def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
     """A row for each measure that a foot has, under the heading of its group."""
     feet = metrics["feet"].values()
+    columns = 3 * len(feet) + 1 + both
     group = ""
     for plain, measure in MEASURES.items():
         key, title, factor = _shown(plain, measure, bool(metrics.get("raw")))
@@ -72,10 +77,29 @@ def _rows_of_measures(metrics: Mapping[str, Any], both: bool) -> Iterator[str]:
         if all(s is None or s["mean"] is None for s in spreads):
             continue
         if measure.group != group:
+            if group == MEASURES["peak_force_N"].group:
+                yield from _rows_of_body_weight(metrics, columns, both)
             group = measure.group
-            yield group_row(group, 3 * len(feet) + 1 + both)
+            yield group_row(group, columns)
         cells = [cell for s in spreads for cell in _spread_cells(s, factor)]
         yield row(title, [*cells, number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else cells)
+
+
+def _rows_of_body_weight(metrics: Mapping[str, Any], columns: int, both: bool) -> Iterator[str]:
+    """The main forces once more, in percent of the stated body weight or of that which the forces imply."""
+    weight = metrics["gait"].get("body_weight_N")
+    if not weight:
+        return
+    stated = metrics["subject"]["mass_kg"] is not None
+    of = f"{weight / GRAVITY:.3g} kg, {'as stated' if stated else 'which the forces imply'}"
+    yield group_row(f"Vertical force, % of body weight ({of})", columns)
+    for key in _OF_BODY_WEIGHT:
+        spreads = [foot["measures"].get(key) for foot in metrics["feet"].values()]
+        if all(s is None or s["mean"] is None for s in spreads):
+            continue
+        cells = [cell for s in spreads for cell in _spread_cells(s, 100.0 / weight)]
+        index = [number(metrics["gait"]["symmetry_percent"].get(key), 2)] if both else []
+        yield row(f"{MEASURES[key].title} (% of body weight)", [*cells, *index])
 
 
 def _spread_cells(spread: Mapping[str, Any] | None, factor: float) -> tuple[str, str, str]:
@@ -105,7 +129,7 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
     shown = [_shown(key, MEASURES[key], raw) for key in EACH_STEP]
     rows = [
         row(
-            f"{side} {step['number']}",
+            f"{side}\u00a0{step['number']}",
             [
                 number(step["heel_strike_s"], 4),
                 *(number(scaled(step[s.key], s.factor)) for s in shown),

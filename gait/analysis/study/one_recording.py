@@ -18,6 +18,7 @@ from gait.analysis.options import AnalysisOptions
 from gait.analysis.pages.force_figures import stance_curves
 from gait.analysis.steps.foot_gait import FootGait
 from gait.analysis.study.participants import Participation
+from gait.analysis.subject import Subject
 from plantar import __version__
 from plantar.atomic import replacing
 from plantar.formats import ReadOptions
@@ -147,7 +148,8 @@ def measure_recording(
         insole_size=who.insole_size or given.insole_size,
     )
     known = with_layout(known, folder / who.layout) if who.layout else known
-    analysis = analyse(folder / who.file, None, known, choices=choices)
+    subject = Subject(who.participant, who.mass_kg, who.foot_length_m)
+    analysis = analyse(folder / who.file, None, known, choices=choices, subject=subject)
     recording, raw = analysis.recording, analysis.recording.raw
     rows = [row for gait in analysis.feet.values() for row in _rows(gait, who, raw)]
     rows.sort(key=lambda row: float(row["heel_strike_s"]))

@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from gait.analysis.subject import BODY_MASSES, FOOT_LENGTHS
 from plantar.errors import FormatError, InputError
 from plantar.files.input_file import open_input
 from plantar.formats.text import number
@@ -30,8 +31,6 @@ _NAMES = {
     "layout": ("layout",),
 }
 """Names that a column may have, by what it holds; other columns are carried through to the tables."""
-
-_MASSES, _LENGTHS = (2.0, 400.0), (0.05, 0.45)
 
 
 @dataclass(frozen=True)
@@ -132,10 +131,10 @@ def _participation(
             raise InputError(f"{where}: {key} is {words!r}; allowed: {allowed[0]:g} to {allowed[1]:g}, or empty")
         return found * factor
 
-    length = value("foot_length_m", _LENGTHS)
+    length = value("foot_length_m", FOOT_LENGTHS)
     for at, factor in zip(lengths, (1e-3, 1e-2), strict=True):
         if length is None and at is not None:
-            length = value("foot_length_m", _LENGTHS, at, factor)
+            length = value("foot_length_m", FOOT_LENGTHS, at, factor)
     side = text("side")
     if side is not None and side.lower() not in SIDES:
         raise InputError(f"{where}: side is {side!r}; allowed: left, right, or empty")
@@ -148,7 +147,7 @@ def _participation(
         file=file,
         participant=text("participant") or os.path.splitext(os.path.basename(file))[0],
         condition=text("condition") or "",
-        mass_kg=value("mass_kg", _MASSES),
+        mass_kg=value("mass_kg", BODY_MASSES),
         foot_length_m=length,
         side=side.lower() if side else None,
         insole_size=text("insole_size"),

@@ -47,8 +47,8 @@ def study_page(
     sections.append(Section("look", "To look at", _look(summary)))
     sections.append(Section("recordings", "Recordings", _recordings(results)))
     about = (
-        f"{summary['measured']} of {summary['recordings']} recordings of {summary['participants']} participants were "
-        f"measured: {summary['steps']} steps. Plantar {html.escape(str(summary['version']))}."
+        f'<p class="about">{summary["measured"]} of {summary["recordings"]} recordings of {summary["participants"]} '
+        f"participants were measured: {summary['steps']} steps. Plantar {html.escape(str(summary['version']))}.</p>"
     )
     return page(f"Study: {name}", about, sections)
 
@@ -119,8 +119,8 @@ def _cells(effect: Effect, factor: float) -> list[str]:
     return [
         text(effect.mean_a * factor),
         text(effect.mean_b * factor),
-        f"{text(effect.difference * factor)} [{low}, {high}]",
-        f"{text(effect.effect_size, 2)} [{text(effect.effect_low, 2)}, {text(effect.effect_high, 2)}]",
+        f"{text(effect.difference * factor)} [{low},\u00a0{high}]",
+        f"{text(effect.effect_size, 2)} [{text(effect.effect_low, 2)},\u00a0{text(effect.effect_high, 2)}]",
         _probability(effect.p),
         f"<strong>{_probability(effect.p_all)}</strong>" if effect.p_all < 0.05 else _probability(effect.p_all),
     ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -15,6 +16,9 @@ from threading import Thread
 from typing import Any
 
 import pytest
+
+AXE = Path(os.environ.get("PLANTAR_AXE") or Path(__file__).parents[3] / ".venv" / "axe" / "axe.min.js")
+"""Where axe-core is; `sh tools/fetch-axe .venv/axe` fetches it."""
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
@@ -43,6 +47,13 @@ def browser() -> str:
     pytest.skip("no Chromium on this machine: the page is not opened (Debian: apt-get install chromium)")
 
 
+def axe_script() -> str:
+    """axe-core as an element of a page; empty where it is not on this machine."""
+    if not AXE.exists():
+        return ""
+    return "<script>" + AXE.read_text(encoding="utf-8").replace("</script", "<\\/script") + "</script>"
+
+
 def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: float = 90.0, width: int = 1000) -> Visit:
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
@@ -69,7 +80,7 @@ def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: fl
         "</script>"
     )
     text = page.read_text(encoding="utf-8").replace("<head>", "<head>" + script, 1)
-    content = text.replace("</body>", end + "</body>", 1).encode()
+    content = text.replace("</body>", (axe_script() if "axe" in probe else "") + end + "</body>", 1).encode()
     answers: Queue[dict[str, Any]] = Queue()
 
     class Server(BaseHTTPRequestHandler):

@@ -1,0 +1,94 @@
+"""Who walks in a recording, what is known of the body, and with what it was measured: what a report is headed by."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from plantar.errors import InputError
+from plantar.formats import formats
+from plantar.gravity import GRAVITY
+from plantar.recordings.pressure_recording import PressureRecording
+
+__all__ = ["BODY_MASSES", "FOOT_LENGTHS", "Subject", "device_of", "mass_doubts"]
+
+BODY_MASSES, FOOT_LENGTHS = (2.0, 400.0), (0.05, 0.45)
+"""Masses in kg and lengths of a foot in m, smallest and largest, that are believed of people and robots."""
+
+_DISAGREE = 0.3
+"""Share by which the weight that forces imply may differ from the stated one: more than an insole that fits badly
+misses, less than any unit is off that is mistaken for another."""
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Who walks, as far as it is known.
+
+    Attributes:
+        name: Name or number of the person or robot; empty for nobody named.
+        mass_kg: Mass of the body in kg; None where it is not known.
+        foot_length_m: Length of the foot in m; None where it is not known.
+
+    Raises:
+        InputError: If the mass or the length is not possible.
+    """
+
+    name: str = ""
+    mass_kg: float | None = None
+    foot_length_m: float | None = None
+
+    def __post_init__(self) -> None:
+        checked = (("mass", self.mass_kg, "kg", BODY_MASSES), ("foot-length", self.foot_length_m, "m", FOOT_LENGTHS))
+        for name, value, unit, (low, high) in checked:
+            if value is not None and not low <= value <= high:
+                raise InputError(f"--{name} is {value:g}; allowed: {low:g} to {high:g} {unit}")
+
+    @property
+    def weight(self) -> float | None:
+        """Weight in N; None where the mass is not known."""
+        return None if self.mass_kg is None else self.mass_kg * GRAVITY
+
+
+def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
+    """A warning where the forces of a recording are not those of a body of the stated mass.
+
+    Args:
+        subject: Who walks.
+        implied: Weight in N that the forces imply; None where they imply none.
+
+    Returns:
+        The warning, or nothing.
+    """
+    weight = subject.weight
+    if weight is None or implied is None or abs(implied / weight - 1.0) <= _DISAGREE:
+        return []
+    return [
+        f"the forces imply {implied / GRAVITY:.3g} kg, the stated mass is {subject.mass_kg:.3g} kg: check the unit, "
+        "the insole's size and the mass"
+    ]
+
+
+def device_of(recording: PressureRecording) -> dict[str, Any]:
+    """What measured a recording, as far as the file says it.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        "name" (what the format is of), "sensor" (what the file calls it, or None), and for each foot with geometry its
+        "layout", "cells", and "length_m" and "width_m" of the sole or platform.
+    """
+    known, facts = formats().get(recording.format), recording.metadata
+    stated = (facts.get(key) for key in ("sensor", "sensors", "sensor insoles", "robot"))
+    sensor = next((s for s in stated if s), None)
+    feet: dict[str, Mapping[str, Any]] = {}
+    for side, foot in recording.feet.items():
+        if foot.layout is not None:
+            length, width = (float(v) for v in np.ptp(foot.layout.outline, axis=0)[:2])
+            size = {"length_m": length, "width_m": width}
+            feet[side] = {"layout": foot.layout.name, "cells": len(foot.layout), **size}
+    name = recording.format if known is None else known.title.partition(", with ")[0]
+    return {"name": name, "sensor": ", ".join(sensor) if isinstance(sensor, list) else sensor, "feet": feet}
