@@ -50,6 +50,7 @@ from gait.feet.ground_conformity import ConformityGains, GroundConformity
 from gait.feet.landing_compliance import DampingGains, LandingCompliance
 from gait.feet.posture_compensation import PostureCompensation
 from gait.feet.swing_compliance import SwingCompliance
+from gait.feet.swing_fit import SwingFitRules
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
@@ -107,6 +108,7 @@ class ControllerSettings(Settings):
         period: Control period in s.
         timing: Durations of the phases.
         swing_height: Clearance of the swing foot in m.
+        swing_fit: What the swing foot's path is fitted to, with that height; None takes polynomials of the time.
         ankle_reach: How far in m from its frame's origin, which is below the ankle, along the sole, an ankle bears the
             robot; nothing farther off is loaded.
         landing: How a foot lands.
@@ -152,6 +154,7 @@ class ControllerSettings(Settings):
     period: float = number(0.005, "s", 1e-4, 0.1)
     timing: Timing = field(default_factory=Timing)
     swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
+    swing_fit: SwingFitRules | None = None
     ankle_reach: float = number(1.0, "m", 0.0, 1.0)
     landing: Landing = field(default_factory=Landing)
     compliance: ComplianceGains | None = None
@@ -271,7 +274,7 @@ class WalkingController:
         compliance = None
         if gains is not None:
             compliance = {s: SwingCompliance(layouts[s], gains, loads, settings.ground_map) for s in SIDES}
-        self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance)
+        self.motion = FootMotion(feet, period, settings.swing_height, settings.landing, compliance, settings.swing_fit)
         self.contacts = FootContacts(settings.contact, layouts, settings.ankle_reach, self._ankle_limits())
         damping = DampingGains().for_body(settings.body)
         self._damping = {side: LandingCompliance(period, damping) for side in SIDES}

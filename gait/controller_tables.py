@@ -18,6 +18,7 @@ from gait.estimate.wrench_filter import WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
+from gait.feet.swing_fit import SwingFitRules
 from gait.propose.double_support_timing import DoubleSupportTimingRules
 from gait.propose.dsp_opt import DspWeights
 from gait.propose.feasibility import FeasibilityRules
@@ -41,6 +42,7 @@ CONTROLLER_TABLES: Mapping[str, tuple[type[Settings], ...]] = {
     "dcm_filter": (DcmFilterRules,),
     "identification": (IdentificationRules,),
     "landing": (Landing,),
+    "swing_fit": (SwingFitRules,),
     "contact": (ContactSettings,),
     "foothold": (FootholdRules,),
     "step_timing": (StepTimingRules,),
@@ -68,6 +70,7 @@ _ELSEWHERE = {
     "landing.approach_speed": "walk.approach_speed",
     "ground_map.sensing_range": "sensing.proximity_range",
     "feasibility.rule": "control.feasibility",
+    "swing_fit.height": "walk.swing_height",
 }
 """Settings that a scene gives by another name."""
 

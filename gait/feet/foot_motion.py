@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from gait.contact.ground_map import GroundView
 from gait.estimate.command_frame import CommandFrame
 from gait.feet.swing import SwingTrajectory
 from gait.feet.swing_compliance import SwingCompliance, turned_to_ground
+from gait.feet.swing_fit import SwingFit, SwingFitRules
 from gait.feet.swing_flight import LEAST_TIME, SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
@@ -97,6 +99,8 @@ class FootMotion:
         swing_height: Clearance of the swing foot in m.
         landing: How a foot lands.
         compliance: Preemptive compliance of each foot; None lands blindly.
+        fit: What a swing is fitted to, anew at every tick; its height is the clearance. None takes polynomials that
+            change only with the plan.
     """
 
     def __init__(
@@ -106,6 +110,7 @@ class FootMotion:
         swing_height: float,
         landing: Landing,
         compliance: Mapping[Side, SwingCompliance] | None = None,
+        fit: SwingFitRules | None = None,
     ) -> None:
         self.footholds: dict[Side, tuple[NDArray[np.float64], float]] = {
             s: (feet[s].position.copy(), feet[s].yaw) for s in SIDES
@@ -117,6 +122,9 @@ class FootMotion:
         self._landing = landing
         self._leg = landing.body.leg
         self._compliance = compliance
+        self._fit_rules = fit
+        self._fit: SwingFit | None = None
+        self._falls = 0.0
         self._tilts: dict[Side, NDArray[np.float64]] = {s: np.eye(3) for s in SIDES}
         self._rotations: dict[Side, tuple[float, NDArray[np.float64], NDArray[np.float64]]] = {}
         self._lifted_tilt = np.zeros(3)
@@ -270,10 +278,32 @@ class FootMotion:
             if self.comes_down and load > self._landing.contact_force:
                 self.landed = True
             if not self.landed:
-                self.footholds[self._side] = self._swing.at(time - self._start)
+                self.footholds[self._side] = self._reference(self._swing, time - self._start)
                 return
         self.landed = True  # it touched, or the plan puts weight on it now
         self._press(self._side, load)
+
+    def _reference(self, swing: SwingFlight, elapsed: float) -> tuple[NDArray[np.float64], float]:
+        """Where the swing foot shall be (3,) in m, and its heading in rad, some time in s after lift-off; asked for
+        once a tick, since a fitted path goes on from where it was at the tick before."""
+        if self._fit is None:
+            return swing.at(elapsed)
+        path = swing.path
+        # A swing with a slow approach is above its place before that; from there on it goes down as it would anyhow.
+        approaches = path.approach_height > 0.0
+        share = path.arrived / path.duration if approaches else 1.0
+        position, velocity, _ = self._fit.aim(swing.end, elapsed, share * swing.duration)
+        self._falls = -velocity.item(2)
+        planned, yaw = swing.at(elapsed)
+        if approaches:
+            position[2] = planned.item(2)
+        return position, yaw
+
+    def _falling(self, swing: SwingFlight, elapsed: float, height: float) -> float:
+        """Speed downwards in m/s that the swing's plan asks for, at some time in s after lift-off at a height in m."""
+        if self._fit is not None and swing.path.approach_height == 0.0:
+            return self._falls
+        return (height - swing.at(elapsed + self._period)[0].item(2)) / self._period
 
     def aim(self, phase: Phase, time: float, target: Footstep, frame: CommandFrame) -> None:
         """Follow a plan that has changed while the foot swings: it goes elsewhere, or is there at another time.
@@ -325,6 +355,9 @@ class FootMotion:
             rises_first=side in self._rises_first,
         )
         self._swing = SwingFlight.on(path)
+        # What stands beside the foot is no condition that a path is fitted to.
+        rules = None if path.rises_first else self._fit_rules
+        self._fit = None if rules is None else SwingFit(replace(rules, height=self._height), position, self._period)
         self._rises_first.discard(side)
         self._step, self._side, self._target = index, side, target
         self._start = times[0]
@@ -372,13 +405,13 @@ class FootMotion:
                 self._distance.flags.writeable = False
         if not self.landed:
             progress, lifted = swing.progress(elapsed), swing.path.lifted
+            planned, heading = self._reference(swing, elapsed)
             if progress < lifted:
-                self.footholds[side] = swing.at(elapsed)
+                self.footholds[side] = (planned, heading)
                 share = 1.0 - minimum_jerk(progress / lifted)[0]
                 self._tilts[side] = rotation_from_vector(share * self._lifted_tilt)
                 return
-            planned, heading = swing.at(elapsed)
-            falling = (planned[2] - swing.at(elapsed + period)[0][2]) / period
+            falling = self._falling(swing, elapsed, planned.item(2))
             time_left = (phase.end if phase.swing is not None else phase.start) - time
             if time_left <= 0.0:
                 falling = self._landing.speed

@@ -22,6 +22,7 @@ from gait.estimate.wrench_filter import WrenchFilterRules
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import Landing
 from gait.feet.ground_conformity import ConformityGains
+from gait.feet.swing_fit import SwingFitRules
 from gait.plan.phases import Timing
 from gait.propose.double_support_timing import DoubleSupportTimingRules
 from gait.propose.dsp_opt import DspWeights
@@ -108,6 +109,7 @@ def controller_settings(
         period=_period(control),
         timing=walk_timing(walk, robot, body),
         swing_height=walk.swing_height,
+        swing_fit=made(SwingFitRules, "swing_fit", height=walk.swing_height) if control.swing_shape == "fit" else None,
         ankle_reach=robot.ankle_reach,
         landing=made(Landing, "landing", approach_height=approach, approach_speed=walk.approach_speed),
         compliance=made(ComplianceGains, "compliance") if control.pfc else None,
@@ -196,6 +198,7 @@ def _refuse_unused(scene: Scene, robot: Robot) -> None:
         **dict.fromkeys(("compliance", "touchdown", "ground_map", "slope"), (control.pfc, "control.pfc = true")),
         "identification": (control.identify, "control.identify = true"),
         "dcm_filter": (control.dcm_estimate == "kalman", "control.dcm_estimate = 'kalman'"),
+        "swing_fit": (control.swing_shape == "fit", "control.swing_shape = 'fit'"),
         "step_timing": (control.step_timing, "control.step_timing = true"),
         **dict.fromkeys(_OF_STEPS, (control.step_adjustment, "control.step_adjustment = true")),
         "step_weights": (

@@ -227,6 +227,8 @@ class Control(Settings):
             "skin" on the upper body, and the soles where that feels nothing.
         dcm_estimate: What estimates the CoM's velocity, and so the DCM: "observer", or "kalman", a Kalman filter that
             takes what neither ZMP nor push explain for a push that nothing feels.
+        swing_shape: Path of the swing foot: "polynomial" changes only with the plan; "fit" is fitted at every tick to
+            where and when the foot shall land.
         period: Control period in s.
         physics_period: Time step of the simulated physics in s; a contact takes five of them.
         skip: "auto" computes what is needed; "none" computes everything, for comparison. The motion is the same.
@@ -244,6 +246,7 @@ class Control(Settings):
     learn_strides: bool = switch(False)
     push_estimate: str = choice("off", "soles", "skin")
     dcm_estimate: str = choice("observer", "kalman")
+    swing_shape: str = choice("polynomial", "fit")
     period: float = number(0.005, "s", 0.0005, 0.05)
     physics_period: float = number(0.001, "s", 0.0001, 0.002)
     skip: str = choice("auto", "none")

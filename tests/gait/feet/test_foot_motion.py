@@ -13,6 +13,7 @@ from gait.estimate.command_frame import CommandFrame
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
 from gait.feet.foot_motion import FootMotion, Landing, SoleSense
 from gait.feet.swing_compliance import SwingCompliance
+from gait.feet.swing_fit import SwingFitRules
 from gait.plan.footsteps import Footstep, straight_plan
 from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
 from plantar import Percept, Reading, hex_layout
@@ -28,11 +29,13 @@ def taken(steps: Sequence[Footstep], phase: Phase) -> Footstep | None:
     return steps[phase.step] if phase.swing is not None else None
 
 
-def walked(ground: float, until: float) -> tuple[FootMotion, list[tuple[float, float]]]:
+def walked(
+    ground: float, until: float, fit: SwingFitRules | None = None
+) -> tuple[FootMotion, list[tuple[float, float]]]:
     """The first step over ground at a height; the foot feels a stiff spring. Times and commanded sole heights."""
     feet, steps = straight_plan(2)
     schedule = WalkSchedule.of([step.side for step in steps], Timing())
-    motion = FootMotion(feet, PERIOD, 0.05, LANDING)
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, fit=fit)
     frame = CommandFrame(feet["left"].position, PERIOD, 0.3)
     track = []
     for k in range(round(until / PERIOD)):
@@ -49,6 +52,35 @@ def test_on_the_expected_ground_the_foot_lands_where_and_when_it_is_planned() ->
     assert motion.footholds["left"][0][:2] == pytest.approx([0.2, 0.085])
     assert max(z for _, z in track) == pytest.approx(0.05, abs=1e-3)
     assert motion.landed
+
+
+def test_a_fitted_swing_gets_there_too_rising_once_and_falling_once() -> None:
+    motion, track = walked(0.0, 2.3, SwingFitRules())
+    # It has landed a tick before the end, when the sole met the ground.
+    assert motion.footholds["left"][0][:2] == pytest.approx([0.2, 0.085], abs=1e-4)
+    heights = np.array([z for _, z in track])
+    top = int(heights.argmax())
+    assert 0.05 <= heights[top] < 0.07
+    assert (np.diff(heights[: top + 1]) >= 0.0).all()
+    assert (np.diff(heights[top:]) <= 0.0).all()
+    assert motion.landed
+
+
+def test_a_fitted_swing_follows_a_plan_that_changes_without_a_jump() -> None:
+    feet, steps = straight_plan(2)
+    schedule = WalkSchedule.of([step.side for step in steps], Timing())
+    motion = FootMotion(feet, PERIOD, 0.05, LANDING, fit=SwingFitRules())
+    frame, loads = CommandFrame(feet["left"].position, PERIOD, 0.3), {"left": 0.0, "right": 800.0}
+    phase = schedule.phases[2]
+    places = []
+    for k in range(round((phase.end - phase.start) / PERIOD)):
+        time, target = phase.start + k * PERIOD, steps[0] if k < 80 else replace(steps[0], y=steps[0].y + 0.05)
+        motion.update(phase, time, target, loads, frame)
+        motion.aim(phase, time, target, frame)
+        places.append(motion.footholds["left"][0])
+    assert places[-1][1] == pytest.approx(steps[0].y + 0.05, abs=1e-3)
+    fastest = float(np.abs(np.diff(places, axis=0)).max()) / PERIOD
+    assert fastest < 2.5 * 0.2 / (phase.end - phase.start)  # a minimum-jerk motion over the step's length has 1.9
 
 
 def test_an_early_contact_stops_the_swing() -> None:

@@ -17,7 +17,7 @@ from sim.run.scene import load_scene, setting_name
 
 ALL_ON = ["pfc=true", "control.feasibility=skin", "conform=true", "footholds=skin"]
 ALL_ON += ["control.step_adjustment=true", "control.learn_strides=true", "control.push_estimate=skin"]
-ALL_ON += ["control.dcm_estimate=kalman"]
+ALL_ON += ["control.dcm_estimate=kalman", "control.swing_shape=fit"]
 ALL_ON += ["step_adjustment.method=ssp_opt", "step_adjustment.double_support=true"]
 PART_OF = {"balance": "gains", "push_estimate": "push"}
 
