@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 __all__ = [
@@ -76,12 +77,14 @@ class Benchmark(NamedTuple):
         columns: Its columns after those.
         cases: What to run.
         figures: Values of those columns from a simulation that has run, and its summary.
+        recorded: Whether `figures` wants the run's recording, whose path is then the summary's "recording".
     """
 
     path: Path
     columns: tuple[str, ...]
     cases: Sequence[Case]
     figures: Callable[[Any, dict[str, Any]], dict[str, Any]]
+    recorded: bool = False
 
 
 def commit() -> str:
@@ -150,7 +153,10 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     from sim.run.scene import load_scene
 
     simulation = Simulation(load_scene(case.scene, case.settings, case.file or case.robot), seed)
-    summary = simulation.run()
+    with TemporaryDirectory() as folder:
+        recording = Path(folder, "run.mcap") if benchmark.recorded else None
+        summary = simulation.run(record=recording)
+        found = benchmark.figures(simulation, {**summary, "recording": recording})
     row = {
         "case": case.name,
         "robot": case.robot,
@@ -158,7 +164,7 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         "completed": summary["completed"],
         "failed": " ".join(r["criterion"] for r in summary["reasons"]),
         "commit": made,
-        **benchmark.figures(simulation, summary),
+        **found,
     }
     columns = ("case", "robot", "seed", "completed", "failed", "commit", *benchmark.columns)
     new = not benchmark.path.exists()
