@@ -156,6 +156,10 @@ def analyze(
     participant: Annotated[str, Option(help="Who walks, for the report's heading.", show_default=False)] = "",
     mass: Annotated[float | None, Option(help="Mass of the body in kg: forces stand in percent of its weight.")] = None,
     foot_length: Annotated[float | None, Option(help="Length of the foot in m, for the report's heading.")] = None,
+    export: Annotated[
+        list[str] | None,
+        Option(help="Write the recording in another format, too: c3d, csv or npz; repeatable.", show_default=False),
+    ] = None,
     output: Output = Path("out/analysis"),
     as_json: Json = False,
 ) -> None:
@@ -170,6 +174,8 @@ def analyze(
     Example: plantar analyze out/demo/run.mcap --json
 
     Example: plantar analyze walk.asc --participant P07 --mass 71.5
+
+    Example: plantar analyze walk.asc --export c3d --export npz
 
     Example: plantar analyze table.csv --layout insole.json --unit kPa
 
@@ -198,6 +204,8 @@ def analyze(
     choices = AnalysisOptions(steps_of_text(steps), begin, end, cast(Any, baseline), events)
     subject = Subject(participant, mass, foot_length)
     if recording is not None and is_study_folder(recording):
+        if export:
+            raise InputError("--export is for one recording; a study's tables are CSV files")
         if subject != Subject():
             raise InputError(
                 "--participant, --mass and --foot-length are for one recording: a study has --participants"
@@ -208,8 +216,13 @@ def analyze(
         raise InputError(
             "--participants is for a folder of recordings: plantar analyze recordings/ --participants table.csv"
         )
+    from gait.analysis.exports import exporter
+
+    also = exporter(export or ())
     with progress_bar() as tell:
         if compare is not None:
+            if also is not None:
+                raise InputError("--export is for one recording; --compare takes two")
             from gait.analysis.compare import compare_recordings
 
             if mm_per_pixel is not None:
@@ -230,6 +243,7 @@ def analyze(
                 mm_per_pixel=mm_per_pixel,
                 choices=choices,
                 subject=subject,
+                also=also,
             )
     parts = {"": result} if compare is None else {"A": result["a"], "B": result["b"]}
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())

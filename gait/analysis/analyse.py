@@ -74,6 +74,7 @@ def analyse_recording(
     mm_per_pixel: float | None = None,
     choices: AnalysisOptions | None = None,
     subject: Subject | None = None,
+    also: Callable[[Analysis, Path], None] | None = None,
 ) -> dict[str, Any]:
     """Analyse a recording or a footprint image; write metrics.json, tables, figures (PNG and SVG) and report.html.
 
@@ -87,6 +88,7 @@ def analyse_recording(
         mm_per_pixel: Size of an image's pixel in mm.
         choices: Which steps are in the means, and whose events; a recording's only.
         subject: Who walks, as far as it is known.
+        also: Called with the analysis and the folder, to write more there; see `gait.analysis.exports.exporter`.
 
     Returns:
         What metrics.json holds, and "files": the paths written.
@@ -102,6 +104,8 @@ def analyse_recording(
     image = named_format(path, format).read is None
     if mm_per_pixel is not None and not image:
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
+    if also is not None and image:
+        raise InputError(f"--export is for recordings; {path} is a footprint image")
     with output_folder(out) as folder:
         if image:
             metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject)
@@ -109,6 +113,8 @@ def analyse_recording(
             analysis = analyse(path, format, known, tell, choices, subject)
             metrics = dict(analysis.metrics)
             write_analysis(analysis, folder, lambda fraction, text: tell(0.5 + 0.5 * fraction, text))
+            if also is not None:
+                also(analysis, folder)
         names = sorted(p.name for p in folder.iterdir())
     tell(1.0, "done")
     return {**metrics, "files": [str(Path(out) / name) for name in names]}

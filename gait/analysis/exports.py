@@ -6,7 +6,7 @@ import csv
 import hashlib
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from plantar.errors import InputError
 from plantar.layouts.layout_file import layout_to_dict
 from plantar.optional_library import optional_library
 
-__all__ = ["EXPORTS", "export_analysis"]
+__all__ = ["EXPORTS", "export_analysis", "exporter"]
 
 _BLOCK = 4096
 
@@ -34,7 +34,8 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
             CoP as a point, events in the group EVENT; needs ezc3d).
 
     Returns:
-        The files written: the export and its sidecar, of the keys that BIDS uses for recorded motion and physiology.
+        The files written: the export and its sidecar, which is named after it (walk.c3d.json) and has the keys that
+        BIDS uses for recorded motion and physiology.
 
     Raises:
         InputError: If the suffix is none of these, or the folder cannot be written to.
@@ -46,7 +47,38 @@ def export_analysis(analysis: Analysis, path: str | os.PathLike[str]) -> list[Pa
         raise InputError(f"cannot export to '{target.name}'; allowed: {', '.join(EXPORTS)}")
     with parent_folder(target), replacing(target) as temporary:
         write(analysis, temporary)
-    return [target, write_text(target.with_suffix(".json"), json.dumps(_sidecar(analysis, target), indent=1) + "\n")]
+    return [
+        target,
+        write_text(target.with_name(f"{target.name}.json"), json.dumps(_sidecar(analysis, target), indent=1) + "\n"),
+    ]
+
+
+def exporter(formats: Sequence[str]) -> Callable[[Analysis, Path], None] | None:
+    """What writes a recording in some formats into the folder of its analysis, under the recording's own name.
+
+    Args:
+        formats: Formats by their suffix, "c3d", "csv" or "npz", with or without its dot.
+
+    Returns:
+        A function of an analysis and a folder; None for no format.
+
+    Raises:
+        InputError: If a format is none of these.
+        DependencyError: If what a format needs is not installed.
+    """
+    suffixes = list(dict.fromkeys(f".{text.lower().removeprefix('.')}" for text in formats))
+    for suffix in suffixes:
+        if suffix not in EXPORTS:
+            raise InputError(f"--export is {suffix[1:]!r}; allowed: {', '.join(known[1:] for known in EXPORTS)}")
+    if ".c3d" in suffixes:
+        with optional_library("ezc3d", "formats"):
+            import ezc3d  # noqa: F401  # before anything is measured
+
+    def write(analysis: Analysis, folder: Path) -> None:
+        for suffix in suffixes:
+            export_analysis(analysis, folder / f"{analysis.recording.path.stem}{suffix}")
+
+    return write if suffixes else None
 
 
 def _unit(analysis: Analysis) -> str:
@@ -118,6 +150,7 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     points = np.zeros((4, max(1, len(cops)), frames))  # the format has no file without points
     for i, cop in enumerate(cops.values()):
         points[:2, i] = np.nan_to_num(cop).T
+    unknown = np.array([np.isnan(cop[:, 0]) for cop in cops.values()]) if cops else np.ones((1, frames), dtype=bool)
     file = ezc3d.c3d()
     parameters = file["parameters"]
     parameters["POINT"]["RATE"]["value"] = [recording.rate_hz]
@@ -128,6 +161,10 @@ def _write_c3d(analysis: Analysis, path: Path) -> None:
     analog["LABELS"]["value"] = [f"{side}.Fz" for side in analysis.feet]
     analog["UNITS"]["value"] = [_unit(analysis)] * len(analysis.feet)
     file["data"]["points"] = points
+    file["data"]["meta_points"] = {  # residual -1: the point is not there, as without load
+        "residuals": np.where(unknown, -1.0, 0.0)[None],
+        "camera_masks": np.zeros((7, len(unknown), frames), dtype=bool),
+    }
     file["data"]["analogs"] = np.array([np.nan_to_num(g.foot.vertical_force) for g in analysis.feet.values()])[None]
     events = _events(analysis)
     if events:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from cli import app
 from gait.analysis.analyse import Analysis, analyse, metrics_of
 from gait.analysis.exports import export_analysis
 from gait.analysis.parameters import analyse_feet
@@ -27,7 +31,7 @@ def analysis() -> Analysis:
 @pytest.mark.parametrize("suffix", [".npz", ".csv"])
 def test_what_was_exported_measures_the_same(tmp_path: Path, analysis: Analysis, suffix: str) -> None:
     files = export_analysis(analysis, tmp_path / "made" / f"walk{suffix}")
-    assert [f.name for f in files] == [f"walk{suffix}", "walk.json"]
+    assert [f.name for f in files] == [f"walk{suffix}", f"walk{suffix}.json"]
     layout = nominal_insole("x", "left") if suffix == ".csv" else None
     again = analyse(files[0], options=ReadOptions(layout=layout))
     for side, gait in analysis.feet.items():
@@ -63,6 +67,38 @@ def test_a_c3d_file_has_forces_and_events(tmp_path: Path, analysis: Analysis) ->
         if (side, label) == ("Left", "Foot Strike")
     ]
     assert left == pytest.approx([s.heel_strike_s for s in analysis.feet["left"].steps], abs=1e-4)
+
+
+def test_a_c3d_file_has_no_centre_of_pressure_without_load(tmp_path: Path, analysis: Analysis) -> None:
+    ezc3d = pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    path, _ = export_analysis(analysis, tmp_path / "walk.c3d")
+    file = ezc3d.c3d(str(path))
+    cop = analysis.feet["left"].cop
+    assert cop is not None
+    there = file["data"]["meta_points"]["residuals"][0, 0] >= 0.0
+    assert there.tolist() == np.isfinite(cop[:, 0]).tolist()
+    written = file["data"]["points"][:2, 0, there].T
+    assert written == pytest.approx(cop[there], abs=1e-6)
+
+
+def test_the_command_exports_beside_its_report(tmp_path: Path, analysis: Analysis) -> None:
+    pytest.importorskip("ezc3d", reason="ezc3d is not installed")
+    walk, _ = export_analysis(analysis, tmp_path / "walk.npz")
+    arguments = ["analyze", str(walk), "-o", str(tmp_path / "out"), "--json"]
+    done = CliRunner().invoke(app, [*arguments, "--export", "c3d", "--export", "CSV"])
+    assert done.exit_code == 0, done.output
+    names = {Path(file).name for file in json.loads(done.stdout)["files"]}
+    assert {"walk.c3d", "walk.c3d.json", "walk.csv", "walk.csv.json", "report.html"} <= names
+    held = json.loads((tmp_path / "out" / "walk.c3d.json").read_text())
+    assert held["Sha256"] == hashlib.sha256((tmp_path / "out" / "walk.c3d").read_bytes()).hexdigest()
+    for more, message in (
+        ([str(walk), "--export", "xls"], "--export is 'xls'; allowed: npz, csv, c3d"),
+        (["--compare", str(walk), str(walk), "--export", "npz"], "--export is for one recording"),
+        ([str(tmp_path), "--export", "npz"], "--export is for one recording"),
+    ):
+        wrong = CliRunner().invoke(app, ["analyze", *more, "-o", str(tmp_path / "none")])
+        assert message in str(wrong.exception)
+    assert not (tmp_path / "none").exists()
 
 
 def test_other_suffixes_are_refused(tmp_path: Path, analysis: Analysis) -> None:
