@@ -14,6 +14,8 @@ __all__ = ["JointLimits"]
 
 _AT_LIMIT = 0.999  # of a torque limit: a servo there asks for more than it gets
 
+_most = np.maximum.reduce  # sooner than the method of an array
+
 
 class JointLimits:
     """Follows the leg joints' speeds and torques.
@@ -66,11 +68,15 @@ class JointLimits:
             return
         velocity = self._velocity()
         shares = np.abs(velocity) * self._per_speed
+        if float(_most(shares)) <= 1.0:
+            if self._fast:
+                self._over[:] = 0.0
+                self._fast = False
+            return
         self._over = np.where(shares > 1.0, self._over + self._period, 0.0)
-        self._fast = bool(self._over.any())
-        if self._fast:
-            np.maximum(self.longest, self._over, out=self.longest)
-            self._extend(velocity)
+        self._fast = True
+        np.maximum(self.longest, self._over, out=self.longest)
+        self._extend(velocity)
 
     def _extend(self, velocity: NDArray[np.float64]) -> None:
         np.maximum(self._high, velocity, out=self._high)

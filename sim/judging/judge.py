@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.plan.plan_change import MovedStep
-from plantar.geometry.polygon import area
+from plantar.kernels.convex import area
 from plantar.kernels.few_points import small_hull
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
@@ -20,9 +20,9 @@ from sim.judging.leg_contact import LegContact
 from sim.judging.step_count import StepCount
 from sim.judging.walk_goal import WalkGoal
 from sim.model.contact_truth import (
+    ContactReader,
     ContactSet,
     GroundTruth,
-    feet_contacts,
     foot_contacts,
     ground_truth,
 )
@@ -78,11 +78,12 @@ class Judge:
     tilt_max: float = 0.0
     margin_min: float = math.inf
     landings: list[Landing] = field(default_factory=list)
-    estimate_error_max: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    estimate_error_max: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     zmp_error: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in SIDES}
+        self._contacts = ContactReader(self.world.model, self.world.data, [self._geoms[s] for s in SIDES])
         data, torso = self.world.data, self.world.torso
         self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
         self._touched = data.sensordata[self.world.touch["left"] : self.world.touch["right"] + 1]
@@ -170,7 +171,7 @@ class Judge:
         """
         data = self.world.data
         if feet is None:
-            feet = feet_contacts(self.world.model, data, [self._geoms[s] for s in SIDES])
+            feet = self._contacts.read()
         truth = ground_truth(feet, minimum_force=self._least, reach=self.world.reach)
         if truth.margin is not None:
             self.margin_min = min(self.margin_min, truth.margin)
@@ -178,7 +179,9 @@ class Judge:
                 self.landings[-1].margin = min(self.landings[-1].margin, truth.margin)
         tilt = math.degrees(math.acos(min(1.0, self._torso.item(8))))
         self.tilt_max = max(self.tilt_max, tilt)
-        np.maximum(self.estimate_error_max, np.abs(com - self._center), out=self.estimate_error_max)
+        for i, (told, true) in enumerate(zip(com.tolist(), self._center.tolist(), strict=True)):
+            if not abs(told - true) <= self.estimate_error_max[i]:
+                self.estimate_error_max[i] = abs(told - true)
         if zmp is not None and truth.zmp is not None:
             self.zmp_error.append(math.dist(zmp, truth.zmp))
         for side, points in zip(SIDES, truth.points, strict=True):
@@ -188,8 +191,9 @@ class Judge:
         if moved:
             self.goal.hear(float(data.time), moved)
         for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=True):
-            x, y, _ = position.tolist()
-            self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
+            if force >= self.steps.enough:
+                x, y, _ = position.tolist()
+                self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
         self.joints.tick()
         if self.fall is None:
             least, height = _FALLEN_HEIGHT * self.standing_height, self.height

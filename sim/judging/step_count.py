@@ -62,11 +62,14 @@ class StepCount:
     Args:
         goal: The footsteps.
         weight: Weight of the robot in N.
+
+    Attributes:
+        enough: Ground force in N from which on a foot carries.
     """
 
     def __init__(self, goal: WalkGoal, weight: float) -> None:
         self.goal = goal
-        self._enough = _CARRIES * weight
+        self.enough = _CARRIES * weight
         self.stands: list[Stand] = []
         self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in SIDES}
 
@@ -90,7 +93,7 @@ class StepCount:
             y: The same.
             yaw: Its heading in rad.
         """
-        if force >= self._enough:
+        if force >= self.enough:
             self._standing[side].carry(x, y, yaw)
 
     @property

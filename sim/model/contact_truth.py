@@ -9,7 +9,6 @@ robot.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -23,6 +22,7 @@ from plantar.kernels.few_points import small_hull, small_margin
 
 __all__ = [
     "REACH",
+    "ContactReader",
     "ContactSet",
     "GroundTruth",
     "contact_wrench_in_frame",
@@ -72,16 +72,21 @@ class GroundTruth(NamedTuple):
     Attributes:
         wrench: Wrench (6,) about the world's origin.
         zmp: True zero moment point (2,) in m, or None where the feet carry less than the minimum force.
-        polygon: True support polygon (m, 2) in m, counter-clockwise; empty in the air.
+        ring: Corners (x, y) in m of the true support polygon, counter-clockwise; empty in the air.
         margin: Signed distance in m of the ZMP to the polygon's edge, positive inside; None where there is no ZMP.
         points: Points (x, y) in m of each foot that carry a force or could.
     """
 
     wrench: NDArray[np.float64]
     zmp: NDArray[np.float64] | None
-    polygon: NDArray[np.float64]
+    ring: list[tuple[float, float]]
     margin: float | None
     points: tuple[list[tuple[float, float]], ...] = ()
+
+    @property
+    def polygon(self) -> NDArray[np.float64]:
+        """True support polygon (m, 2) in m."""
+        return np.array(self.ring).reshape(-1, 2)
 
 
 _NO_CONTACTS = ContactSet(
@@ -120,36 +125,62 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
     Args:
         model: The MjModel.
         data: The MjData after `mj_step` or `mj_forward`.
-        feet: Ids of each foot's geoms; frozensets are fastest.
+        feet: Ids of each foot's geoms.
 
     Returns:
         The contacts of each foot. A contact between two of the feet belongs to both.
     """
-    n = data.ncon
-    if not n:
-        return (_NO_CONTACTS,) * len(feet)
-    contact = data.contact
-    address, dim, forces = contact.efc_address, contact.dim, data.efc_force
-    if model.opt.cone != _ELLIPTIC:  # there the solver's numbers are along a pyramid's edges
-        local = np.zeros((n, 6))
-        for i in range(n):
-            mujoco.mj_contactForce(model, data, i, local[i])
-        address = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
-        dim, forces = np.full(n, 6, dtype=np.int32), local.ravel()
-    room = n * len(feet)
-    ids, rows, carries = np.empty((room, 2), dtype=np.int32), np.empty((room, 10)), np.empty(room, dtype=np.bool_)
-    own = _masks_of(tuple(map(frozenset, feet)), model.ngeom)
-    ends = contact_rows(
-        *(contact.geom, contact.pos, contact.frame, contact.dist, address, dim, forces),
-        *(own, ids, rows, carries.view(np.uint8)),
-    )
-    sets = []
-    for i, j in pairwise(ends):
-        if i == j:
-            sets.append(_NO_CONTACTS)
-            continue
-        sets.append(
-            ContactSet(
+    return ContactReader(model, data, feet).read()
+
+
+class ContactReader:
+    """`feet_contacts` of one simulation again and again, in a third of the time.
+
+    MuJoCo keeps all contacts at the head of one block of memory, which stays where it is as long as the data lives. So
+    the arrays that show it are made once for each number of contacts, not at each reading.
+
+    Args:
+        model: The MjModel, whose friction cones stay as they are.
+        data: Its MjData.
+        feet: Ids of each foot's geoms.
+    """
+
+    def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
+        self._model, self._data = model, data
+        self._own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
+        for mask, geom_ids in zip(self._own, feet, strict=True):
+            mask[list(geom_ids)] = 1
+        self._elliptic = model.opt.cone == _ELLIPTIC
+        self._shown: dict[int, tuple[NDArray[Any], ...]] = {}
+        self._nothing = (_NO_CONTACTS,) * len(feet)
+
+    def read(self) -> tuple[ContactSet, ...]:
+        """The contacts of each foot as the last `mj_step` or `mj_forward` left them."""
+        data, n = self._data, self._data.ncon
+        if not n:
+            return self._nothing
+        shown = self._shown.get(n)
+        if shown is None:
+            c = data.contact
+            shown = self._shown[n] = (c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
+        geoms, positions, frames, gaps, address, dim = shown
+        forces = data.efc_force
+        if not self._elliptic:  # there the solver's numbers are along a pyramid's edges
+            local = np.zeros((n, 6))
+            for i in range(n):
+                mujoco.mj_contactForce(self._model, data, i, local[i])
+            address = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
+            dim, forces = np.full(n, 6, dtype=np.int32), local.ravel()
+        room = n * len(self._own)
+        ids, rows, carries = np.empty((room, 2), dtype=np.int32), np.empty((room, 10)), np.empty(room, dtype=np.bool_)
+        ends = contact_rows(
+            *(geoms, positions, frames, gaps, address, dim, forces),
+            *(self._own, ids, rows, carries.view(np.uint8)),
+        )
+        return tuple(
+            _NO_CONTACTS
+            if i == j
+            else ContactSet(
                 ids[i:j, 0],
                 ids[i:j, 1],
                 rows[i:j, :3],
@@ -158,17 +189,8 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
                 rows[i:j, 9],
                 carries[i:j],
             )
+            for i, j in pairwise(ends)
         )
-    return tuple(sets)
-
-
-@lru_cache(maxsize=64)
-def _masks_of(feet: tuple[frozenset[int], ...], count: int) -> NDArray[np.uint8]:
-    """Which of a model's geoms are each foot's (feet, geoms)."""
-    masks = np.zeros((len(feet), count), dtype=np.uint8)
-    for mask, geom_ids in zip(masks, feet, strict=True):
-        mask[list(geom_ids)] = 1
-    return masks
 
 
 _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
@@ -274,13 +296,12 @@ def ground_truth(
     fx, fy, fz, tx, ty, _, height = sums.tolist()
     wrench = sums[:6]
     ring = small_hull([p for own in points for p in own])
-    polygon = np.array(ring).reshape(-1, 2)
     if not fz >= minimum_force:
-        return GroundTruth(wrench, None, polygon, None, points)
+        return GroundTruth(wrench, None, ring, None, points)
     if plane_height is None:
         plane_height = height / fz
     x, y = (plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz
-    return GroundTruth(wrench, np.array([x, y]), polygon, small_margin(ring, x, y), points)
+    return GroundTruth(wrench, np.array([x, y]), ring, small_margin(ring, x, y), points)
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

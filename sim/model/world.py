@@ -79,16 +79,16 @@ def _quiet(text: str) -> None:
     """
 
 
-def check_stable(data: Any) -> None:
+def check_stable(warnings: NDArray[np.int32]) -> None:
     """Refuse to go on where MuJoCo found the state diverged, which it answers by starting anew from the model's pose.
 
     Args:
-        data: The state.
+        warnings: How often MuJoCo warned of what: `data.warning.number`, an array that it goes on counting in.
 
     Raises:
         SceneError: If positions, velocities, accelerations or controls were not finite or too large.
     """
-    counts = data.warning.number.tolist()
+    counts = warnings.tolist()
     if any(counts[kind] for kind in _DIVERGED):
         raise SceneError(
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "

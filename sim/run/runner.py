@@ -226,6 +226,7 @@ class Simulation:
         world, model, data = self.world, self.world.model, self.world.data
         controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
         everything = self.scene.control.skip == "none"
+        pushes, warnings = bool(self.pusher.shoves), data.warning.number
         ticks: list[float] = []
         skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
         began = shown = clock.perf_counter()
@@ -240,7 +241,7 @@ class Simulation:
                 if log is not None:
                     log.skin(sensors.readings)
             if k % tick_every == 0:
-                check_stable(data)
+                check_stable(warnings)
                 reading = sensors.read_body()
                 start = clock.perf_counter()
                 command = controller.step(reading)
@@ -279,7 +280,8 @@ class Simulation:
                 else:
                     skipped["rendered_frames"] += 1
             servos.drive()
-            self.pusher.apply(world)
+            if pushes:
+                self.pusher.apply(world)
             if world.moving_ground:
                 world.move_ground()
             if self.touch is None:

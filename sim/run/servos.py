@@ -49,6 +49,7 @@ class LegServos:
         self._rate = np.zeros(len(world.servos))
         self._velocity_gain = world.damping + world.joint_damping
         self._friction = world.joint_friction
+        self._rubs = bool(world.joint_friction.any())
         self._slow = _SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
         self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
@@ -92,7 +93,7 @@ class LegServos:
                 joints = last + (joints - last) / fastest
         velocity = (joints - last) / self._period
         w = self._world
-        if self._friction.any():
+        if self._rubs:
             # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
             torques = torques + self._friction * np.tanh(velocity / self._slow)
         self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness

@@ -93,7 +93,7 @@ def stand(
         )
     servos.start(joints, torques)
     mujoco.mj_step(world.model, data, _SETTLING)
-    check_stable(data)
+    check_stable(data.warning.number)
     sunk = float(legs.configuration[2] - data.qpos[2])
     if abs(sunk) > _SINKING_MAX * world.body.leg:
         settling = _SETTLING * world.period

@@ -15,7 +15,7 @@ from gait.estimate.ankle_sensor import AnkleSensor
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
-from sim.model.contact_truth import ContactSet, feet_contacts
+from sim.model.contact_truth import ContactReader, ContactSet
 from sim.model.world import World
 from sim.plant.colours import GroundColours
 from sim.plant.delay import Delay
@@ -81,6 +81,7 @@ class SensorSuite:
             )
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }
+        self._contacts = ContactReader(world.model, world.data, [self.skins[side].skin.geom_ids for side in SIDES])
         self._plant = plant
         self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
@@ -98,7 +99,7 @@ class SensorSuite:
             The contacts of both soles from which the skins were read.
         """
         data = self._world.data
-        feet = feet_contacts(self._world.model, data, [self.skins[side].skin.geom_ids for side in SIDES])
+        feet = self._contacts.read()
         for side, contacts in zip(SIDES, feet, strict=True):
             self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
         return feet
