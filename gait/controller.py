@@ -693,7 +693,11 @@ class WalkingController:
         c, d = math.cos(torso), math.sin(torso)
         dx, dy, _ = (com - middle).tolist()
         left = -d * dx + c * dy
-        lean = s.trunk_lean if self.body is None else max(s.trunk_lean, self.body.lean)
+        lean = max(
+            s.trunk_lean,
+            0.0 if self.body is None else self.body.lean,
+            0.0 if s.step_adjustment is None else s.step_adjustment.lean,
+        )
         roll = -lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])

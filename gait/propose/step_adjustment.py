@@ -65,6 +65,10 @@ class StepAdjustmentRules(Settings):
         price_time: What a second costs in m/s of DCM error.
         price_place: What a metre of footstep costs in metres of DCM error, with confidence 1; with none a tenth of it.
         misplaced: Distance in m from its place at which a foot that has landed stands elsewhere.
+        lean: Roll of the trunk over the stance foot in rad per metre of the CoM's way there, at least, while steps may
+            move: a push needs of the hip roll joint what carrying the body leaves of its torque. (Upright, hrp2kai's
+            bears its body with 0.78 of it, and 16 N s hold it at its limit for 0.3 s, in which its foot stands on its
+            edge whatever the ZMP is wanted to be; leaning, for 0.07 s.)
     """
 
     method: str = choice("search", "ssp_opt")
@@ -81,6 +85,7 @@ class StepAdjustmentRules(Settings):
     price_time: float = share(0.0206, "leg/beat", 0, 10)
     price_place: float = number(0.5, "1", 0, 10)
     misplaced: float = share(0.0333, "leg", 0.001, 1)
+    lean: float = share(0.48, "rad/leg", 0, 5)
 
 
 class _Foot(NamedTuple):

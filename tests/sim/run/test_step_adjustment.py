@@ -44,6 +44,19 @@ def test_small_pushes_move_no_step_and_large_ones_do(seed: int) -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("seed", [2, 6])
+def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
+    # Pushed over the foot that stands, after which the other one lands close beside it.
+    share = []
+    for lean in ("0.48 rad/leg", "0"):
+        sets = ["push.dv=0.25", *STEPS, f"step_adjustment.lean={lean}"]
+        _, out = run("push", seed, *sets, robot="hrp2kai")
+        share.append(out["torque_limit"]["share_of_ticks"])
+        assert lean == "0" or out["completed"], out["reasons"]
+    assert share[0] < 0.5 * share[1]
+
+
+@pytest.mark.long
 def test_who_is_not_confident_follows_and_who_is_leads() -> None:
     ways = []
     for confidence in (0.0, 1.0):
