@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ _STEPS_A_PANEL = 6
 
 
 def draw_pushes(run: Recording) -> Any:
-    """CoM, DCM, ZMP and footsteps over time, beside the force that the skin felt (K Fig. 7 and 14).
+    """CoM, DCM, VRP, ZMP and footsteps over time, beside the force that the skin felt (K Fig. 7 and 14).
 
     Args:
         run: A recording with "/touch".
@@ -31,17 +32,13 @@ def draw_pushes(run: Recording) -> Any:
     """
     figure, axes = new_figure(11.0, 7.0, 2, 1, sharex=True)
     time = run.topics["/truth/body"].time
-    for i, (axis, name) in enumerate(zip(axes, _AXES, strict=True)):
+    for i, axis in enumerate(axes):
         axis.plot(time, _field(run, "/truth/body", "zmp")[:, i], color=COLOURS["truth"], lw=0.5, label="ZMP")
-        axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
-        axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
-        for side in SIDES:
-            axis.plot(time, _standing(run, side)[:, i], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
-        axis.set_ylabel(f"{name} [m]")
-        axis.grid(alpha=0.3)
+        plan = run.topics["/reference"]  # whose ZMP is the VRP: it knows of no push
+        axis.plot(plan.time, plan.fields["zmp"][:, i], "--", color=COLOURS["reference"], lw=1.0, label="VRP, planned")
+        _draw_body(axis, run, i)
         _draw_force(axis, run, i)
-    axes[0].legend(ncol=6, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    axes[1].set_xlabel("time [s]")
+    _finish(axes, [f"{name} [m]" for name in _AXES])
     return figure
 
 
@@ -61,13 +58,10 @@ def draw_swing(run: Recording) -> Any:
             axis.plot(true.time, true.fields["position"][:, i], color=COLOURS[side], lw=1.4, label=f"{side}, true")
             wanted = run.topics["/feet"]
             axis.plot(wanted.time, wanted.fields[side][:, i], "--", color="black", lw=0.7, label=f"{side}, commanded")
-    for axis, name in zip(axes, (*_AXES, "z (up)"), strict=True):
-        axis.set_ylabel(f"{name} [m]")
-        axis.grid(alpha=0.3)
+    for axis in axes:
         for begin, end in _pushed_spans(run):
             axis.axvspan(begin, end, color=COLOURS["active"], alpha=0.25, lw=0)
-    axes[0].legend(ncol=4, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    axes[2].set_xlabel("time [s]")
+    _finish(axes, [f"{name} [m]" for name in (*_AXES, "z (up)")])
     return figure
 
 
@@ -81,17 +75,10 @@ def draw_partner(run: Recording) -> Any:
         The figure.
     """
     figure, axes = new_figure(11.0, 8.0, 3, 1, sharex=True)
-    time = run.topics["/truth/body"].time
-    axes[0].plot(time, _field(run, "/truth/body", "com")[:, 0], color=COLOURS["polygon"], label="CoM")
-    axes[0].plot(time, _field(run, "/estimate", "dcm")[:, 0], color=COLOURS["active"], lw=0.8, label="DCM")
-    for side in SIDES:
-        axes[0].plot(time, _standing(run, side)[:, 0], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
-    axes[0].set_ylabel("robot, x [m]")
-    axes[0].legend(ncol=4, fontsize=8)
+    _draw_body(axes[0], run, 0)
     partner = run.topics["/partner"]
     axes[1].plot(partner.time, -partner.fields["moved"][:, 0], color=_PARTNER, label="partner")
     axes[1].plot(partner.time, -partner.fields["reference"][:, 0], "--", color=COLOURS["reference"], label="reference")
-    axes[1].set_ylabel("partner, x [m]")
     axes[1].legend(ncol=2, fontsize=8, loc="upper left")
     force = axes[1].twinx()
     force.fill_between(partner.time, partner.fields["force"][:, 0], color=COLOURS["active"], alpha=0.4, lw=0)
@@ -99,11 +86,8 @@ def draw_partner(run: Recording) -> Any:
     for kind, name, mark in ((PhaseKind.SINGLE_SUPPORT, "SSP", "o"), (PhaseKind.DOUBLE_SUPPORT, "DSP", "s")):
         begins, lasts = _durations(run, kind)
         axes[2].plot(begins, lasts, mark, ms=5, label=name)
-    axes[2].set_ylabel("duration [s]")
-    axes[2].set_xlabel("time [s]")
     axes[2].legend(ncol=2, fontsize=8)
-    for axis in axes:
-        axis.grid(alpha=0.3)
+    _finish(axes, ("robot, x [m]", "partner, x [m]", "duration [s]"))
     return figure
 
 
@@ -142,6 +126,24 @@ def draw_strides(run: Recording) -> Any:
     axes[0, 0].invert_xaxis()  # left is to the left
     axes[0, 0].set_ylabel("x (forward) [m]")
     return figure
+
+
+def _draw_body(axis: Any, run: Recording, i: int) -> None:
+    """DCM and CoM over time along an axis, and the feet while they stand."""
+    time = run.topics["/truth/body"].time
+    axis.plot(time, _field(run, "/estimate", "dcm")[:, i], color=COLOURS["active"], lw=1.0, label="DCM")
+    axis.plot(time, _field(run, "/truth/body", "com")[:, i], color=COLOURS["polygon"], lw=1.4, label="CoM")
+    for side in SIDES:
+        axis.plot(time, _standing(run, side)[:, i], color=COLOURS[side], lw=2.5, alpha=0.7, label=f"{side} foot")
+
+
+def _finish(axes: Any, names: Sequence[str]) -> None:
+    """Name the panels of a figure over time; what its first one shows stands above it."""
+    for axis, name in zip(axes, names, strict=True):
+        axis.set_ylabel(name)
+        axis.grid(alpha=0.3)
+    axes[0].legend(ncol=6, fontsize=8, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    axes[-1].set_xlabel("time [s]")
 
 
 def _draw_footholds(axis: Any, run: Recording, side: Any, begin: float, end: float) -> None:

@@ -30,7 +30,7 @@ def run() -> Recording:
     topics = {
         "/truth/body": {"com": com, "zmp": com[:, :2]},
         "/estimate": {"dcm": com[:, :2]},
-        "/reference": {"phase": phase[:, None], "step": index[:, None]},
+        "/reference": {"phase": phase[:, None], "step": index[:, None], "zmp": 0.5 * com[:, :2]},
         "/touch": {"force": force, "felt": 0.9 * force},
         "/feet": dict.fromkeys(SIDES, nothing),
         "/partner": {"moved": -com[:, :1], "reference": -com[:, :1], "force": -force[:, :1]},
@@ -51,7 +51,8 @@ def run() -> Recording:
 def test_pushes_show_the_felt_force_beside_the_true_one_and_feet_only_while_they_stand(run: Recording) -> None:
     figure = draw_pushes(run)
     lines = {line.get_label(): line for line in figure.axes[0].lines}
-    assert set(lines) == {"ZMP", "DCM", "CoM", "left foot", "right foot"}
+    assert set(lines) == {"ZMP", "VRP, planned", "DCM", "CoM", "left foot", "right foot"}
+    np.testing.assert_allclose(lines["VRP, planned"].get_ydata(), 0.5 * np.asarray(lines["CoM"].get_ydata()))
     swung = np.isnan(np.asarray(lines["left foot"].get_ydata(), dtype=float))
     assert swung.mean() == pytest.approx(0.25, abs=0.01)
     assert np.asarray(figure.axes[2].lines[0].get_ydata()).max() == 100.0
