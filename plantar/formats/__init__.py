@@ -25,6 +25,7 @@ _MODULES = (
     "tekscan",
     "xsensor",
     "moticon",
+    "footscan",
     "c3d_force_plates",
     "ros_bag",
     "footprint_image",

@@ -1,0 +1,198 @@
+"""Footscan (formerly RSscan) text exports of a pressure plate: "Frame 3 (12 ms)", then the plate's cells in rows, in N.
+
+What the file holds follows from the public reader of the R package pressuRe (0.2.4, `load_footscan`): each cell's value
+is its force in N, the times are in ms, the first row of a frame is the hind edge of the plate. Cells are 5.08 mm wide
+and 7.62 mm long; every footscan plate has 64 of them across.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FormatError
+from plantar.files.input_file import open_input
+from plantar.formats.format import Format, ReadOptions
+from plantar.formats.grid_cells import grid_cells
+from plantar.formats.side import side_of
+from plantar.formats.text import number, open_text, row_of_numbers
+from plantar.formats.units import find_unit
+from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.pressure_recording import (
+    FootRecording,
+    PressureRecording,
+    layout_for,
+    possible_rate,
+    sampling,
+)
+
+__all__ = ["FORMAT"]
+
+_FRAME = re.compile(r"\W*frame\s*(\d{1,9})\s*\(\s*([\d.,]{1,15})\s*ms\s*\)", re.IGNORECASE)
+_ACROSS, _ALONG = 5.08e-3, 7.62e-3
+"""Size of a cell in m across and along the plate."""
+_COLUMNS = 64
+"""Cells across every plate: 0.5, 1, 1.5 and 2 m long plates have 64, 128, 192 and 256 along."""
+_THRESHOLD = 2e3
+"""Pressure in Pa from which a cell counts as loaded, about 0.08 N: the least that the plate states is 0.1 N."""
+_LARGEST_HEADER, _LARGEST, _MOST_ROWS = 200, 200_000, 2000
+_EXCEL = b"\xd0\xcf\x11\xe0"
+
+
+def _recognises(head: bytes) -> bool:
+    return (
+        b"\0" not in head and re.search(r"(?:^|\n)" + _FRAME.pattern, head.decode("latin-1"), re.IGNORECASE) is not None
+    )
+
+
+def _read(path: Path, options: ReadOptions) -> PressureRecording:
+    """Read a text export.
+
+    Raises:
+        FormatError: If the file holds no frames of one size, or is a binary Excel file.
+    """
+    with open_input(path, FormatError) as stream:
+        if stream.read(4) == _EXCEL:
+            raise FormatError(f"{path}: a binary Excel file; save it as text (tab delimited) or CSV first")
+    warnings: list[str] = []
+    with open_text(path) as stream:
+        times, (rows, columns), table = _take_frames(path, iter(stream), warnings)
+    time, rate = _times(times, options, warnings)
+    time, rate, notes = sampling(time, rate)
+    turned = rows == _COLUMNS != columns
+    pitch = (_ACROSS, _ALONG) if turned else (_ALONG, _ACROSS)
+    warnings.append(
+        f"the file states no size of its cells: {_ACROSS * 1e3:g} x {_ALONG * 1e3:g} mm, as plates have them"
+    )
+    side = options.side or side_of(path.stem)
+    layout = layout_for(side or "left", options.layout)
+    if layout is not None and len(layout) != rows * columns:
+        raise FormatError(f"{path}: the plate has {rows * columns} cells, layout '{layout.name}' {len(layout)}")
+    if layout is None:
+        name, whole = f"platform of {rows} x {columns} cells", np.ones((rows, columns), dtype=bool)
+        layout = grid_cells(whole, *pitch, side=side or "left", name=name, threshold=_THRESHOLD)
+    force = table.rows
+    unit = find_unit(options.unit or "N")
+    assert unit is not None
+    force *= unit.factor * layout.areas if unit.kind == "pressure" else unit.factor
+    foot = FootRecording(side or "left", force, layout)
+    return PressureRecording(
+        path=path,
+        format=FORMAT.name,
+        rate_hz=rate,
+        time=time,
+        feet={foot.side: foot},
+        metadata={"side": side, "sensor": "footscan plate", "unit": unit.name},
+        warnings=(*warnings, *notes),
+        kind="platform",
+        raw=unit.kind == "raw",
+        grid=(rows, columns),
+    )
+
+
+def _times(stated: list[float], options: ReadOptions, warnings: list[str]) -> tuple[NDArray[np.float64], float]:
+    """Times in s of the frames and their rate in Hz."""
+    time = 1e-3 * np.array(stated)
+    steps = np.diff(time)
+    if options.rate_hz is not None:
+        return np.arange(len(time)) / options.rate_hz, options.rate_hz
+    if not len(steps):
+        raise FormatError("the file holds one frame: no step can be seen")
+    if not (steps > 0.0).all():
+        raise FormatError("the frames' times in ms do not rise (--rate overrides)")
+    rate = possible_rate(1.0 / float(np.median(steps)), "the frames' times mean")
+    if steps.max() > 1.5 * np.median(steps):
+        warnings.append("frames are missing in the file: a gap in time")
+    return time - time[0], rate
+
+
+def _take_frames(
+    path: Path, lines: Iterator[str], warnings: list[str]
+) -> tuple[list[float], tuple[int, int], FrameTable]:
+    """Times in ms of the frames, rows and columns of the plate, and the readings, the front row of a frame first."""
+    times: list[float] = []
+    table: FrameTable | None = None
+    shape, odd, last_is_odd = (0, 0), 0, False
+    for time, body in _bodies(path, lines):
+        delimiter = next((d for d in "\t;," if d in body[0]), None) if body else None
+        if table is None:
+            shape = len(body), len(_cells(body[0], delimiter)) if body else 0
+            if not 0 < shape[0] * shape[1] <= _LARGEST:
+                raise FormatError(f"{path}: a plate of {shape[0]} x {shape[1]} cells cannot be read")
+            usual = sum(len(line) + 1 for line in body)
+            table = FrameTable(shape[0] * shape[1], path.stat().st_size * 5 // (3 * usual))
+        odd += last_is_odd
+        values = np.full(shape, np.nan)
+        last_is_odd = len(body) != shape[0]
+        for r, line in enumerate(() if last_is_odd else body):
+            row, wrong = _row(_cells(line, delimiter)[: shape[1]])
+            last_is_odd |= wrong > 0 or len(row) != shape[1]
+            values[r, : len(row)] = row
+        table.add(values[::-1].reshape(1, -1))
+        times.append(time)
+    if table is None:
+        raise FormatError(f"{path}: not a footscan export: no line 'Frame 0 (0 ms)'")
+    if last_is_odd and len(times) > 1:
+        times.pop()
+        table.drop_last()
+        warnings.append("the last frame is cut short: left out")
+    if odd > 0.2 * len(times) or np.isnan(table.rows).all():
+        raise FormatError(f"{path}: {odd} of {len(times)} frames are no matrix of {shape[0]} x {shape[1]} numbers")
+    if odd:
+        warnings.append(f"{odd} damaged frame(s): what is no number counts as not measured")
+    return times, shape, table
+
+
+def _bodies(path: Path, lines: Iterator[str]) -> Iterator[tuple[float, list[str]]]:
+    """The frames one by one: their times in ms and the lines of their cells."""
+    found = None
+    for count, line in enumerate(lines):
+        found = _FRAME.match(line)
+        if found or count > _LARGEST_HEADER:
+            break
+    while found is not None:
+        stated = number(found[2])
+        if stated is None:
+            raise FormatError(f"{path}: the time {found[2]!r} ms of frame {found[1]} is no number")
+        body: list[str] = []
+        found = None
+        for line in lines:
+            found = _FRAME.match(line)
+            if found:
+                break
+            if line.strip(" ,;\t\n"):
+                body.append(line.strip("\n"))
+                if len(body) > _MOST_ROWS:
+                    raise FormatError(f"{path}: a frame has more than {_MOST_ROWS} rows")
+        yield stated, body
+
+
+def _row(cells: list[str]) -> tuple[NDArray[np.float64], int]:
+    """The numbers of a row, and how many of its cells hold none."""
+    try:
+        values = np.array(cells, dtype=np.float64)
+    except ValueError:
+        return row_of_numbers(cells)
+    return (values, 0) if np.isfinite(values).all() else row_of_numbers(cells)
+
+
+def _cells(line: str, delimiter: str | None) -> list[str]:
+    """The cells of a row, without the empty ones after its last delimiter."""
+    cells = line.split(delimiter)
+    while cells and not cells[-1].strip():
+        cells.pop()
+    return cells
+
+
+FORMAT = Format(
+    name="footscan",
+    title="footscan plate export",
+    suffixes=(".txt", ".xls", ".csv"),
+    recognises=_recognises,
+    read=_read,
+)
+"""The entry of the registry."""
