@@ -96,7 +96,8 @@ def shoe(
         raise InputError(f"--side is '{order.side}'; allowed: left, right, both")
     used = (ShoeParameters() if parameters is None else read_parameters(parameters)).changed(settings or [])
     shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
-    options: dict[str, Any] = vars(order) | {"taxels": taxels if order.taxels is None else order.taxels}
+    wanted = order.taxels if order.taxels is not None or order.rim == "fine" else taxels
+    options: dict[str, Any] = vars(order) | {"taxels": wanted}
     if preview:
         from shoes.papers.preview import draw_preview
 

@@ -13,6 +13,7 @@ from plantar.errors import InputError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sides import SIDES
 from shoes.cad_kernel import load_cadquery
+from shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
 from shoes.fit.taxels import TaxelFit, fit_taxels
 from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
@@ -24,10 +25,16 @@ from shoes.solid.body import mark_outline, mirrored_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
 
-__all__ = ["Progress", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
+__all__ = ["RIMS", "Progress", "Rim", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
 
 Sides = Literal["left", "right", "both"]
 """Which shoes to build."""
+
+Rim = Literal["whole", "fine"]
+"""Cells along the edge of the face: whole ones of the lattice, or a row of smaller ones."""
+
+RIMS: tuple[Rim, ...] = ("whole", "fine")
+"""All kinds of rim."""
 
 Progress = Callable[[float, str], None]
 """Receives the fraction done, 0..1, and what is being done."""
@@ -81,6 +88,16 @@ class ShoeBuild:
     notes: tuple[str, ...] = ()
 
 
+def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
+    """What to do about a wide blind rim, where something can be done."""
+    if fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
+        return ()
+    return (
+        f"blind rim of {plan.blind_rim:.0f} mm beyond the outermost taxels' centres; a fine rim (--rim fine) has "
+        f"smaller cells along the edge and leaves {BLIND_MOST:g} mm at most",
+    )
+
+
 def build_shoe(
     foot: Foot,
     *,
@@ -88,6 +105,7 @@ def build_shoe(
     cell_area: float = 691.0,
     taxels: int | None = None,
     overhang: float = 0.0,
+    rim: Rim = "whole",
     parameters: ShoeParameters | None = None,
     name: str | None = None,
     layout_only: bool = False,
@@ -102,6 +120,8 @@ def build_shoe(
         taxels: Number of taxels; None takes as many whole cells as fit the sole.
         overhang: How far taxels may reach beyond the sole in mm; with `taxels` it grows as far as the shoe's greatest
             overhang (parameter overhang_max) leaves room.
+        rim: "whole" cells up to the edge, or "fine": a row of smaller ones along it, so that the blind rim is 12 mm
+            wide at most; then there is no `taxels`.
         parameters: Dimensions of the shoe; None takes the defaults.
         name: Name of the layout; None takes the foot's.
         layout_only: Leave the solid out, and with it cadquery.
@@ -123,6 +143,10 @@ def build_shoe(
     """
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
+    if rim not in RIMS:
+        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
+    if rim == "fine" and taxels is not None:
+        raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
     sides: tuple[Side, ...] = SIDES if side == "both" else (side,)
     tell = progress or (lambda fraction, text: None)
     p = parameters or ShoeParameters()
@@ -133,21 +157,25 @@ def build_shoe(
     tell(0.0, "fitting the taxels to the sole")
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
-    fit = fit_taxels(
-        foot.passing(p.rim_height),
-        cell_area=cell_area,
-        taxels=taxels,
-        overhang=overhang if taxels is not None else max(overhang, p.clearance + wall - p.border),
-        overhang_max=p.overhang_max,
-        border=p.border,
-    )
+    face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
+    if rim == "fine":
+        fit = fit_fine_rim(face, cell_area=cell_area, overhang=reach, border=p.border)
+    else:
+        fit = fit_taxels(
+            face,
+            cell_area=cell_area,
+            taxels=taxels,
+            overhang=reach if taxels is None else overhang,
+            overhang_max=p.overhang_max,
+            border=p.border,
+        )
     p = replace(p, border=fit.border)
     left = plan_shoe(foot, fit, p, name=name)
     p, raised = strengthened(foot, left.contact, p)
     if raised:
         left = plan_shoe(foot, fit, p, name=name)
     p, lowered = relieved(left, load_case(foot, p), p)
-    notes = foot.notes + fit.notes + raised + lowered + left.notes
+    notes = foot.notes + fit.notes + raised + lowered + left.notes + _blind_note(left, fit)
     share = check_load_share(left, load_case(foot, p), p)
     if layout_only:
         plans = [left if which == "left" else mirrored_plan(left) for which in sides]

@@ -54,5 +54,8 @@ class ShoeOrder:
         None, "Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."
     )
     overhang: float = _option(0.0, "How far taxels may reach beyond the sole, in mm.")
+    rim: str = _option(
+        "whole", "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most."
+    )
     name: str | None = _option(None, "Name of the shoe. Default: that of the file or robot.")
     layout_only: bool = _option(False, "Write only the layouts (under 2 s).")

@@ -131,6 +131,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         *_solid_checks(step, watertight, int(mesh.body_count), difference),
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
+        *_rim_checks(shoe.plan, build),
         *_mounting_checks(mounting, reach, shoe.plan.overhang, build),
         *_share_checks(share),
         *(() if held is None else _holding_checks(held)),
@@ -183,6 +184,13 @@ def _layout_checks(shoe: Shoe, p: ShoeParameters, step: Any) -> Iterator[Check]:
     yield Check("taxels beyond the contact face", outside == 0, float(outside), "0")
     fewest, where = shoe.plan.fewest_taxels
     yield Check(f"taxels in the {where}, the barest of five places", fewest > 0, float(fewest), "1 or more")
+
+
+def _rim_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
+    most = build.fit.blind_most
+    if most is not None:
+        blind = plan.blind_rim
+        yield Check("blind rim beyond the taxels' centres, mm", blind <= most, round(blind, 2), f"{most:g} or less")
 
 
 def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuild) -> Iterator[Check]:

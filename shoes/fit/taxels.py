@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice
 from shoes.fit.lattice_fit import LatticeFit, fit_lattice
+from shoes.fit.trimmed_cell import trimmed_cell
 from shoes.geometry.outline import CORNER, grown, tidy
 
 __all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
@@ -29,7 +30,6 @@ CUT_CORNER = 1.02
 _SAMPLES = 14  # lattice offsets along each axis of the unit cell, where cells are cut
 _ANGLES = (0.0, 30.0)  # degrees, where cells are cut: rows along or across the foot
 
-_SHORT = 1.2  # mm: shortest edge of a cut cell
 _OFF_CENTRE = 0.005  # share of a cell that a mm off the middle is worth
 
 Cells = tuple[NDArray[np.float64], ...]
@@ -41,7 +41,7 @@ class TaxelFit:
 
     Attributes:
         cells: Corners (k, 2) of each cell, counter-clockwise; row by row.
-        shares: Share of a whole cell (n,) that each has, 1 where it is whole.
+        shares: Area (n,) of each over a whole cell's, 1 where it is whole.
         lattice: Placement of the lattice.
         cell_area: Area of a whole cell in mm^2.
         overhang: How far a cell may reach beyond the foot's outline, as used.
@@ -51,6 +51,7 @@ class TaxelFit:
         border: Border around the cells that this leaves room for.
         lattice_cells: Axial coordinates (n, 2), where all cells are whole; else None.
         notes: What was done to make them fit.
+        blind_most: Widest blind rim in mm that was asked for; None where none was.
     """
 
     cells: Cells
@@ -64,11 +65,12 @@ class TaxelFit:
     border: float
     lattice_cells: NDArray[np.int64] | None
     notes: tuple[str, ...] = ()
+    blind_most: float | None = None
 
     @property
     def whole(self) -> int:
         """Number of whole cells."""
-        return int((self.shares > 1.0 - 1e-6).sum())
+        return int((np.abs(self.shares - 1.0) < 1e-6).sum())
 
 
 def fit_taxels(
@@ -179,7 +181,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     cells = []
     for corners, share in zip(lattice.corners(axial), shares, strict=True):
         whole = shapely.Polygon(corners)
-        cells.append(corners if share > 1.0 - 1e-6 else _cut(whole, region))
+        cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
     covered = _covered(sole, cells)
     cut = int((shares <= 1.0 - 1e-6).sum())
     bound = bound_whole_cells(region, cell_area).bound
@@ -200,27 +202,6 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
         lattice_cells=None,
         notes=(note,),
     )
-
-
-def _largest(shape: Any) -> Any:
-    return max((p for p in getattr(shape, "geoms", [shape]) if p.geom_type == "Polygon"), key=lambda p: p.area)
-
-
-def _cut(cell: Any, region: Any) -> NDArray[np.float64]:
-    """Corners of what a region leaves of a cell, without edges too short to print."""
-    import shapely
-
-    corners = shapely.get_coordinates(cell.exterior)[:-1]
-    points = shapely.get_coordinates(shapely.geometry.polygon.orient(_largest(cell.intersection(region))).exterior)[:-1]
-    own = np.hypot(*(points[:, None] - corners[None]).transpose(2, 0, 1)).min(axis=1) < 1e-6
-    kept = list(range(len(points)))
-    while True:
-        lengths = [float(math.hypot(*(points[kept[k]] - points[kept[k - 1]]))) for k in range(len(kept))]
-        k = int(np.argmin(lengths))
-        if lengths[k] >= _SHORT or len(kept) <= 4:
-            return np.asarray(points[kept])
-        # Of the two ends of a short edge a corner of the whole cell stays, which its neighbours share.
-        kept.pop(k - 1 if own[kept[k]] and not own[kept[k - 1]] else k)
 
 
 def _cut_placement(

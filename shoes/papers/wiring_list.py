@@ -44,8 +44,7 @@ def wiring_text(shoes: tuple[Shoe, ...]) -> str:
             x, y = centres[j].round(3).tolist()
             port: list[Any] = ["", "", ""]
             if j in before:
-                edge = plan.cells[before[j]].intersection(plan.cells[j]).centroid
-                port = [ids[before[j]], round(edge.x, 3), round(edge.y, 3)]
+                port = [ids[before[j]], *plan.shared_edge(before[j], j).mean(axis=0).round(3).tolist()]
             area = round(1e6 * float(shoe.layout.areas[j]), 2)
             writer.writerow([shoe.side, ids[j], patch[j], x, y, area, hop[j], *port])
     return out.getvalue()

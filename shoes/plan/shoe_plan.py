@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.errors import FootError, LayoutError
 from plantar.layouts.cell_layout import layout_of_cells
 from plantar.layouts.layout import Side, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
+from shoes.fit.fine_rim import blind_rim
 from shoes.fit.taxels import TaxelFit
 from shoes.foot.foot import Foot
 from shoes.geometry.outline import grown, ring, single_outline, tidy
@@ -21,6 +25,9 @@ from shoes.plan.heel import Heel, find_heel
 from shoes.units import to_m, to_mm
 
 __all__ = ["ShoePlan", "mirrored_plan", "plan_shoe"]
+
+_TOUCH = 1e-3  # mm between cells that share an edge
+_PASSABLE = 6.0  # mm of a shared edge: a port in a shorter one is narrow for a cable
 
 
 @dataclass(frozen=True)
@@ -66,10 +73,26 @@ class ShoePlan:
     def blind_rim(self) -> float:
         """Widest place of the contact face beyond the hull of the taxels' centres, in mm: a load there is told to be at
         that hull."""
+        return blind_rim(self.contact, to_mm(self.layout.positions[:, :2]))
+
+    def shared_edge(self, i: int, j: int) -> NDArray[np.float64]:
+        """Ends (2, 2) in mm of the longest straight line that two neighbouring cells share.
+
+        One cell's corner may lie inside another's edge, where rounding would leave nothing of an exact intersection.
+
+        Args:
+            i: Index of a taxel.
+            j: Index of one of its neighbours in the layout.
+
+        Returns:
+            The ends.
+        """
         import shapely
 
-        hull = shapely.MultiPoint(to_mm(self.layout.positions[:, :2])).convex_hull
-        return float(shapely.distance(shapely.points(ring(self.contact)), hull).max())
+        common = self.cells[i].exterior.intersection(self.cells[j].buffer(_TOUCH))
+        lines = [shapely.get_coordinates(line) for line in shapely.get_parts(shapely.line_merge(common))]
+        ends = [np.stack(pair) for line in lines for pair in pairwise(line)]
+        return max(ends, key=lambda pair: float(np.hypot(*(pair[1] - pair[0]))))
 
     @property
     def fewest_taxels(self) -> tuple[int, str]:
@@ -143,6 +166,7 @@ def _pocket(cell: Any, rib: float) -> Any | None:
 
 def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
     outline = to_m(ring(contact)).round(6)
+    shape = "hexagon" if fit.blind_most is None else "mixed"
     try:
         if fit.lattice_cells is not None:
             x, y = fit.lattice.origin
@@ -156,7 +180,7 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
                 cells=fit.lattice_cells,
             )
         layout = layout_of_cells(
-            [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape="hexagon"
+            [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape=shape
         )
         return replace(layout, cell_area=fit.cell_area * 1e-6)
     except LayoutError as error:
@@ -168,6 +192,7 @@ def _route(layout: SoleLayout, heel: tuple[float, float]) -> tuple[tuple[int, ..
 
     The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.
     """
+    neighbours = _passable(layout)
     centres = layout.positions[:, :2]
     start = np.array([to_m(heel[0]), to_m(heel[1])])
     distance = np.hypot(*(centres - start).T)
@@ -182,7 +207,7 @@ def _route(layout: SoleLayout, heel: tuple[float, float]) -> tuple[tuple[int, ..
         queue, group = deque([first]), [first]
         while queue:
             here = queue.popleft()
-            for near in sorted(layout.neighbours[here], key=lambda j: (round(float(distance[j]), 9), j)):
+            for near in sorted(neighbours[here], key=lambda j: (round(float(distance[j]), 9), j)):
                 if near in left:
                     left.discard(near)
                     route.append((here, near))
@@ -192,6 +217,36 @@ def _route(layout: SoleLayout, heel: tuple[float, float]) -> tuple[tuple[int, ..
             gaps = np.hypot(*(centres[:, None] - centres[None, group]).transpose(2, 0, 1)).min(axis=1)
             distance = gaps if len(connectors) == 1 else np.minimum(distance, gaps)
     return tuple(connectors), tuple(route)
+
+
+def _passable(layout: SoleLayout) -> tuple[tuple[int, ...], ...]:
+    """Neighbours of each cell over edges long enough for a cable; all of them where that leaves cells apart."""
+    long: list[tuple[int, ...]] = []
+    for i, own in enumerate(layout.neighbours):
+        corners = layout.corners[i]
+        edges = set(map(frozenset, zip(corners, (*corners[1:], corners[0]), strict=True)))
+        kept = []
+        for j in own:
+            theirs = layout.corners[j]
+            common = edges & set(map(frozenset, zip(theirs, (*theirs[1:], theirs[0]), strict=True)))
+            ends = [layout.vertices[list(edge)] for edge in common]
+            if to_mm(sum(float(np.hypot(*(b - a)[:2])) for a, b in ends)) >= _PASSABLE:
+                kept.append(j)
+        long.append(tuple(kept))
+    return tuple(long) if _groups(long) == _groups(layout.neighbours) else layout.neighbours
+
+
+def _groups(neighbours: Sequence[Sequence[int]]) -> int:
+    """How many groups of cells there are that hang together."""
+    left, count = set(range(len(neighbours))), 0
+    while left:
+        count += 1
+        queue = [left.pop()]
+        while queue:
+            near = left.intersection(neighbours[queue.pop()])
+            left -= near
+            queue += near
+    return count
 
 
 def mirrored_plan(plan: ShoePlan) -> ShoePlan:

@@ -63,12 +63,12 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     parts = []
     width = parameters.port_width
     for i, j in plan.route if width > 0.0 else ():
-        edge = plan.cells[i].intersection(plan.cells[j])
-        middle = np.array(edge.centroid.coords[0])
-        along = np.array(plan.cells[j].centroid.coords[0]) - np.array(plan.cells[i].centroid.coords[0])
-        along /= math.hypot(*along)
-        across = np.array([-along[1], along[0]])
-        reach, port = 0.5 * parameters.rib + 1.0, min(width, 0.6 * edge.length)
+        edge = plan.shared_edge(i, j)
+        middle, across = edge.mean(axis=0), edge[1] - edge[0]
+        length = math.hypot(*across)
+        across /= length
+        along = np.array([across[1], -across[0]])
+        reach, port = 0.5 * parameters.rib + 1.0, min(width, 0.6 * length)
         parts.append(shapely.Polygon([middle + a * reach * along + b * 0.5 * port * across for a, b in _SQUARE]))
     pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets]
     heel = plan.heel
