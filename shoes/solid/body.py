@@ -21,6 +21,7 @@ __all__ = ["LEVELS", "cavity_levels", "mark_outline", "mirrored_steps", "shoe_st
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
 """Shares of the wall's height at which the foot's outline is taken."""
 
+_HAIR = 0.05  # mm: half the width of a step between two levels that is left out
 _STEP = 0.3  # mm by which two levels must differ to be two
 _TRIM = 0.8  # mm: bevel of the wall's upper outer edge
 _MARK_MOST = 10  # letters
@@ -79,7 +80,7 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
     outlines = [plan.cavity]
     for share in LEVELS[-2::-1]:  # each within the one above it: nothing of the wall hangs over
         outline = tidy(grown(foot.passing(share * p.rim_height), p.clearance))
-        outlines.append(tidy(outline.intersection(outlines[-1])))
+        outlines.append(_within(outlines[-1], outline))
     out: list[tuple[float, float, Any]] = []
     low = 0.0
     for share, outline in zip(LEVELS, outlines[::-1], strict=True):
@@ -92,6 +93,16 @@ def cavity_levels(foot: Foot, plan: ShoePlan, parameters: ShoeParameters) -> lis
             out.append((low, high, outline))
         low = high
     return out
+
+
+def _within(above: Any, outline: Any) -> Any:
+    """An outline within the one above it, and the same wherever they are about the same.
+
+    Edges that run along each other a hair apart would give faces of no width. The grid would move them apart again.
+    """
+    apart = above.difference(outline).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
+    lower = above.difference(apart.difference(outline))
+    return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
 
 
 def _wall(plan: ShoePlan, p: ShoeParameters) -> list[Block]:

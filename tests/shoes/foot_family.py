@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FAMILY", "REFUSED", "TURNS", "prism", "small_turns", "turned"]
+__all__ = ["FAMILY", "REFUSED", "TURNS", "prism", "rounded", "small_turns", "turned"]
 
 Triangles = NDArray[np.float64]
 
@@ -123,15 +123,17 @@ def _concave() -> Triangles:
     return np.concatenate([*low, prism(plate, 3.0, 40.0), _joint(90.0)])
 
 
-def _fine() -> Triangles:
-    """Rounded foot whose surface is cut into many triangles."""
-    count = 320
-    inset, height = 12.0 * (1.0 - np.sin(np.linspace(0.0, np.pi / 2, 40))), np.linspace(0.0, 1.0, 40) ** 2 * 12.0
+def rounded(count: int = 320, levels: int = 40) -> Triangles:
+    """Rounded foot whose surface is cut into about 4 count levels triangles."""
+    inset = 12.0 * (1.0 - np.sin(np.linspace(0.0, np.pi / 2, levels)))
+    height = np.linspace(0.0, 1.0, levels) ** 2 * 12.0
     rings = [
         np.column_stack([_oval(230 - 2 * d, 100 - 2 * d, 25.0, count), np.full(count, z)])
         for d, z in zip(inset, height, strict=True)
     ]
-    rings += [np.column_stack([_oval(230, 100, 25.0, count), np.full(count, z)]) for z in np.linspace(13.0, 45.0, 40)]
+    rings += [
+        np.column_stack([_oval(230, 100, 25.0, count), np.full(count, z)]) for z in np.linspace(13.0, 45.0, levels)
+    ]
     parts = []
     for low, high in pairwise(rings):
         after, up = np.roll(low, -1, axis=0), np.roll(high, -1, axis=0)
@@ -157,7 +159,7 @@ FAMILY: dict[str, Callable[[], Triangles]] = {
     "small": _small,
     "large": _large,
     "concave": _concave,
-    "fine": _fine,
+    "fine": rounded,
     "tilted": _tilted,
 }
 """Surfaces in mm, x to the toes, y left, z up, the ankle above the origin, by what is hard about them."""

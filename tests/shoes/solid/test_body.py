@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,6 +15,8 @@ from shoes.foot.foot import Foot
 from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
 from shoes.solid.body import cavity_levels, mark_outline
+
+from ..foot_family import FAMILY, small_turns, turned
 
 
 def test_upright_walls_have_one_level(small_foot: Foot) -> None:
@@ -52,3 +55,17 @@ def test_the_mark_says_side_and_name_and_fits(small_foot: Foot) -> None:
     assert mark_outline(plans["left"], replace(p, mark_height=0.0), "left").is_empty
     tight = replace(plans["left"], cavity=shapely.box(0, 0, 9, 9))
     assert mark_outline(tight, p, "left").is_empty
+
+
+def test_levels_lie_on_each_other_or_clearly_apart() -> None:
+    """A step of a hair between two levels gives faces of no width, and a surface that is not closed."""
+    p = ShoeParameters()
+    foot = foot_from_triangles("a", turned(FAMILY["pitched"](), *small_turns("pitched")[4]), where="a")
+    plan = build_shoe(foot, layout_only=True).shoes[0].plan
+    outlines = [outline for _, _, outline in cavity_levels(foot, plan, p)]
+    assert len(outlines) > 2
+    for lower, upper in pairwise(outlines):
+        assert upper.buffer(1e-6).covers(lower)
+        gaps = shapely.distance(shapely.points(shapely.get_coordinates(lower.exterior.segmentize(1.0))), upper.exterior)
+        hair = (gaps > 1e-6) & (gaps < 0.04)
+        assert hair.mean() < 0.01
