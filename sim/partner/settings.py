@@ -1,10 +1,10 @@
-"""Settings of the partner that walks with a robot, as a scene's `[partner]` table says them."""
+"""Settings of who walks with a robot, as a scene's tables `[partner]` and `[guide]` say them."""
 
 from __future__ import annotations
 
 from plantar.settings.schema import Settings, choice, number, share
 
-__all__ = ["PartnerSettings"]
+__all__ = ["GuideSettings", "PartnerSettings"]
 
 
 class PartnerSettings(Settings):
@@ -39,3 +39,23 @@ class PartnerSettings(Settings):
     body_mass: float = share(0.814, "mass", 0.01, 1e4)
     drive_force: float = share(0.3, "weight", 0.1, 1e5)
     hand_noise: float = share(0.0006, "weight", 0.0, 100)
+
+
+class GuideSettings(Settings):
+    """A hand that takes the forearm of the arm that moves (`[arm]`), and leads the robot by it along a way.
+
+    Attributes:
+        way: How far it goes in m; 0 for nobody who guides.
+        direction: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
+        starts: Time in s from which it leads; until then it goes along with the arm.
+        speed: Mean speed in m/s at which it goes.
+        stiffness: Of the spring by which it follows its way, in N/m.
+        force: Largest force in N with which it leads.
+    """
+
+    way: float = number(0.0, "m", 0.0, 10.0)
+    direction: str = choice("seeded", "forward", "backward")
+    starts: float = number(3.0, "s", 0.0, 600)
+    speed: float = share(0.0165, "leg/beat", 1e-3, 2.0)
+    stiffness: float = share(0.3, "weight/leg", 1.0, 1e6)
+    force: float = share(0.05, "weight", 0.01, 1e4)

@@ -93,7 +93,7 @@ class Touch:
 
     Args:
         world: The world, with the partners in it.
-        skin: The skin, on the base.
+        skin: The skin, on the base and what it carries.
         partners: Who touches it.
         seed: Of the skin's noise.
 
@@ -132,8 +132,8 @@ class Touch:
     def wrench(self) -> NDArray[np.float64]:
         """True wrench (6,) on the robot about the world's origin in N and N m, at the last physics step."""
         found = self.sensor.wrenches.sum(axis=0)
-        origin = self._world.data.xpos[self._world.model.body_rootid[self._world.torso]]
-        found[3:] += np.cross(origin, found[:3])
+        for link, wrench in zip(self.sensor.skin.links, self.sensor.wrenches, strict=True):
+            found[3:] += np.cross(self._world.data.body(link).xpos, wrench[:3])
         return np.asarray(found)
 
     def step(self) -> None:
