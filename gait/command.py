@@ -36,6 +36,8 @@ class Sensors:
         ankles: Wrench (6,) that each foot exerts on its leg, in the frame of its force-torque sensor in N and N m;
             empty for a robot that has none.
         skin: Latest reading of the skin on its upper body (`ControllerSettings.skin`); None for a robot without.
+        links: Origin (3,) in m and rotation (3, 3) in the base frame of each link with skin that moves against the
+            base, as those of an arm, by its joints' encoders.
     """
 
     time: float
@@ -45,6 +47,7 @@ class Sensors:
     readings: Mapping[Side, Reading]
     ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
     skin: SkinReading | None = None
+    links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=dict)
 
 
 class FootTarget(NamedTuple):

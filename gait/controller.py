@@ -145,8 +145,8 @@ class ControllerSettings(Settings):
             of its ankle beyond its torque limit (`gait.contact.ankle_limits`); empty for joints without limits.
         footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
             "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
-        skin: Skin on its upper body, whose readings are `Sensors.skin`: all of it on one link, the base, so that its
-            taxels stand in the base frame; None for a robot without.
+        skin: Skin on its upper body, whose readings are `Sensors.skin`: on the base, so that its taxels stand in the
+            base frame, and on links that `Sensors.links` has the poses of; None for a robot without.
     """
 
     com_height: float
@@ -483,8 +483,10 @@ class WalkingController:
         if s.push_felt is None or s.skin is None or sensors.skin is None or state is None:
             return None
         # Where the body was a tick ago: it has moved by a millimetre since.
-        base = (state.position_base, state.rotation_base_to_world)
-        felt = net_wrench(s.skin, sensors.skin, dict.fromkeys(s.skin.links, base), state.com, s.push_felt)
+        place, turn = state.position_base, state.rotation_base_to_world
+        poses = dict.fromkeys(s.skin.links, (place, turn))
+        poses |= {link: (place + turn @ at, turn @ rotation) for link, (at, rotation) in sensors.links.items()}
+        felt = net_wrench(s.skin, sensors.skin, poses, state.com, s.push_felt)
         return external_acceleration(felt.wrench, s.mass, self.omega) if len(felt.taxels) else None
 
     def _swing(self, sensed: _Sensed, state: BaseState) -> tuple[FeetView, float]:

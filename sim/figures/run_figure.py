@@ -14,6 +14,7 @@ from plantar.plotting import COLOURS, new_figure, save_figure
 from plantar.recordings.recording import Recording, read_mcap
 from plantar.sides import SIDES
 from sim.figures.foothold_figure import draw_footholds
+from sim.figures.guide_figure import draw_guide
 from sim.figures.push_figure import draw_partner, draw_pushes, draw_strides, draw_swing
 from sim.figures.zmp_figure import draw_zmp_plane, draw_zmps
 
@@ -30,7 +31,7 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
     Returns:
         The files: balance.png, plane.png, feet.png, and footholds.png where footholds were looked at, zmp.png and
         zmp_plane.png where the robot has force-torque sensors at its ankles, pushes.png, swing.png and strides.png
-        where somebody touched it, partner.png where that was a mobile robot.
+        where somebody touched it, partner.png where that was a mobile robot, guide.png where it was a hand that leads.
     """
     run = recording if isinstance(recording, Recording) else read_mcap(recording)
     folder = Path(folder)
@@ -43,6 +44,8 @@ def plot_run(recording: str | Path | Recording, folder: str | Path) -> list[Path
         drawn |= {"pushes": draw_pushes(run), "swing": draw_swing(run), "strides": draw_strides(run)}
     if "/partner" in run.topics and len(run.topics["/partner"].time):
         drawn["partner"] = draw_partner(run)
+    if "/guide" in run.topics and len(run.topics["/guide"].time):
+        drawn["guide"] = draw_guide(run)
     return [save_figure(figure, folder / f"{name}.png") for name, figure in drawn.items()]
 
 

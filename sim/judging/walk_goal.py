@@ -54,6 +54,7 @@ class WalkGoal:
         feet: Where the feet stand at the start.
         steps: The footsteps as planned at the start.
         leg: Length of the robot's legs in m, which distances are judged by.
+        led: How far in m somebody leads the robot off its way, by which any footstep may be moved further.
 
     Attributes:
         steps: The footsteps as planned at the start.
@@ -62,11 +63,15 @@ class WalkGoal:
     """
 
     def __init__(
-        self, feet: Mapping[Side, Footstep], steps: Sequence[Footstep], leg: float = REFERENCE_BODY.leg
+        self,
+        feet: Mapping[Side, Footstep],
+        steps: Sequence[Footstep],
+        leg: float = REFERENCE_BODY.leg,
+        led: float = 0.0,
     ) -> None:
         self.steps = tuple(steps)
         self.near = _NEAR * leg
-        self._leg = leg
+        self._leg, self._led = leg, led
         self.refused = 0
         self._feet = dict(feet)
         self._moves: dict[int, list[_Move]] = {}
@@ -116,7 +121,7 @@ class WalkGoal:
         step, original = places[k], self.steps[k]
         away = math.hypot(step.x - original.x, step.y - original.y)
         turned = abs(math.remainder(step.yaw - original.yaw, 2.0 * math.pi))
-        detour, most = _DETOUR * self._leg, _AWAY * self._leg + _DRIFT * self._way[k]
+        detour, most = _DETOUR * self._leg, _AWAY * self._leg + _DRIFT * self._way[k] + self._led
         return math.dist(there, planned) <= detour and away <= most and turned <= _DETOUR_YAW
 
     def places(self, step: int, time: float) -> tuple[Footstep, ...]:

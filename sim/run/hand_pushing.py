@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, WalkSchedule
 from plantar.errors import SceneError
-from plantar.sensing.link_skin import BodySkin
+from plantar.sensing.link_skin import BodySkin, SkinPatch
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
+from sim.arms.worn_arm import WornArm
 from sim.body_skin.upper_body import upper_body_skin
 from sim.model.world import World
 from sim.partner.hand_pushes import HandPush, HandPushes
@@ -30,7 +31,9 @@ Steps = tuple[Mapping[Side, Footstep], Sequence[Footstep]]
 """Where the feet stand at the start, and the footsteps as planned at the start."""
 
 
-def upper_body_skin_of(scene: Scene, robot: Robot, model: Any, body: BodyScale) -> BodySkin | None:
+def upper_body_skin_of(
+    scene: Scene, robot: Robot, model: Any, body: BodyScale, worn: WornArm | None = None
+) -> BodySkin | None:
     """Skin of a robot's upper body in a scene; None where nobody touches it, which then costs nothing.
 
     Args:
@@ -38,15 +41,23 @@ def upper_body_skin_of(scene: Scene, robot: Robot, model: Any, body: BodyScale) 
         robot: The robot.
         model: The MjModel of the robot alone.
         body: How large it is.
+        worn: Its arm that moves, which has skin of its own; None without.
 
     Returns:
-        The skin, in the base frame.
+        The skin, in the frames of the base and of the arm's links.
+
+    Raises:
+        SceneError: If a hand shall lead a robot whose arms do not move.
     """
-    pushed = scene.push.by == "hands" and scene.push.strength > 0.0
-    if not pushed and scene.partner.kind == "none":
-        return None
-    base = int(model.body_rootid[model.body(robot.torso_body).id])
-    return upper_body_skin(model, base, leg=body.leg, weight=body.weight)
+    if scene.guide.way > 0.0 and worn is None:
+        raise SceneError("[guide] way is above 0 and arm.side 'none'; allowed: with an arm that moves, left or right")
+    patches: list[SkinPatch] = []
+    if (scene.push.by == "hands" and scene.push.strength > 0.0) or scene.partner.kind != "none":
+        base = int(model.body_rootid[model.body(robot.torso_body).id])
+        patches += upper_body_skin(model, base, leg=body.leg, weight=body.weight).patches
+    if scene.guide.way > 0.0 and worn is not None:
+        patches += worn.skin.patches
+    return BodySkin(patches) if patches else None
 
 
 def hand_pushes(

@@ -14,8 +14,10 @@ from plantar.layouts.layout import Side
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES
+from sim.arms.compliant_arm import CompliantArm
 from sim.model.contact_truth import GroundTruth
 from sim.model.world import World
+from sim.partner.guide import Guide
 from sim.partner.mobile_robot import MobileRobot
 from sim.partner.touch import Touch
 
@@ -36,6 +38,7 @@ class RunLog:
         metadata: What identifies the run.
         zmps: Whether the ZMPs of skin and ankles are recorded, too.
         touch: Who touches the robot, and the skin that feels it; None for nobody.
+        arm: Its arm that moves; None without.
     """
 
     def __init__(
@@ -46,6 +49,7 @@ class RunLog:
         *,
         zmps: bool = False,
         touch: Touch | None = None,
+        arm: CompliantArm | None = None,
     ) -> None:
         k = len(world.servos)
         self._world = world
@@ -73,6 +77,13 @@ class RunLog:
             self._partner = next((p for p in touch.partners if isinstance(p, MobileRobot)), None)
         if self._partner is not None:
             self._partners = channel("/partner", [("moved", 1), ("reference", 1), ("force", 1)])
+        self._arm = arm
+        if arm is not None:
+            joints = len(arm.posture)
+            self._arms = channel("/arm", [("position", joints), ("posture", joints), ("torque", joints)])
+        self._guide = None if touch is None else next((p for p in touch.partners if isinstance(p, Guide)), None)
+        if self._guide is not None:
+            self._guides = channel("/guide", [("place", 3), ("held", 3), ("reference", 1), ("moved", 1), ("force", 1)])
         self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
 
@@ -146,6 +157,13 @@ class RunLog:
             self._footholds(time, command)
         if self._touch is not None:
             self._record_touch(self._touch, sensors, command)
+        if self._arm is not None:
+            row = np.concatenate([self._arm.true_angles, self._arm.posture, self._arm.torque])
+            self._arms.write(time, row)
+        if self._guide is not None:
+            guide = self._guide
+            told = (guide.sign * guide.reference, guide.sign * guide.moved, guide.sign * guide.force)
+            self._guides.write(time, np.concatenate([guide.position(w), guide.held(w)[0], told]))
 
     def _record_touch(self, touch: Touch, sensors: Sensors, command: Command) -> None:
         """Record the true force on the skin and the felt one, world frame, where feet shall be, and the partner."""
@@ -153,8 +171,11 @@ class RunLog:
         if sensors.skin is not None:
             skin, world = touch.sensor.skin, self._world
             active = sensors.skin.force >= skin.thresholds
-            base = world.model.body_rootid[world.torso]
-            felt = world.data.xmat[base].reshape(3, 3) @ (sensors.skin.force[active] @ skin.normals[active])
+            felt = np.zeros(3)
+            for patch in skin.patches:
+                own = np.flatnonzero(active[skin.slices[patch.name]]) + skin.slices[patch.name].start
+                turn = world.data.body(patch.link).xmat.reshape(3, 3)
+                felt += turn @ (sensors.skin.force[own] @ skin.normals[own])
         self._touched.write(sensors.time, np.concatenate([touch.force, felt]))
         self._feet.write(sensors.time, np.concatenate([command.feet[side].position for side in SIDES]))
         if self._partner is not None:

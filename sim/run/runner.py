@@ -22,7 +22,11 @@ from gait.propose.velocity_command import Legs, VelocityCommand
 from plantar.errors import InputError, SceneError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.percepts.percept import Percept
+from plantar.sensing.link_skin import BodySkin
 from plantar.sides import SIDES
+from sim.arms.compliant_arm import CompliantArm
+from sim.arms.settings import ArmSettings
+from sim.arms.worn_arm import WornArm
 from sim.figures.render import FRAME_RATE, Film
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
@@ -87,13 +91,15 @@ class Simulation:
         if layouts is not None:
             robot = replace(robot, layouts=dict(layouts))
         self.robot: Robot = robot
-        self.legs = build_leg_model(robot)
+        self.worn = _worn(robot, scene.arm)
+        worn = () if self.worn is None else (self.worn,)
+        self.legs = build_leg_model(robot, worn)
         self.body = body_of(robot, self.legs.model)
         self.scene = scene = scene.for_body(self.body)
         walk = scene.walk
         self.velocities = walk.velocities(seed)
         self.feet, self.steps = self._plan()
-        skin = upper_body_skin_of(scene, robot, self.legs.model, self.body)
+        skin = upper_body_skin_of(scene, robot, self.legs.model, self.body, self.worn)
         self.settings = controller_settings(
             scene,
             robot,
@@ -111,8 +117,8 @@ class Simulation:
         if skin is not None:
             reach = scene.terrain.height + self.settings.com_height
             plan = (lambda: self.controller.schedule, self.feet, self.steps)
-            self.touched = Touched(scene, skin, self.body, *plan, seed, reach)
-        others = () if self.touched is None else self.touched.partners
+            self.touched = Touched(scene, skin, self.body, *plan, seed, reach, self.worn)
+        others = (*worn, *([] if self.touched is None else self.touched.partners))
         self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, others)
         self.touch = None if self.touched is None else self.touched.enter(self.world)
         self.sensors = SensorSuite(
@@ -134,7 +140,9 @@ class Simulation:
         centers = {}
         for side in SIDES:
             centers[side] = vrp_of_step(self.feet[side], middle_of_sole(robot.layouts[side], robot.ankle_reach))
-        stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height)
+        self.arm = self._arm(self.settings.skin)
+        hold = None if self.arm is None else self.arm.hold
+        stand(self.world, self.legs, self.servos, self.feet, centers, self.settings.com_height, hold)
         if self.touch is not None:
             self.touch.place()
             if scene.sensing.body_skin:
@@ -144,7 +152,18 @@ class Simulation:
         self.speeds: VelocityTruth | None = None
         if self.velocities is not None:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
-        self.judge = Judge(self.world, self.settings.com_height, WalkGoal(self.feet, self.steps, self.body.leg))
+        goal = WalkGoal(self.feet, self.steps, self.body.leg, scene.guide.way)
+        self.judge = Judge(self.world, self.settings.com_height, goal)
+
+    def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
+        """The arm that moves, with its sensors; None for a robot without."""
+        if self.worn is None:
+            return None
+        noise, period = self.scene.sensing.encoder_noise, self.settings.period
+        arm = CompliantArm(self.worn, skin, self.scene.arm, self.world, period, noise, self.seed)
+        self.legs.hold_others(arm.posture)
+        self.sensors.body_links = arm.read
+        return arm
 
     def _plan(self) -> tuple[dict[Side, Footstep], tuple[Footstep, ...]]:
         """Where the feet stand, and the footsteps that are planned at the start."""
@@ -216,7 +235,9 @@ class Simulation:
             log = film = None
             if record is not None:
                 told, touch = self._identity(), self.touch
-                log = stack.enter_context(RunLog(Path(record), self.world, told, zmps=bool(self.zmps), touch=touch))
+                log = stack.enter_context(
+                    RunLog(Path(record), self.world, told, zmps=bool(self.zmps), touch=touch, arm=self.arm)
+                )
             if video is not None:
                 film = stack.enter_context(Film(video, self.world))
             result = self._loop(log, film, progress)
@@ -243,6 +264,9 @@ class Simulation:
             if k % tick_every == 0:
                 check_stable(warnings)
                 reading = sensors.read_body()
+                if self.arm is not None:
+                    self.arm.step(reading.skin)
+                    self.legs.hold_others(self.arm.angles)
                 start = clock.perf_counter()
                 command = controller.step(reading)
                 joints = servos.command(command)
@@ -431,6 +455,13 @@ class Simulation:
         end, wanted = min(ends, key=lambda goal: math.dist(goal[0], com))
         heading = math.atan2(float(data.xmat[world.torso, 3]), float(data.xmat[world.torso, 0]))
         return float(np.hypot(*(com - end))), abs(math.degrees(math.remainder(heading - wanted, 2.0 * math.pi)))
+
+
+def _worn(robot: Robot, arm: ArmSettings) -> WornArm | None:
+    """The arm that moves; None for a robot whose arms are part of its chest."""
+    if arm.side == "none":
+        return None
+    return WornArm(robot, "left" if arm.side == "left" else "right", arm.posture)
 
 
 def _compute_rest(command: Command, everything: bool) -> int:

@@ -24,7 +24,8 @@ from plantar.settings.body_scale import BodyScale
 from plantar.settings.overrides import owner_of, split_setting, value_of
 from plantar.settings.schema import Settings, choice, number, share, switch, tables, whole
 from plantar.settings.unknown_keys import refuse_unknown_keys
-from sim.partner.settings import PartnerSettings
+from sim.arms.settings import ArmSettings
+from sim.partner.settings import GuideSettings, PartnerSettings
 from sim.plant.settings import Plant
 from sim.sensing.settings import Sensing
 from sim.terrain import TERRAIN_KINDS, Flat, Terrain
@@ -258,6 +259,8 @@ SECTIONS: dict[str, type[Settings]] = {
     "sensing": Sensing,
     "push": Push,
     "partner": PartnerSettings,
+    "arm": ArmSettings,
+    "guide": GuideSettings,
     "control": Control,
     "plant": Plant,
 }
@@ -292,6 +295,8 @@ class Scene:
         controller: Settings of the controller's parts by table and name (`gait.controller_tables`), as far as given.
         plant: In what the true robot and ground differ from what the controller takes them for.
         partner: Who walks with the robot.
+        arm: Its arm that moves.
+        guide: Who leads it by that.
     """
 
     name: str
@@ -305,6 +310,8 @@ class Scene:
     controller: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     plant: Plant = field(default_factory=Plant)
     partner: PartnerSettings = field(default_factory=PartnerSettings)
+    arm: ArmSettings = field(default_factory=ArmSettings)
+    guide: GuideSettings = field(default_factory=GuideSettings)
 
     def for_body(self, body: BodyScale) -> Scene:
         """The scene for a robot: what it states as shares of a body is told for this one.

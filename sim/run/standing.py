@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import mujoco
 import numpy as np
@@ -32,6 +32,7 @@ def stand(
     feet: Mapping[Side, Footstep],
     centers: Mapping[Side, NDArray[np.float64]],
     com_height: float,
+    hold: Callable[[], None] | None = None,
 ) -> None:
     """Stand the robot on its footholds, CoM between the sole centres, and let it settle until time 0.
 
@@ -42,6 +43,7 @@ def stand(
         feet: Where the soles stand.
         centers: Point (2,) of each sole in the world frame in m that carries its half of the weight.
         com_height: CoM height above the soles in m.
+        hold: Holds what else of the robot moves, and is called before each physics step; None where nothing does.
 
     Raises:
         RobotError: If the left foot is to the right of the other.
@@ -92,7 +94,12 @@ def stand(
             f"{' and '.join(touching)} touch; allowed: a wider stance (walk.stance_width, or the robot's stance_width)"
         )
     servos.start(joints, torques)
-    mujoco.mj_step(world.model, data, _SETTLING)
+    if hold is None:
+        mujoco.mj_step(world.model, data, _SETTLING)
+    else:
+        for _ in range(_SETTLING):
+            hold()
+            mujoco.mj_step(world.model, data)
     check_stable(data.warning.number)
     sunk = float(legs.configuration[2] - data.qpos[2])
     if abs(sunk) > _SINKING_MAX * world.body.leg:

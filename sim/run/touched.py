@@ -1,4 +1,4 @@
-"""Who touches the robot in a run: hands that push, a partner before it, the skin that feels them, and their judge."""
+"""Who touches the robot in a run: hands that push or lead, a partner, the skin that feels them, and their judge."""
 
 from __future__ import annotations
 
@@ -14,10 +14,13 @@ from gait.plan.phases import WalkSchedule
 from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
+from sim.arms.worn_arm import WornArm
+from sim.judging.guide_truth import GuideTruth
 from sim.judging.partner_truth import partner_reasons
 from sim.judging.push_truth import Pushed, PushTruth, step_changes, strides
 from sim.judging.step_count import Stand
 from sim.model.world import World
+from sim.partner.guide import Grip, Guide
 from sim.partner.hand_pushes import HandPushes
 from sim.partner.mobile_robot import MobileRobot
 from sim.partner.touch import Partner, Touch
@@ -40,6 +43,7 @@ class Touched:
         steps: The footsteps as planned at the start.
         seed: Chooses what the scene leaves open, and the noise.
         reach: Height in the world in m at which a partner before the robot has its hand.
+        worn: The robot's arm that moves; None without.
 
     Attributes:
         partners: Who touches the robot, to be added to its world.
@@ -59,6 +63,7 @@ class Touched:
         steps: Sequence[Footstep],
         seed: int,
         reach: float,
+        worn: WornArm | None = None,
     ) -> None:
         self._scene, self._skin, self._body, self._seed = scene, skin, body, seed
         self._feet, self._steps = feet, steps
@@ -73,6 +78,12 @@ class Touched:
         if scene.push.by == "hands" and scene.push.strength > 0.0:
             self.hands = hand_pushes(scene.push, schedule, (feet, steps), skin, body, seed)
             self.partners.append(self.hands)
+        self.guide: Guide | None = None
+        self._led: GuideTruth | None = None
+        self._worn = worn
+        if worn is not None and scene.guide.way > 0.0:
+            self.guide = Guide(scene.guide, Grip(*worn.surface(f"{worn.side}_lower_arm")), body, seed)
+            self.partners.append(self.guide)
 
     def enter(self, world: World) -> Touch:
         """Find skin and partners in the compiled world.
@@ -84,6 +95,10 @@ class Touched:
             The skin in it; `place` puts the partners where they begin.
         """
         self.touch = Touch(world, self._skin, self.partners, self._seed)
+        if self.guide is not None and self._worn is not None:
+            way, worn = self.guide.sign * self.guide.settings.way, self._worn
+            grip, starts = self.guide.grip, self.guide.settings.starts
+            self._led = GuideTruth(world, grip.link, grip.point, tuple(worn.joints), worn.posture, way, starts)
         return self.touch
 
     def update(self, world: World, zmp: NDArray[np.float64] | None) -> None:
@@ -96,6 +111,8 @@ class Touched:
         if self.touch is not None and self.hands is not None:
             com = world.data.subtree_com[world.torso]
             self._truth.update(float(world.data.time), com, zmp, self.touch.wrench)
+        if self._led is not None:
+            self._led.update()
 
     def reasons(self, stands: Sequence[Stand]) -> list[dict[str, Any]]:
         """Criteria that failed of what the scene asks beside a completed walk.
@@ -118,6 +135,8 @@ class Touched:
             last = dict(self._feet) | {step.side: step for step in self._steps}
             way = 0.5 * sum(last[side].x - self._feet[side].x for side in SIDES)
             found += partner_reasons(self._scene.partner.role, way, self.partner.moved)
+        if self._led is not None:
+            found += self._led.reasons()
         return found
 
     def summary(self, stands: Sequence[Stand], walked: float) -> dict[str, Any]:
@@ -128,7 +147,7 @@ class Touched:
             walked: How far forward in m the robot's CoM came.
 
         Returns:
-            "push" and "partner", where the scene has them.
+            "push", "partner" and "guide", where the scene has them.
         """
         found: dict[str, Any] = {}
         if self.hands is not None:
@@ -147,6 +166,8 @@ class Touched:
             }
         if self.partner is not None:
             found["partner"] = {**self.partner.summary(), "robot_moved_m": round(walked, 4)}
+        if self.guide is not None and self._led is not None:
+            found["guide"] = {**self.guide.summary(), **self._led.summary(), "robot_moved_m": round(walked, 4)}
         return found
 
     def _pushes(self) -> list[Pushed]:

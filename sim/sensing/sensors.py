@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -44,6 +44,7 @@ class SensorSuite:
 
     Attributes:
         body_skin: Reads the skin of the upper body; None for a robot without, or before there is one.
+        body_links: Reads where links with skin are on the base that move against it; None for a robot without.
     """
 
     def __init__(
@@ -87,6 +88,7 @@ class SensorSuite:
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
         self.body_skin: Callable[[], SkinReading] | None = None
+        self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
 
     def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
         """Read the soles, which is due every `skin_every` physics steps.
@@ -133,6 +135,7 @@ class SensorSuite:
             readings=dict(self.readings),
             ankles=self._ankles(),
             skin=None if self.body_skin is None else self.body_skin(),
+            links={} if self.body_links is None else self.body_links(),
         )
 
     def _ankles(self) -> dict[Side, NDArray[np.float64]]:
