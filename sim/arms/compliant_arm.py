@@ -101,7 +101,7 @@ class CompliantArm:
         """
         data, rng, k = self._world.data, self._rng, len(self._places)
         self.angles = data.qpos[self._places] + self._encoder_noise * rng.standard_normal(k)
-        speeds = data.qvel[self._speeds] + self._settings.velocity_noise * rng.standard_normal(k)
+        speeds = data.qvel[self._speeds] + self._settings.speed_noise * rng.standard_normal(k)
         self._robot.update(self.angles, speeds, float(data.time))
         return {link: self._robot.pose(link) for link in self._links}
 
@@ -139,7 +139,7 @@ def _tasks(worn: WornArm, skin: BodySkin | None, settings: ArmSettings) -> TaskS
     low, high = worn.ranges
     stiff = _AT_END * worn.efforts / _MARGIN
     ends = JointRange(low, high, _MARGIN, stiff, _DAMPED * stiff)
-    springs = Posture(worn.posture, settings.stiffness * worn.efforts, settings.damping * worn.efforts, torques=True)
+    springs = Posture(worn.posture, settings.spring * worn.efforts, settings.damper * worn.efforts, torques=True)
     patches = [patch.name for patch in worn.skin.patches]
     yields = [] if skin is None else [DirectInteraction(skin, settings.gain, patches)]
     return TaskStack([[ends], [BodyCompliance(springs, *yields)]])

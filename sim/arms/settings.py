@@ -13,19 +13,19 @@ class ArmSettings(Settings):
     Attributes:
         side: Which arm moves; with "none" both are part of the chest, as in every other scene.
         posture: Angle in degrees of each joint from shoulder to wrist; without, those of the machine's file.
-        stiffness: Torque of the springs to the posture, as a share of a joint's largest a rad.
-        damping: Torque against a joint's speed, likewise, in s/rad.
+        spring: Torque of the springs to the posture, as a share of a joint's largest a rad.
+        damper: Torque against a joint's speed, likewise, in s/rad.
         gain: Factor on the force that the skin of the arm feels, with which the arm gives way to it; 1 as if it had
             neither friction nor gears, 0 holds against it.
         filter: Time constant in s of the low pass on each taxel's force, so that yielding does not beat against the
             skin's stiffness.
-        velocity_noise: Noise (1 sigma) in rad/s of the joints' speeds; their angles have the noise of the legs'.
+        speed_noise: Noise (1 sigma) in rad/s of the joints' speeds; their angles have the noise of the legs'.
     """
 
     side: str = choice("none", "left", "right")
     posture: tuple[float, ...] = tables("a list of angles in degrees, one a joint")
-    stiffness: float = number(0.6, "1/rad", 0.0, 1000.0)
-    damping: float = number(0.08, "s/rad", 0.0, 100.0)
+    spring: float = number(0.6, "1/rad", 0.0, 1000.0)
+    damper: float = number(0.08, "s/rad", 0.0, 100.0)
     gain: float = number(1.5, "1", 0.0, 100.0)
     filter: float = share(0.162, "beat", 0.0, 10.0)
-    velocity_noise: float = number(1e-3, "rad/s", 0.0, 1.0)
+    speed_noise: float = number(1e-3, "rad/s", 0.0, 1.0)

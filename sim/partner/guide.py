@@ -64,7 +64,7 @@ class Guide:
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
         self.settings, self.grip, self._body = settings, grip, body
         self.sign = {"forward": 1.0, "backward": -1.0}.get(
-            settings.direction, float(np.random.default_rng([seed, 0x6D]).choice([-1.0, 1.0]))
+            settings.toward, float(np.random.default_rng([seed, 0x6D]).choice([-1.0, 1.0]))
         )
         self._mass = _MASS * body.mass
         self._apart = grip.radius + (_PLAY + _FINGER) * body.leg
@@ -77,7 +77,7 @@ class Guide:
     @property
     def lasts(self) -> float:
         """How long in s it leads."""
-        return self.settings.way / self.settings.speed
+        return self.settings.way / self.settings.hand_speed
 
     def add_to(self, spec: Any) -> None:
         """Add it to a world.
@@ -164,15 +164,15 @@ class Guide:
         arm, motion = self.held(world)
         rate = _QUICK / self._body.beat
         force = self._mass * (rate * rate * (arm - place) + 2.0 * rate * (motion - speed))
-        if time >= s.starts:
+        if time >= s.sets_out:
             if math.isnan(self._start):
                 self._start = float(place[0])
-            share, pace = minimum_jerk((time - s.starts) / self.lasts)
+            share, pace = minimum_jerk((time - s.sets_out) / self.lasts)
             self.reference = s.way * share
             self.moved = self.sign * (float(place[0]) - self._start)
-            off, lag = self.reference - self.moved, s.speed * pace - self.sign * float(speed[0])
-            wanted = s.stiffness * off + 2.0 * math.sqrt(s.stiffness * self._mass) * lag
-            force[0] = self.sign * min(max(wanted, -s.force), s.force)
+            off, lag = self.reference - self.moved, s.hand_speed * pace - self.sign * float(speed[0])
+            wanted = s.hand_spring * off + 2.0 * math.sqrt(s.hand_spring * self._mass) * lag
+            force[0] = self.sign * min(max(wanted, -s.hand_force), s.hand_force)
         data.qfrc_applied[self._axes] = force
 
     def summary(self) -> dict[str, Any]:

@@ -46,16 +46,16 @@ class GuideSettings(Settings):
 
     Attributes:
         way: How far it goes in m; 0 for nobody who guides.
-        direction: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
-        starts: Time in s from which it leads; until then it goes along with the arm.
-        speed: Mean speed in m/s at which it goes.
-        stiffness: Of the spring by which it follows its way, in N/m.
-        force: Largest force in N with which it leads.
+        toward: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
+        sets_out: Time in s from which it leads; until then it goes along with the arm.
+        hand_speed: Mean speed in m/s at which it goes.
+        hand_spring: Stiffness of the spring by which it follows its way, in N/m.
+        hand_force: Largest force in N with which it leads.
     """
 
     way: float = number(0.0, "m", 0.0, 10.0)
-    direction: str = choice("seeded", "forward", "backward")
-    starts: float = number(3.0, "s", 0.0, 600)
-    speed: float = share(0.0165, "leg/beat", 1e-3, 2.0)
-    stiffness: float = share(0.3, "weight/leg", 1.0, 1e6)
-    force: float = share(0.05, "weight", 0.01, 1e4)
+    toward: str = choice("seeded", "forward", "backward")
+    sets_out: float = number(3.0, "s", 0.0, 600)
+    hand_speed: float = share(0.0165, "leg/beat", 1e-3, 2.0)
+    hand_spring: float = share(0.3, "weight/leg", 1.0, 1e6)
+    hand_force: float = share(0.05, "weight", 0.01, 1e4)

@@ -49,7 +49,7 @@ def left_arm() -> WornArm:
 
 def compliant(worn: WornArm, world: World, skin: bool = True, **settings: float) -> CompliantArm:
     """Its controller without noise, with the joints in the posture."""
-    given = ArmSettings(side="left", velocity_noise=0.0, **settings)
+    given = ArmSettings(side="left", speed_noise=0.0, **settings)
     arm = CompliantArm(worn, worn.skin if skin else None, given, world, PERIOD, 0.0, 0)
     arm.place()
     mujoco.mj_forward(world.model, world.data)

@@ -65,23 +65,23 @@ def test_it_holds_its_posture_and_says_where_its_links_are(worn: WornArm) -> Non
 
 @pytest.mark.parametrize("gain", [0.0, 1.0, 2.0])
 def test_it_gives_way_by_gain_times_the_force_over_its_springs(worn: WornArm, gain: float) -> None:
-    stiffness = 1.0
-    turned, torque = pressed(worn, gain=gain, stiffness=stiffness, filter=PERIOD)
-    expected = gain * torque / (stiffness * worn.efforts)
+    spring = 1.0
+    turned, torque = pressed(worn, gain=gain, spring=spring, filter=PERIOD)
+    expected = gain * torque / (spring * worn.efforts)
     assert np.abs(gain * torque).max() == pytest.approx(gain * np.abs(torque).max())
     assert turned == pytest.approx(expected, abs=0.1 * gain * np.abs(torque / worn.efforts).max() + 1e-3)
 
 
 def test_without_skin_it_gives_way_by_its_springs_alone(worn: WornArm) -> None:
-    felt, torque = pressed(worn, gain=1.0, stiffness=1.0)
-    mute, _ = pressed(worn, skin=False, gain=5.0, stiffness=1.0)
+    felt, torque = pressed(worn, gain=1.0, spring=1.0)
+    mute, _ = pressed(worn, skin=False, gain=5.0, spring=1.0)
     assert mute == pytest.approx(torque / worn.efforts, abs=0.1 * np.abs(torque / worn.efforts).max())
     assert mute == pytest.approx(felt, abs=2e-3)
 
 
 def test_no_motor_gives_more_than_it_can(worn: WornArm) -> None:
     world = fixed_world(worn)
-    arm = compliant(worn, world, stiffness=1000.0)
+    arm = compliant(worn, world, spring=1000.0)
     world.data.qpos[arm._places] = arm.posture + 0.3
     arm.read()
     arm.step(None)

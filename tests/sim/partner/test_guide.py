@@ -20,7 +20,7 @@ WAY, STARTS = 0.06, 0.15
 def led(direction: str, force: float, gain: float) -> tuple[Guide, GuideTruth, list[float]]:
     """The hand, the judge, and the forces in N along the way at each control tick."""
     worn = left_arm()
-    settings = GuideSettings(way=WAY, direction=direction, starts=STARTS, speed=0.2, force=force)
+    settings = GuideSettings(way=WAY, toward=direction, sets_out=STARTS, hand_speed=0.2, hand_force=force)
     guide = Guide(settings, Grip(*worn.surface("left_lower_arm")), REFERENCE_BODY, seed=0)
     world: World = fixed_world(worn, [guide])
     arm = compliant(worn, world, gain=gain)
@@ -45,7 +45,7 @@ def test_it_leads_an_arm_that_gives_way_and_meets_its_springs() -> None:
     assert np.abs(forces[: round(STARTS / 0.005)]).max() == 0.0  # between the fingers the arm has play
     assert guide.reference == WAY
     assert 0.5 * WAY < guide.moved < WAY
-    assert forces[-1] == pytest.approx(guide.settings.stiffness * (WAY - guide.moved), rel=0.2)
+    assert forces[-1] == pytest.approx(guide.settings.hand_spring * (WAY - guide.moved), rel=0.2)
     assert guide.moved - 0.02 < truth.yielded < guide.moved + 1e-3  # less by the play
     assert truth.followed == truth.astray == 0.0
     failed = truth.reasons()

@@ -42,7 +42,7 @@ def test_an_arm_that_moves_may_be_left_alone() -> None:
 
 @pytest.mark.long
 def test_the_arm_gives_way_and_the_feet_follow() -> None:
-    summary = run_scene(load_scene("guide", ["guide.direction=forward"]), seed=1)
+    summary = run_scene(load_scene("guide", ["guide.toward=forward"]), seed=1)
     assert summary["completed"], summary["reasons"]
     told = summary["guide"]
     assert told["feet_followed_m"] > 0.2
