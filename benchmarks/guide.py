@@ -16,7 +16,7 @@ from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
 
 FOLDER = Path(__file__).parent
 FIGURES = ("moved_m", "arm_yielded_m", "arm_turned_deg", "feet_followed_m", "feet_astray_m", "largest_force_N")
-COLUMNS = ("fell", "steps_taken", "steps_planned", "toward", *FIGURES)
+COLUMNS = ("fell", "steps_taken", "steps_planned", "toward", "set_out_s", *FIGURES)
 SEEDS, FEW = range(1000, 1020), 4
 STIFF = ("arm.spring=100", "arm.damper=1", "arm.gain=0")
 LINES: list[tuple[str, tuple[str, ...], bool]] = [
@@ -32,7 +32,12 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
     """The columns of one run."""
     told = out["guide"]
     found = {"fell": out["fell"], "steps_taken": out["steps_taken"], "steps_planned": out["steps_planned"]}
-    return {**found, "toward": told["direction"], **{name: told[name] for name in FIGURES}}
+    return {
+        **found,
+        "toward": told["direction"],
+        "set_out_s": told["set_out_s"],
+        **{name: told[name] for name in FIGURES},
+    }
 
 
 BENCHMARK = Benchmark(FOLDER / "guide.csv", COLUMNS, CASES, figures)

@@ -50,12 +50,13 @@ class Guide:
         settings: Its settings, for the same body.
         grip: Where it takes the arm.
         body: How large the robot is.
-        seed: Chooses the direction where the settings leave it open.
+        seed: Chooses when it sets out, and the direction where the settings leave it open.
 
     Attributes:
         settings: Its settings.
         grip: Where it takes the arm.
         sign: 1 where it leads forward, -1 where backward.
+        starts: Time in s from which it leads.
         moved: How far in m it has truly come along its way.
         reference: How far in m it is to have come.
         force: True force in N with which it leads the arm along its way; negative where it holds it back.
@@ -63,9 +64,10 @@ class Guide:
 
     def __init__(self, settings: GuideSettings, grip: Grip, body: BodyScale, seed: int) -> None:
         self.settings, self.grip, self._body = settings, grip, body
-        self.sign = {"forward": 1.0, "backward": -1.0}.get(
-            settings.toward, float(np.random.default_rng([seed, 0x6D]).choice([-1.0, 1.0]))
-        )
+        rng = np.random.default_rng([seed, 0x6D])
+        drawn = float(rng.choice([-1.0, 1.0]))
+        self.sign = {"forward": 1.0, "backward": -1.0}.get(settings.toward, drawn)
+        self.starts = settings.sets_out + float(rng.uniform(0.0, settings.within))
         self._mass = _MASS * body.mass
         self._apart = grip.radius + (_PLAY + _FINGER) * body.leg
         self._places = self._axes = np.arange(3)
@@ -164,10 +166,10 @@ class Guide:
         arm, motion = self.held(world)
         rate = _QUICK / self._body.beat
         force = self._mass * (rate * rate * (arm - place) + 2.0 * rate * (motion - speed))
-        if time >= s.sets_out:
+        if time >= self.starts:
             if math.isnan(self._start):
                 self._start = float(place[0])
-            share, pace = minimum_jerk((time - s.sets_out) / self.lasts)
+            share, pace = minimum_jerk((time - self.starts) / self.lasts)
             self.reference = s.way * share
             self.moved = self.sign * (float(place[0]) - self._start)
             off, lag = self.reference - self.moved, s.hand_speed * pace - self.sign * float(speed[0])
@@ -179,10 +181,11 @@ class Guide:
         """What became of it.
 
         Returns:
-            Its direction, how far it was to go and how far it came, and its largest force in N.
+            Its direction, when it set out in s, how far it was to go and how far it came, and its largest force in N.
         """
         return {
             "direction": "forward" if self.sign > 0.0 else "backward",
+            "set_out_s": round(self.starts, 3),
             "way_m": round(self.settings.way, 4),
             "moved_m": round(self.moved, 4),
             "largest_force_N": round(float(np.abs(np.array(self._forces or [0.0])).max()), 1),

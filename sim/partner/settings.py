@@ -48,6 +48,7 @@ class GuideSettings(Settings):
         way: How far it goes in m; 0 for nobody who guides.
         toward: Where to, in the robot's frame at the start; with "seeded" the seed chooses.
         sets_out: Time in s from which it leads; until then it goes along with the arm.
+        within: The seed draws a time of up to this many s after that: with the default, any phase of a stride.
         hand_speed: Mean speed in m/s at which it goes.
         hand_spring: Stiffness of the spring by which it follows its way, in N/m.
         hand_force: Largest force in N with which it leads.
@@ -55,7 +56,8 @@ class GuideSettings(Settings):
 
     way: float = number(0.0, "m", 0.0, 10.0)
     toward: str = choice("seeded", "forward", "backward")
-    sets_out: float = number(3.0, "s", 0.0, 600)
+    sets_out: float = number(2.0, "s", 0.0, 600)
+    within: float = share(9.7, "beat", 0.0, 60.0)
     hand_speed: float = share(0.0165, "leg/beat", 1e-3, 2.0)
     hand_spring: float = share(0.3, "weight/leg", 1.0, 1e6)
     hand_force: float = share(0.05, "weight", 0.01, 1e4)

@@ -97,7 +97,7 @@ class Touched:
         self.touch = Touch(world, self._skin, self.partners, self._seed)
         if self.guide is not None and self._worn is not None:
             way, worn = self.guide.sign * self.guide.settings.way, self._worn
-            grip, starts = self.guide.grip, self.guide.settings.sets_out
+            grip, starts = self.guide.grip, self.guide.starts
             self._led = GuideTruth(world, grip.link, grip.point, tuple(worn.joints), worn.posture, way, starts)
         return self.touch
 

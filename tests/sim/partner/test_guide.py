@@ -20,7 +20,7 @@ WAY, STARTS = 0.06, 0.15
 def led(direction: str, force: float, gain: float) -> tuple[Guide, GuideTruth, list[float]]:
     """The hand, the judge, and the forces in N along the way at each control tick."""
     worn = left_arm()
-    settings = GuideSettings(way=WAY, toward=direction, sets_out=STARTS, hand_speed=0.2, hand_force=force)
+    settings = GuideSettings(way=WAY, toward=direction, sets_out=STARTS, within=0.0, hand_speed=0.2, hand_force=force)
     guide = Guide(settings, Grip(*worn.surface("left_lower_arm")), REFERENCE_BODY, seed=0)
     world: World = fixed_world(worn, [guide])
     arm = compliant(worn, world, gain=gain)
@@ -61,7 +61,9 @@ def test_it_is_no_stronger_than_its_force_and_leads_backward_too() -> None:
     assert [reason["criterion"] for reason in truth.reasons()] == ["yielded", "followed"]
 
 
-def test_the_seed_chooses_where_to() -> None:
+def test_the_seed_chooses_where_to_and_when() -> None:
     grip = Grip("arm/left_lower_arm", np.zeros(3), 0.045)
-    signs = {Guide(GuideSettings(way=0.3), grip, REFERENCE_BODY, seed).sign for seed in range(8)}
-    assert signs == {-1.0, 1.0}
+    guides = [Guide(GuideSettings(way=0.3), grip, REFERENCE_BODY, seed) for seed in range(8)]
+    assert {guide.sign for guide in guides} == {-1.0, 1.0}
+    starts = [guide.starts for guide in guides]
+    assert 2.0 <= min(starts) < 3.0 < max(starts) <= 2.0 + GuideSettings().within
