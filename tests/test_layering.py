@@ -39,7 +39,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
         *("terrain", "robots", "plant", "model", "judging", "sensing", "body_skin", "contact_models", "figures"),
-        *("companion", "arms", "partner", "run", "survey", "sweep"),
+        *("companion", "arms", "partner", "run", "bench", "survey", "sweep"),
     ),
     "shoes": (
         *(

@@ -69,6 +69,10 @@ class InverseKinematics:
         posture: Reference posture, for directions that the tasks leave free.
         columns: Velocities (n,) of the model that a step may use, in the order in which it solves for them.
         unit: Length in m that counts as much as 1 rad.
+
+    Attributes:
+        plain: How many steps were those of the normal equations.
+        careful: How many needed null-space projectors, damping or limits.
     """
 
     def __init__(
@@ -107,6 +111,7 @@ class InverseKinematics:
         self._upper = np.where(free, np.inf, model.jnt_range[joints, 1])
         self._middle = np.where(free, 0.0, model.jnt_range[joints].mean(axis=1))
         self._half = np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1))
+        self.plain = self.careful = 0
         self._drawn = np.zeros((posture.rows, model.nv))
         posture.jacobian(self._drawn)
 
@@ -147,6 +152,9 @@ class InverseKinematics:
             and _most(off) <= 0.0
         ):
             step = self._careful(jacobian, largest)
+            self.careful += 1
+        else:
+            self.plain += 1
         self._velocity[self._columns] = step
         if self._per_unit is not None:
             self._velocity *= self._units

@@ -56,7 +56,7 @@ class LegModel:
         sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
         self._soles: dict[Side, PoseTask] = {s: sole(model, self._data, self._sites[s]) for s in SIDES}
         self._reference = PostureTask(model, self._data, ids)
-        self._inverse = InverseKinematics(
+        self.inverse = InverseKinematics(
             model,
             self._data,
             [self._com, self._torso, *self._soles.values()],
@@ -141,7 +141,7 @@ class LegModel:
         for side, sole in self._soles.items():
             sole.position, sole.rotation = positions[side], rotations[side]
             sole.level = 1 if side in yielding else 0
-        missed = self._inverse.solve(iterations, largest_step)
+        missed = self.inverse.solve(iterations, largest_step)
         return self._data.qpos[self._qpos], missed
 
     def static_torques(

@@ -243,8 +243,15 @@ class Simulation:
             result = self._loop(log, film, progress)
         return self._summary(result)
 
+    def step_physics(self) -> None:
+        """One step of the simulated physics, with the servos' set-points and pushes as they are now."""
+        if self.touch is None:
+            mujoco.mj_step(self.world.model, self.world.data)
+        else:
+            self.touch.step()
+
     def _loop(self, log: RunLog | None, film: Film | None, progress: Progress | None) -> _Result:
-        world, model, data = self.world, self.world.model, self.world.data
+        world, data = self.world, self.world.data
         controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
         everything = self.scene.control.skip == "none"
         pushes, warnings = bool(self.pusher.shoves), data.warning.number
@@ -272,7 +279,7 @@ class Simulation:
                 joints = servos.command(command)
                 ticks.append(1e6 * (clock.perf_counter() - start))
                 last = math.ceil(self.end / world.period)  # a change of the plan may make it later
-                skipped["percept_members"] += _compute_rest(command, everything)
+                skipped["percept_members"] += self.compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.update(command.footholds)
                 truth = judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
@@ -308,16 +315,32 @@ class Simulation:
                 self.pusher.apply(world)
             if world.moving_ground:
                 world.move_ground()
-            if self.touch is None:
-                mujoco.mj_step(model, data)
-            else:
-                self.touch.step()
+            self.step_physics()
             judge.update_physics()
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())
         overrun = (float(data.time), longest * world.period / _LONGEST) if k >= longest else None
         return _Result(ticks, clock.perf_counter() - began, skipped, overrun)
+
+    def compute_rest(self, command: Command, everything: bool) -> int:
+        """Count the members of both percepts that the controller did not ask for, or compute them.
+
+        Args:
+            command: The command of this tick, with its percepts.
+            everything: Compute them all, and count none.
+
+        Returns:
+            How many were left out.
+        """
+        count = 0
+        for percept in command.percepts.values():
+            if everything:
+                for name in _MEMBERS:
+                    getattr(percept, name)
+            else:
+                count += len(_MEMBERS) - len(_MEMBERS.intersection(percept.__dict__))
+        return count
 
     def _identity(self) -> dict[str, object]:
         return {
@@ -462,18 +485,6 @@ def _worn(robot: Robot, arm: ArmSettings) -> WornArm | None:
     if arm.side == "none":
         return None
     return WornArm(robot, "left" if arm.side == "left" else "right", arm.posture)
-
-
-def _compute_rest(command: Command, everything: bool) -> int:
-    """Count the members of both percepts that the controller did not ask for; compute them where all is wanted."""
-    count = 0
-    for percept in command.percepts.values():
-        if everything:
-            for name in _MEMBERS:
-                getattr(percept, name)
-        else:
-            count += len(_MEMBERS) - len(_MEMBERS.intersection(percept.__dict__))
-    return count
 
 
 def run_scene(

@@ -48,6 +48,10 @@ class SoleSkin:
     Raises:
         RobotError: If the model has no such site or geom.
         LayoutError: If a taxel does not face the ground.
+
+    Attributes:
+        pressed: How often forces were spread over its taxels.
+        in_air: How often there was nothing to spread.
     """
 
     def __init__(
@@ -75,6 +79,7 @@ class SoleSkin:
         )
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
         self._reach = reach
+        self.pressed = self.in_air = 0
 
     def __len__(self) -> int:
         return len(self.layout)
@@ -96,7 +101,9 @@ class SoleSkin:
         if contacts is None:
             contacts = foot_contacts(self.model, data, self.geom_ids)
         if not contacts.size:
+            self.in_air += 1
             return np.zeros(len(self.layout))
+        self.pressed += 1
         rotation = data.site_xmat[self.site_id].reshape(3, 3)
         pairs = pair_loads(
             contacts.own_geoms,

@@ -1,0 +1,40 @@
+"""The look at which room a program is in."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from sim.bench.room_times import ROOMS, RoomTimes, room_of
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_every_file_that_a_room_names_is_there():
+    for parts in ROOMS.values():
+        for part in parts:
+            assert (ROOT / part).exists(), part
+
+
+def test_a_file_belongs_to_the_first_room_that_names_it():
+    assert room_of("gait/estimate/skin_load.py") == "perception"
+    assert room_of("gait/controller.py") == "controller"
+    assert room_of("sim/model/leg_model.py") is None  # the estimator asks for it, and the servos do
+
+
+def test_time_counts_for_the_room_that_takes_it():
+    source = "def busy(end):\n    while clock() < end: pass\n"
+    spaces = []
+    for path in ("gait/estimate/estimator.py", "plantar/lazy.py"):
+        spaces.append({"clock": time.perf_counter})
+        exec(compile(source, str(ROOT / path), "exec"), spaces[-1])
+    estimate, shared = (space["busy"] for space in spaces)
+    with RoomTimes() as rooms:
+        estimate(time.perf_counter() + 0.1)
+        shared(time.perf_counter() + 0.1)  # called by no room: counts for nobody
+    assert rooms.shares["estimate"] > 0.9
+    assert abs(sum(rooms.shares.values()) - 1.0) < 1e-9
+
+
+def test_nobody_looked_is_no_share():
+    assert RoomTimes().shares == {}

@@ -1,0 +1,63 @@
+"""`plantar bench skip` on a walk of one step."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from plantar.percepts.percept import Percept
+from sim.bench import skipping
+from sim.bench.skip_page import skip_page, skip_text
+from sim.bench.skip_row import SkipRow
+from sim.bench.skipping import compare_skipping, measure_skipping
+
+SHORT = ("steps=1", "walk.start=0.2", "walk.end=0.2", "walk.settle=0")
+
+
+@pytest.fixture(scope="module")
+def row() -> SkipRow:
+    return compare_skipping("flat", "h1", SHORT, rounds=1)
+
+
+@pytest.mark.long
+def test_what_is_skipped_does_not_change_the_motion(row: SkipRow):
+    assert row.same_motion
+    assert len(row.motion) == 64
+
+
+@pytest.mark.long
+def test_parts_add_up_to_what_there_could_have_been(row: SkipRow):
+    ticks = row.skipped["recorded ticks"]
+    members = sum(row.skipped[n] + row.computed[n] for n in ("polygons and other shapes", "other percept members"))
+    assert members == 2 * ticks * len(Percept.members())
+    assert row.skipped["polygons and other shapes"] > 0.9 * members / 2
+    readings = row.skipped["taxel forces"] + row.computed["taxel forces"]
+    assert readings == pytest.approx(2 * 42 * 250 * row.sim_s, rel=0.01)
+    assert 0 < row.skipped["taxel forces"] < row.computed["taxel forces"]  # one foot swings for a part of the time
+    assert row.computed["proximity rays"] == 0  # nobody looks ahead on level ground
+
+
+@pytest.mark.long
+def test_physics_alone_is_less_than_the_run(row: SkipRow):
+    assert 0.0 < row.physics_s < row.run_s < row.everything_s
+    assert row.factor == pytest.approx((row.run_s - row.physics_s) / row.physics_s)
+    assert sum(row.shares.values()) == pytest.approx(1.0)
+
+
+@pytest.mark.long
+def test_a_motion_that_differs_is_told(row: SkipRow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    differs = replace(row, same_motion=False)
+    monkeypatch.setattr(skipping, "compare_skipping", lambda scene, *_: {"flat": row, "beam": differs}[scene])
+    told: list[float] = []
+    scenes = [("flat", "h1", ()), ("beam", "h1", ())]
+    result = measure_skipping(tmp_path, lambda share, _: told.append(share), scenes)
+    assert not result["same_motion"]
+    assert told == [0.0, 0.5]
+    assert "NOT THE SAME" in skip_text(result)
+    assert "**no**" in skip_page([differs])
+    assert sorted(result["files"]) == sorted(p.name for p in tmp_path.iterdir())
+    with (tmp_path / "skipping.csv").open() as table:
+        assert [r["same_motion"] for r in csv.DictReader(table)] == ["True", "False"]
