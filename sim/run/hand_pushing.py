@@ -55,7 +55,7 @@ def upper_body_skin_of(
     if (scene.push.by == "hands" and scene.push.strength > 0.0) or scene.partner.kind != "none":
         base = int(model.body_rootid[model.body(robot.torso_body).id])
         patches += upper_body_skin(model, base, leg=body.leg, weight=body.weight).patches
-    if scene.guide.way > 0.0 and worn is not None:
+    if worn is not None and (patches or scene.guide.way > 0.0):
         patches += worn.skin.patches
     return BodySkin(patches) if patches else None
 

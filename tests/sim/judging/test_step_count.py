@@ -201,6 +201,16 @@ def test_a_strip_that_turns_away_is_followed_to_its_end() -> None:
     assert walk.goal.refused == 0
 
 
+@pytest.mark.parametrize(("led", "refused"), [(0.0, 3), (0.5, 0)])
+def test_who_leads_the_robot_explains_steps_that_go_along(led: float, refused: int) -> None:
+    """Six steps in place, each moved 0.12 m farther than the one before: beyond 0.3 m a detour explains none."""
+    feet, steps = straight_plan(6, length=0.0)
+    goal = WalkGoal(feet, steps, led=led)
+    for k in range(len(steps)):
+        goal.hear(float(k), [MovedStep(n, 0.12 * k, s.y, 0.0, "goes along") for n, s in enumerate(steps) if n == k])
+    assert goal.refused == refused
+
+
 def test_steps_that_do_not_exist_are_not_taken_over() -> None:
     walk = Walk()
     walk.say(MovedStep(-1, 0.0, 0.0, 0.0, "a"), MovedStep(6, 0.0, 0.0, 0.0, "a"))

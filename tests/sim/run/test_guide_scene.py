@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from plantar.errors import SceneError
+from plantar.mechanics.external_wrench import external_acceleration
+from plantar.recordings.recording import read_mcap
+from plantar.sensing.link_skin import SkinReading
 from sim.run.runner import Simulation, run_scene
 from sim.run.scene import load_scene
 
@@ -28,6 +34,38 @@ def test_the_controller_knows_where_the_arm_is_that_feels() -> None:
     assert not (reading.skin.force > skin.thresholds).any()
 
 
+def test_a_force_on_the_arm_counts_where_the_arm_is() -> None:
+    """The controller's acceleration by a press on the forearm, against K 9-12 at the place and in the direction of the
+    taxel as MuJoCo has them."""
+    simulation = Simulation(load_scene("guide"), seed=2)
+    controller, sensors, skin = simulation.controller, simulation.sensors, simulation.settings.skin
+    assert skin is not None
+    sensors.read_skins()
+    reading = sensors.read_body()
+    state = controller.step(reading).state
+    taxel = skin.slices["left_lower_arm"].start + 11
+    force = np.zeros(len(skin))
+    force[taxel] = 12.0
+    felt = controller._felt(replace(reading, skin=SkinReading(0.0, force, np.full(len(skin), np.inf))))
+    body = simulation.world.data.body(skin.links[skin.link_of[taxel]])
+    turn = body.xmat.reshape(3, 3)
+    push, place = 12.0 * turn @ skin.normals[taxel], body.xpos + turn @ skin.positions[taxel]
+    wrench = np.concatenate([push, np.cross(place - state.com, push)])
+    expected = external_acceleration(wrench, simulation.legs.mass, controller.omega)
+    assert np.hypot(*push[:2]) > 5.0
+    assert felt == pytest.approx(expected, abs=0.01 * float(np.abs(expected).max()))
+
+
+def test_an_arm_that_moves_has_its_skin_beside_that_of_the_trunk() -> None:
+    simulation = Simulation(load_scene("push-step", ["arm.side=left"]), seed=2)
+    skin = simulation.settings.skin
+    assert skin is not None
+    assert {"base", "arm/left_lower_arm"} < set(skin.links)
+    assert simulation.arm is not None
+    assert simulation.touched is not None
+    assert simulation.touched.guide is None
+
+
 def test_nobody_guides_a_robot_whose_arms_do_not_move() -> None:
     with pytest.raises(SceneError, match=r"way is above 0 and arm.side 'none'; allowed: with an arm that moves"):
         Simulation(load_scene("guide", ["arm.side=none"]))
@@ -41,10 +79,20 @@ def test_an_arm_that_moves_may_be_left_alone() -> None:
 
 
 @pytest.mark.long
-def test_the_arm_gives_way_and_the_feet_follow() -> None:
-    summary = run_scene(load_scene("guide", ["guide.toward=forward"]), seed=1)
+def test_the_arm_gives_way_and_the_feet_follow(tmp_path: Path) -> None:
+    recording = tmp_path / "run.mcap"
+    summary = run_scene(load_scene("guide", ["guide.toward=forward"]), seed=1, record=recording)
     assert summary["completed"], summary["reasons"]
     told = summary["guide"]
     assert told["feet_followed_m"] > 0.2
     assert told["arm_yielded_m"] > 0.045
     assert told["largest_force_N"] < 42.2
+    topics = read_mcap(recording).topics
+    touch = topics["/touch"].fields
+    pressed = touch["force"][:, 0] > 10.0
+    assert touch["felt"][pressed] == pytest.approx(touch["force"][pressed], abs=3.0)
+    guide = topics["/guide"].fields
+    assert guide["moved"][-1, 0] == pytest.approx(told["moved_m"], abs=1e-3)
+    assert np.abs(guide["place"] - guide["held"]).max() < 0.05
+    turned = np.degrees(np.abs(topics["/arm"].fields["position"] - topics["/arm"].fields["posture"])).max()
+    assert turned == pytest.approx(told["arm_turned_deg"], abs=0.1)
