@@ -18,7 +18,7 @@ FOLDER = Path(__file__).parent
 FIGURES = ("moved_m", "arm_yielded_m", "arm_turned_deg", "feet_followed_m", "feet_astray_m", "largest_force_N")
 COLUMNS = ("fell", "steps_taken", "steps_planned", "toward", "set_out_s", *FIGURES)
 SEEDS, FEW = range(1000, 1020), 4
-STIFF = ("arm.spring=100", "arm.damper=1", "arm.gain=0")
+STIFF = ("arm.spring=8", "arm.damper=0.15", "arm.gain=0")
 LINES: list[tuple[str, tuple[str, ...], bool]] = [
     ("led by its arm", (), False),
     ("an arm that does not give way", STIFF, True),

@@ -62,7 +62,10 @@ class GuideTruth:
         """Look at arm and feet: at each control tick."""
         data = self._world.data
         held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
-        ahead = self._sign * float((held - data.xpos[self._base])[0])
+        trunk = data.xmat[self._base].reshape(3, 3)
+        ahead = self._sign * float(
+            trunk[:, 0] @ (held - data.xpos[self._base])
+        )  # a trunk that turns is no arm that yields
         x, y, _ = np.mean([data.site_xpos[self._world.sole_sites[side]] for side in SIDES], axis=0).tolist()
         if self._from is None or float(data.time) < self._starts:
             self._from = (ahead, x, y)
