@@ -69,6 +69,11 @@ QUICK = {
 
 LONG = {
     "walk_push": Example(r"feedback=true: took 4 of 4.*feedback=false: fell"),
+    "walk_guided": Example(
+        r"yields gave way by (\d+) mm under at most (\d+) N, and the feet followed by (\d+) mm in 8 steps"
+        r".*stiff arm gave way by (\d+) mm under at most (\d+) N",
+        holds=lambda soft, least, way, stiff, most: stiff < 20 < soft and least < most and 100 < way < 220,
+    ),
     "walk_own_proposer": Example(
         r"without it: steps at 0.20, 0.40, 0.60.*completed: True.*with it: steps at 0.20, 0.40, 0.64.*completed: True"
     ),
