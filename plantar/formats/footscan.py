@@ -22,6 +22,7 @@ from plantar.formats.side import side_of
 from plantar.formats.text import number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import (
     FootRecording,
     PressureRecording,
@@ -78,7 +79,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     force = table.rows
     unit = find_unit(options.unit or "N")
     assert unit is not None
-    force *= unit.factor * layout.areas if unit.kind == "pressure" else unit.factor
+    scale_frames(force, unit.factor * layout.areas if unit.kind == "pressure" else unit.factor)
     foot = FootRecording(side or "left", force, layout)
     return PressureRecording(
         path=path,

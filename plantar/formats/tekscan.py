@@ -22,6 +22,7 @@ from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.let_go import blocks_of_frames, scale_frames
 from plantar.recordings.pressure_recording import (
     FootRecording,
     Kind,
@@ -96,9 +97,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if kind == "insole":
             warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
     if unit.kind == "pressure":
-        flat *= unit.factor * layout.areas
+        scale_frames(flat, unit.factor * layout.areas)
     elif unit.kind == "force":
-        flat *= unit.factor
+        scale_frames(flat, unit.factor)
     foot = FootRecording(side or "left", flat, layout)
     return PressureRecording(
         path=path,
@@ -117,8 +118,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
 def _measuring(frames: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which cells hold a number in any frame; looked at in blocks, since a mask of all is as large as the file."""
     out = np.zeros(frames.shape[1], dtype=bool)
-    for start in range(0, len(frames), 1024):
-        out |= ~np.isnan(frames[start : start + 1024]).all(axis=0)
+    for rows in blocks_of_frames(frames):
+        out |= ~np.isnan(frames[rows]).all(axis=0)
     return out
 
 

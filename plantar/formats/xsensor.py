@@ -23,6 +23,7 @@ from plantar.formats.text import number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
+from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 from plantar.sides import SIDES
 
@@ -131,7 +132,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         layout = layout or grid_cells(present, *size, side=side, name=sensor.name, threshold=_THRESHOLD)
         if unit.kind == "pressure":
             _check_load(sensor, values, unit.factor * size[0] * size[1], frames, side, warnings)
-            values *= unit.factor * layout.areas
+            scale_frames(values, unit.factor * layout.areas)
         feet[side] = FootRecording(side, values, layout)
         grid = shape
     warnings.append("the first row of each matrix is taken as the toes, its columns as seen from above")

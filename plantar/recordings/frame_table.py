@@ -93,9 +93,9 @@ class FrameTable:
         """
         count = int(kept.sum())
         flat = self._values.reshape(-1)
-        for start in range(0, self._filled, 1024):  # a row never lands behind where it is read from
-            block = self._values[start : min(start + 1024, self._filled)][:, kept]
-            flat[start * count : start * count + block.size] = block.ravel()
+        for rows in blocks_of_frames(self.rows):  # a row never lands behind where it is read from
+            block = self._values[rows][:, kept]
+            flat[rows.start * count : rows.start * count + block.size] = block.ravel()
         out = flat[: self._filled * count].reshape(self._filled, count)
         self._values, self._filled = np.empty((0, count)), 0
         return out
