@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from plantar.recordings.let_go import column_maxima
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.recordings.let_go import column_maxima, let_go
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["doubts"]
 
 _FORCE = (15.0, 6000.0)
 _PRESSURE = (5e3, 3e6)
 _CELL = (1e-6, 4e-3)
-_RATE = (10.0, 5000.0)
+_RATE = (20.0, 5000.0)
+"""Rates in Hz between which events are found to half a frame's time; below, a contact has a dozen frames."""
+_HELD, _FLAT, _CELLS = 0.4, 5, 3
+"""Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
+a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range."""
+_SEEN = 20_000
+"""Frames that are looked at for this."""
 _LONGEST_FOOT = 0.40
 
 
@@ -41,6 +47,7 @@ def doubts(recording: PressureRecording) -> list[str]:
             out.append(f"the {side} foot's force falls to {force.min():.4g} N: check its zero and its sign")
         if foot.layout is None or recording.kind == "plate":
             continue
+        out += [] if recording.kind == "robot" else _clipped_or_held(foot, recording.rate_hz)
         highest = float(np.max(column_maxima(foot.force) / foot.layout.areas, initial=0.0))
         if highest > 0.0 and not _PRESSURE[0] <= highest <= _PRESSURE[1] and recording.kind != "robot":
             out.append(f"the {side} foot's peak pressure is {highest / 1e3:.4g} kPa, which is unusual: check the unit")
@@ -50,4 +57,36 @@ def doubts(recording: PressureRecording) -> list[str]:
         extent = float(np.ptp(foot.layout.outline, axis=0).max())
         if recording.kind != "platform" and not 0.05 <= extent <= _LONGEST_FOOT:
             out.append(f"the {side} sole is {extent * 1e3:.4g} mm long, which is unusual: check the cell size")
+    return out
+
+
+def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
+    """What to say of cells at the end of their range, and of frames that are copies of those before."""
+    part = np.nan_to_num(foot.force[:_SEEN])
+    let_go(foot.force)
+    loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
+    if loaded.sum() < 20 or part.shape[1] <= _CELLS:
+        return []
+    out: list[str] = []
+    assert foot.layout is not None
+    value = part / foot.layout.areas
+    highest = float(value.max())
+    full = value >= highest * (1.0 - 1e-9)
+    runs = full[_FLAT - 1 :].copy()
+    for shift in range(_FLAT - 1):
+        runs &= full[shift : len(full) - _FLAT + 1 + shift]
+    clipped = int(runs.any(axis=0).sum())
+    if _CELLS <= clipped < part.shape[1]:
+        out.append(
+            f"{clipped} cells of the {foot.side} foot stay at {highest / 1e3:.4g} kPa, the largest value: the end of "
+            "the sensor's range? Forces and pressures would be larger"
+        )
+    both = loaded[1:] & loaded[:-1]
+    repeated = (part[1:] == part[:-1]).all(axis=1) & both
+    share = float(repeated.sum()) / max(1, int(both.sum()))
+    if share > _HELD:
+        out.append(
+            f"{100.0 * share:.0f} % of the {foot.side} foot's frames repeat the one before: the sensor gives about "
+            f"{rate * (1.0 - share):.2g} new frames a second, and events are as coarse as that"
+        )
     return out

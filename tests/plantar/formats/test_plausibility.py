@@ -1,0 +1,55 @@
+"""Doubts about recordings whose sensor was at its end, slower than its file, or of an odd rate."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from plantar.formats.nominal_insole import nominal_insole
+from plantar.formats.plausibility import doubts
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+
+def steps(rate: float = 100.0, resolution: float = 0.0) -> PressureRecording:
+    """Ten seconds of steps of a left foot, its load rolling from heel to toes, in N."""
+    layout = nominal_insole("x", "left")
+    time = np.arange(0.0, 10.0, 1.0 / rate)
+    share = np.clip((time % 1.1) / 0.66, 0.0, 1.0)
+    near = np.exp(-0.5 * ((layout.positions[:, 0] - 0.25 * (0.1 + 0.8 * share[:, None])) / 0.05) ** 2)
+    near *= np.random.default_rng(1).uniform(0.5, 1.5, len(layout))  # no two cells carry the same
+    force = 800.0 * np.sin(np.pi * share)[:, None] ** 0.5 * near / near.sum(axis=1, keepdims=True)
+    force = np.round(force / resolution) * resolution if resolution else force
+    return PressureRecording(Path("x"), "x", rate, time, {"left": FootRecording("left", force, layout)})
+
+
+def with_force(recording: PressureRecording, force: np.ndarray) -> PressureRecording:
+    return replace(recording, feet={"left": replace(recording.feet["left"], force=force)})
+
+
+@pytest.mark.parametrize("resolution", [0.0, 0.4])
+@pytest.mark.parametrize("rate", [25.0, 100.0, 500.0])
+def test_a_usual_recording_is_not_doubted(rate: float, resolution: float) -> None:
+    assert doubts(steps(rate, resolution)) == []
+
+
+def test_cells_at_the_end_of_their_range_are_told() -> None:
+    recording = steps()
+    foot = recording.feet["left"]
+    assert foot.layout is not None
+    clipped = np.minimum(foot.force, 50e3 * foot.layout.areas)
+    (doubt,) = doubts(with_force(recording, clipped))
+    assert "cells of the left foot stay at 50 kPa" in doubt
+
+
+def test_frames_that_repeat_are_told() -> None:
+    recording = steps()
+    slow = recording.feet["left"].force[np.arange(1000) // 5 * 5]
+    (doubt,) = doubts(with_force(recording, slow))
+    assert "81 % of the left foot's frames repeat the one before: the sensor gives about 19 new frames" in doubt
+
+
+def test_a_slow_sensor_is_told() -> None:
+    assert any("10 frames a second is an unusual rate" in doubt for doubt in doubts(steps(10.0)))
