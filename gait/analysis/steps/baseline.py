@@ -45,6 +45,11 @@ _ABOVE, _SPARSE = 0.30, 0.7
 """A foot lands and lifts quickly: it spends less than 0.7 of the time at its level between there and 0.3 of the range;
 a sine, as when weight is shifted from foot to foot, 1.3 times as much."""
 
+_LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
+"""Of recordings of one or two strides: longest contact in s, longest time in s in which a foot that lands or lifts
+passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
+share of the time in swing."""
+
 _FRAMES = 4000
 """Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise."""
 
@@ -121,12 +126,25 @@ def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArr
     for a, b in runs:
         edge = (b - a) // 5  # the level is reached and left slowly
         swing[a + edge : b - edge] = True
-    if len(inner) < 2 or max(b - a for a, b in inner) > _LONGEST_SWING * rate:
+    few = len(inner) < 2 and _steps_show(course, near, low, high - low, rate)
+    if (len(inner) < 2 and not few) or max((b - a for a, b in inner), default=0) > _LONGEST_SWING * rate:
         return None
-    if not _SHARE[0] <= sum(b - a for a, b in runs) / len(force) <= _SHARE[1]:
+    if not _SHARE[0] <= sum(b - a for a, b in runs) / len(force) <= (_FEW_SHARE if few else _SHARE[1]):
         return None
     level = float(np.median(force[swing & measured]))
     return level, high - level, swing & measured
+
+
+def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float, span: float, rate: float) -> bool:
+    """Whether contacts between flat stretches are steps: a foot lands and lifts at once, weight is shifted slowly."""
+    flanks = []
+    for a, b in _runs(~near):
+        part = course[a:b] - low
+        if a == 0 or b == len(course) or part.max() < 0.5 * span or b - a > _LONGEST_CONTACT * rate:
+            continue
+        half = np.flatnonzero(part > 0.5 * span)
+        flanks += [half[0] / rate, (b - a - 1 - half[-1]) / rate]
+    return len(flanks) > 0 and max(flanks) <= _QUICK
 
 
 def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -42,6 +42,25 @@ def test_a_walk_on_an_offset_is_the_walk_without_it(offset: float, drift: float,
         assert means(gait, "contact_area_m2") == pytest.approx(means(plain[side], "contact_area_m2"), rel=0.05)
 
 
+@pytest.mark.parametrize("offset", [100.0, 300.0])
+@pytest.mark.parametrize("strides", [1, 2])
+def test_one_or_two_strides_show_an_offset(strides: int, offset: float) -> None:
+    plain, _ = measured(made_walk(strides=strides))
+    feet, warnings = measured(made_walk(strides=strides, offset=offset))
+    assert sum(f"reads {offset:.0f} N in swing" in w for w in warnings) == 2
+    for side, gait in feet.items():
+        assert len(gait.steps) == strides
+        assert means(gait, "peak_force_N") == pytest.approx(means(plain[side], "peak_force_N"), rel=0.02)
+
+
+@pytest.mark.parametrize("ramp", [0.5, 0.8])
+def test_weight_that_is_shifted_shows_no_offset(ramp: float) -> None:
+    """From both feet to one and back, slowly: the lower level is half a body weight, not the sensor's."""
+    time = np.arange(0.0, 6.0, 0.01)
+    shift = np.clip(np.minimum(time - 2.0, 4.0 - time) / ramp, 0.0, 1.0)
+    assert resting_level(350.0 + 350.0 * shift, 100.0) is None
+
+
 def test_what_a_shoe_presses_in_swing_stays_in_the_forces() -> None:
     """Vendors leave it there, too; 5 % of the force is within what shoes do."""
     made = made_walk(offset=35.0)

@@ -1,0 +1,95 @@
+"""Values that cells did not measure: short gaps are filled between their ends, and what is missing is said.
+
+The force of a foot is the sum of its cells, so that a value that is missing would lower it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.recordings.let_go import blocks_of_frames, let_go, room
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+
+__all__ = ["LONGEST_GAP", "filled", "without_gaps"]
+
+LONGEST_GAP = 0.1
+"""Longest gap in s that is filled."""
+
+_TOLD = 0.01
+"""Share of missing values of the cells that measure from which a warning is given."""
+
+
+def without_gaps(recording: PressureRecording) -> PressureRecording:
+    """The recording with the short gaps of each cell filled on straight lines in time.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        The recording, with a warning for cells that never measure and for many missing values; `metadata` holds the
+        share of each foot's values that were missing, in percent, as "missing_percent".
+    """
+    feet, notes, shares = dict(recording.feet), list(recording.warnings), {}
+    most = int(LONGEST_GAP * recording.rate_hz)
+    for side, foot in recording.feet.items():
+        missing = foot.missing
+        if missing is None:
+            continue
+        shares[side] = 100.0 * float(missing.mean())
+        dead = np.asarray(missing.all(axis=0))
+        rest = float(missing[:, ~dead].mean()) if not dead.all() else 0.0
+        if dead.any() and not dead.all():
+            notes.append(
+                f"{int(dead.sum())} of {len(dead)} cells of the {side} foot never measure: its forces, areas and CoP "
+                "are those of the others"
+            )
+        if rest > _TOLD:
+            notes.append(
+                f"{100.0 * rest:.2g} % of the {side} foot's values are missing: gaps of up to {LONGEST_GAP:g} s are "
+                "filled cell by cell"
+            )
+        if rest > 0.0 and most > 0:
+            feet[side] = replace(foot, force=_filled_table(foot, most))
+    if not shares:
+        return recording
+    metadata = {**recording.metadata, "missing_percent": shares}
+    return replace(recording, feet=feet, warnings=tuple(notes), metadata=metadata)
+
+
+def _filled_table(foot: FootRecording, most: int) -> NDArray[np.float64]:
+    """Forces (n, k) of a foot with its short gaps filled, block by block."""
+    out = room(*foot.force.shape)
+    for rows in blocks_of_frames(foot.force):
+        begin = max(0, rows.start - most - 1)
+        part = filled(foot.force[begin : rows.stop + most + 1], most)
+        out[rows] = part[rows.start - begin : rows.stop - begin]
+        let_go(out)
+    return out
+
+
+def filled(force: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+    """Forces with short gaps of each cell filled on straight lines between their ends.
+
+    Args:
+        force: Forces (n, k), NaN where not measured.
+        most: Frames of the longest gap that is filled; gaps at the beginning or the end have one end and stay.
+
+    Returns:
+        Forces (n, k).
+
+    Example:
+        >>> filled(np.array([[1.0], [np.nan], [3.0], [np.nan], [np.nan], [6.0], [np.nan]]), 1).ravel().tolist()
+        [1.0, 2.0, 3.0, nan, nan, 6.0, nan]
+    """
+    out = force.copy()
+    for cell in np.flatnonzero(np.isnan(force).any(axis=0)):
+        known = np.flatnonzero(np.isfinite(force[:, cell]))
+        wide = np.flatnonzero((np.diff(known) > 1) & (np.diff(known) <= most + 1))
+        if not len(wide):
+            continue
+        at = np.concatenate([np.arange(known[i] + 1, known[i + 1]) for i in wide])
+        out[at, cell] = np.interp(at, known, force[known, cell])
+    return out
