@@ -13,7 +13,7 @@ from gait.analysis.steps.foot_gait import FootGait
 from plantar.recordings.pressure_recording import PressureRecording
 from plantar.sides import Side
 
-__all__ = ["Activity", "activity_of", "sway_measures"]
+__all__ = ["Activity", "activity_of", "progression_doubts", "sway_measures"]
 
 _FLIGHT = 0.01
 """Median time in s with both feet off the ground from which steps are those of a run: above what events err."""
@@ -23,6 +23,11 @@ _RUNNING_STANCE = 45.0
 
 _STEADY = 0.5
 """Share of the usual load that a standing body keeps on the ground."""
+
+_ENDS, _FOREFOOT, _NO_HEEL, _DOWN, _BACKWARD = 0.12, 0.6, 0.55, 0.15, 0.3
+"""Part of a contact that is its landing, or its lift-off; then shares of the sole's length: the CoP lands in front of
+0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55 where
+the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more."""
 
 _CHI2 = -2.0 * math.log(0.05)
 """95 % quantile of the chi-squared distribution with two degrees of freedom."""
@@ -36,7 +41,7 @@ class Activity:
     """What somebody does in a recording.
 
     Attributes:
-        name: "walking", "running", "standing" or "unknown".
+        name: "walking", "running", "standing", "walking down stairs", "toe walking" or "unknown".
         why: What tells.
     """
 
@@ -52,8 +57,73 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
         feet: The gait of its feet.
 
     Returns:
-        The activity. Stairs, ramps and turns load the feet as walking does, and are not told from it.
+        The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
+        one whose heel never carries walks on its toes. Stairs up, ramps and turns load the feet as walking does, and
+        are called so.
     """
+    found = _by_times(recording, feet)
+    return (_by_landing(recording, feet) or found) if found.name == "walking" else found
+
+
+def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
+    """A warning for each foot that is rolled over from toes to heel: cells in the wrong order, or backward walking.
+
+    Args:
+        recording: The recording.
+        feet: The gait of its feet.
+
+    Returns:
+        The warnings.
+    """
+    out = []
+    for side, gait in feet.items():
+        strides = _rolls(recording, gait)
+        if len(strides) and float(np.median(strides[:, 0] - strides[:, 1])) > _BACKWARD:
+            out.append(
+                f"the {side} foot's CoP goes from the toes to the heel: check the order of the cells and the layout, "
+                "unless this is walking backwards"
+            )
+    return out
+
+
+def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
+    """Where the CoP is at landing, at lift-off and at its hindmost, in shares of the sole from heel to toes (steps, 3).
+
+    Landing and lift-off are the means over the first and last 12 % of the contact, as the strike index is of its first
+    point (Cavanagh & Lafortune 1980, J. Biomech. 13:397). Empty where the sole's place under the foot is not known.
+    """
+    layout, cop = gait.foot.layout, gait.cop
+    if layout is None or cop is None or recording.kind not in ("insole", "robot"):
+        return np.zeros((0, 3))
+    back, front = float(layout.outline[:, 0].min()), float(layout.outline[:, 0].max())
+    rows = []
+    for step in gait.used:
+        along = (cop[step.contact.begin : step.contact.end, 0] - back) / (front - back)
+        along = along[np.isfinite(along)]
+        few = max(1, round(_ENDS * len(along)))
+        if len(along) >= 5:
+            rows.append((along[:few].mean(), along[-few:].mean(), float(np.percentile(along, 5.0))))
+    return np.array(rows).reshape(-1, 3)
+
+
+def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity | None:
+    """What steps that land on the forefoot are; None of steps that land on the heel or flat."""
+    rolls = np.concatenate([_rolls(recording, gait) for gait in feet.values()])
+    if len(rolls) < 3 or recording.kind != "insole":
+        return None
+    landing, end, hindmost = (float(v) for v in np.median(rolls, axis=0))
+    if landing < _FOREFOOT or end < _FOREFOOT:
+        return None
+    if hindmost > _NO_HEEL:
+        return Activity("toe walking", f"the CoP stays in front of {100.0 * hindmost:.0f} % of the sole's length")
+    if hindmost < landing - _DOWN:
+        why = f"the foot lands at {100.0 * landing:.0f} % of its length, then comes down to {100.0 * hindmost:.0f} %"
+        return Activity("walking down stairs", f"{why}, as on stairs down")
+    return None
+
+
+def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
+    """Walking, running or standing, by how long the feet are on the ground."""
     steps = [step for gait in feet.values() for step in gait.used]
     flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]

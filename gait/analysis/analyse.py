@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from gait.analysis.activity import activity_of, sway_measures
+from gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from gait.analysis.body_weight import implied_weight, weight_doubts
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
 from gait.analysis.options import AnalysisOptions
@@ -33,6 +33,7 @@ from gait.analysis.spread import Spread
 from gait.analysis.steps.baseline import without_baselines
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.force_curve import landing_impact
+from gait.analysis.steps.gaps import without_gaps
 from gait.analysis.steps.stated import stated_beside_own
 from gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar.atomic import output_folder
@@ -41,7 +42,7 @@ from plantar.formats import ReadOptions, named_format, read_recording
 from plantar.formats.stated_events import read_events
 from plantar.layouts.layout import Side
 from plantar.layouts.layout_file import read_layout
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
 __all__ = ["Analysis", "analyse", "analyse_recording", "metrics_of", "not_given", "with_layout", "write_analysis"]
 
@@ -166,6 +167,7 @@ def analyse(
     chosen = choices or AnalysisOptions()
     if chosen.events not in ("own", "vendor"):
         recording = dataclasses.replace(recording, events=read_events(chosen.events))
+    recording = without_gaps(recording)
     if chosen.baseline == "auto":
         recording = without_baselines(recording)
     tell(0.3, "finding steps")
@@ -246,7 +248,7 @@ def metrics_of(
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
     subject = subject or Subject()
-    warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
+    warnings += progression_doubts(recording, feet) + weight_doubts(recording, weight) + mass_doubts(subject, weight)
     named = _keys(recording.raw)
     indices = symmetry(feet)
     return {
@@ -327,11 +329,17 @@ def _foot(recording: PressureRecording, gait: FootGait) -> dict[str, Any]:
         "stated_events": stated_beside_own(recording.events.get(foot.side), gait),
         "cells": foot.force.shape[1],
         "cell_area_m2": None if foot.layout is None else float(foot.layout.areas.mean()),
-        "missing_percent": 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()),
+        "missing_percent": _missing_percent(recording, foot),
         **{named(key): level for key, level in _levels(gait).items()},
         "measures": _spreads(summary_of_foot(gait), named),
         "regions": {region: _spreads(values, named) for region, values in regions_of_foot(gait).items()},
     }
+
+
+def _missing_percent(recording: PressureRecording, foot: FootRecording) -> float:
+    """Share of a foot's values that the file does not hold; gaps may have been filled since."""
+    known: Mapping[Side, float] = recording.metadata.get("missing_percent", {})
+    return known.get(foot.side, 0.0 if foot.missing is None else 100.0 * float(foot.missing.mean()))
 
 
 def _step(step: Step, named: Callable[[str], str]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.activity import activity_of, sway_measures
+from gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from gait.analysis.analyse import metrics_of
 from gait.analysis.parameters import analyse_feet
 from plantar.formats.nominal_insole import nominal_insole
@@ -38,6 +38,32 @@ def test_a_run_has_flight_and_a_walk_none(stride: float, stance: float, name: st
         flight = np.median([s["flight_time_s"] for g in feet.values() for s in g.used[1:-1]])
         truth = max(0.0, (0.5 - stance) * stride)
         assert flight == pytest.approx(truth, abs=0.03 if truth else 1e-9)  # events lie at a share of the force
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize(
+    ("name", "roll"),
+    [
+        ("walking", ((0.0, 0.15), (1.0, 0.85))),
+        ("walking", ((0.0, 0.4), (1.0, 0.85))),
+        ("walking down stairs", ((0.0, 0.9), (0.15, 0.8), (0.4, 0.2), (1.0, 0.85))),
+        ("toe walking", ((0.0, 0.75), (1.0, 0.9))),
+    ],
+)
+def test_where_the_foot_lands_names_the_walk(name: str, roll: tuple[tuple[float, float], ...], side: str) -> None:
+    recording = made_walk(strides=5, roll=roll).recording
+    recording = replace(recording, feet={side: recording.feet[side]})  # type: ignore[index]
+    feet = analyse_feet(recording)
+    assert activity_of(recording, feet).name == name
+    assert progression_doubts(recording, feet) == []
+
+
+def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:
+    """As cells in the reversed order show it."""
+    recording = made_walk(strides=5, roll=((0.0, 0.9), (1.0, 0.1))).recording
+    doubts = progression_doubts(recording, analyse_feet(recording))
+    assert [d.split("'")[0] for d in doubts] == ["the left foot", "the right foot"]
+    assert all("order of the cells" in d for d in doubts)
 
 
 def standing(seconds: float = 20.0, seed: int = 0) -> PressureRecording:

@@ -52,6 +52,7 @@ def made_walk(
     gains: Sequence[float] | None = None,
     slow_ends: float = 1.0,
     forefoot: float = 1.0,
+    roll: Sequence[tuple[float, float]] = ((0.0, 0.15), (1.0, 0.85)),
     seed: int = 0,
 ) -> MadeWalk:
     """A walk from heel to toe.
@@ -70,6 +71,7 @@ def made_walk(
         gains: Force of each stride relative to the others.
         slow_ends: How many times longer the first and the last contact of each foot are.
         forefoot: Pressure of the front half relative to the hind half's.
+        roll: Where the load is over the stance: shares of the stance, and of the sole's length from the heel.
         seed: Of noise and offsets.
     """
     random = np.random.default_rng(seed)
@@ -91,7 +93,7 @@ def made_walk(
             frames = np.flatnonzero((time > on) & (time < on + last))
             share = (time[frames] - on) / last
             total = weight * two_humps(share) * (1.0 if gains is None else gains[k])
-            centre = length * (0.15 + 0.7 * share)
+            centre = length * np.interp(share, *zip(*roll, strict=True))
             near = np.exp(-0.5 * ((layout.positions[:, 0] - centre[:, None]) / (0.2 * length)) ** 2) * layout.areas
             near *= np.where(layout.positions[:, 0] > 0.5 * length, forefoot, 1.0)
             force[frames] += total[:, None] * near / near.sum(axis=1, keepdims=True)
