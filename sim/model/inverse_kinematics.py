@@ -64,7 +64,7 @@ class InverseKinematics:
 
     Args:
         model: The model.
-        data: Its data, which holds the configuration and to which the tasks are bound.
+        data: Its data, which holds the configuration and to which the tasks are bound; who changes it calls `move`.
         tasks: The tasks.
         posture: Reference posture, for directions that the tasks leave free.
         columns: Velocities (n,) of the model that a step may use, in the order in which it solves for them.
@@ -112,6 +112,7 @@ class InverseKinematics:
         self._middle = np.where(free, 0.0, model.jnt_range[joints].mean(axis=1))
         self._half = np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1))
         self.plain = self.careful = 0
+        self._placed = False
         self._drawn = np.zeros((posture.rows, model.nv))
         posture.jacobian(self._drawn)
 
@@ -129,10 +130,21 @@ class InverseKinematics:
             self._step(largest_step)
         return float(_most(np.abs(self._error)))
 
+    def place(self) -> None:
+        """Bring the data's poses to its configuration, unless they are there: who asks for them after a solution spares
+        the next one its kinematics."""
+        if not self._placed:
+            mujoco.mj_kinematics(self._model, self._data)
+            mujoco.mj_comPos(self._model, self._data)
+            self._placed = True
+
+    def move(self) -> None:
+        """Say that the configuration has been changed from outside."""
+        self._placed = False
+
     def _step(self, largest: float) -> None:
-        model, data, error = self._model, self._data, self._error
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
+        model, error = self._model, self._error
+        self.place()
         for task, part, rows in self._parts:
             task.error(part)
             task.jacobian(rows)
@@ -159,6 +171,7 @@ class InverseKinematics:
         if self._per_unit is not None:
             self._velocity *= self._units
         mujoco.mj_integratePos(model, self._configuration, self._velocity, 1.0)
+        self._placed = False
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
         """Step (n,) by levels, damped, scaled and within the limits; none if a target is not a number."""

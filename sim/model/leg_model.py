@@ -50,7 +50,6 @@ class LegModel:
         upright = model.body(torso).id
         self._root = int(model.body_rootid[upright])
         self.mass = float(model.body_subtreemass[self._root])
-        self._static = mujoco.MjData(model)
         self._com = ComTask(model, self._data, self._root)
         self._torso = OrientationTask(model, self._data, upright)
         sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
@@ -90,6 +89,7 @@ class LegModel:
         self._data.qpos[:3] = position
         self._data.qpos[3:7] = quaternion
         self._data.qpos[self._qpos] = joints
+        self.inverse.move()
         self._reference.target = np.array(joints, dtype=float)
 
     def hold_others(self, joints: NDArray[np.float64]) -> None:
@@ -99,6 +99,7 @@ class LegModel:
             joints: Their positions (o,) in the model's order in rad or m.
         """
         self._data.qpos[self._others] = joints
+        self.inverse.move()
         self._probe.qpos[self._others] = joints
 
     @property
@@ -156,10 +157,8 @@ class LegModel:
         Returns:
             tau = g(q) - sum J^T f.
         """
-        model, data = self.model, self._static
-        data.qpos[:] = self._data.qpos
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
+        model, data = self.model, self._data
+        self.inverse.place()
         result = np.zeros(model.nv)
         mujoco.mj_rne(model, data, 0, result)
         jac = np.zeros((3, model.nv))
