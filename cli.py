@@ -480,7 +480,7 @@ def list_(
 
 @app.command()
 def bench(
-    what: Annotated[str, Argument(help="kernels, contact, skip or all.")] = "all",
+    what: Annotated[str, Argument(help="kernels, contact, skip, stress or all.")] = "all",
     layout: Annotated[
         Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
     ] = None,
@@ -489,6 +489,8 @@ def bench(
     ] = False,
     readings: Annotated[int, Option(help="--stress: how many readings.")] = 1_000_000,
     seed: Annotated[int, Option(help="--stress: seed of what is left to chance.")] = 0,
+    scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
+    first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
     output: Output = Path("out/bench"),
     as_json: Json = False,
 ) -> None:
@@ -505,18 +507,31 @@ def bench(
     saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion
     is not the same.
 
+    stress: the whole loop in random short scenarios (noise, lost packets, jitter, dead and stuck taxels, silent
+    sensors, saturation, edges, masses and gains anywhere in their ranges, 1 km from the origin, float32): exit code 1
+    if one raises or commands nonsense. A second or two each; stress.csv goes on where it was left. Not part of all.
+
     Example: plantar bench kernels -o out/bench
 
     Example: plantar bench kernels --stress --readings 20000 --json
     """
-    if what not in ("kernels", "contact", "skip", "all"):
-        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, skip, all")
+    if what not in ("kernels", "contact", "skip", "stress", "all"):
+        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, skip, stress, all")
     if stress:
         if what != "kernels":
             raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
         from plantar.bench.stress.stress_command import stress_command
 
         stress_command(readings, seed, as_json)
+        return
+    if what == "stress":
+        need_libraries("sim", *_SIM)
+        from sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+
+        with progress_bar() as tell:
+            told = measure_stress(output, scenarios, first, tell)
+        faults = [f"{len(told['failures'])} of {scenarios} scenarios failed"] if told["failures"] else []
+        end_command(told, as_json, stress_loop_text(told), faults, bool(faults))
         return
     from plantar.atomic import output_folder, write_text
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,6 +27,7 @@ from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
 from gait.contact.support_strip import SupportStrip
 from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
+from gait.estimate.body_sensors import BodySensors
 from gait.estimate.com_height import CoMHeight
 from gait.estimate.command_frame import CommandFrame
 from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
@@ -96,6 +97,7 @@ _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
 _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where it stands on nothing
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
+_BRIDGED = 0.2  # beats without encoders or IMU: a DCM that nobody follows is a fifth farther off by then
 _NO_WAY = 1 / 12  # leg: a walk that is shorter has no direction of its own
 
 
@@ -269,6 +271,8 @@ class WalkingController:
             None if settings.dcm_filter is None else DcmFilter(settings.dcm_filter, self.omega, period),
         )
         self._state: BaseState | None = None
+        self._hearing = BodySensors(period, _BRIDGED * settings.body.beat)
+        self._last: Command | None = None
         self._push = WrenchFilter(settings.push_expected, self.omega, period)
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -370,8 +374,17 @@ class WalkingController:
 
     @property
     def stopped(self) -> bool:
-        """Whether it has stopped the walk for good, because there is no way on."""
-        return self.guard is not None and self.guard.stopped
+        """Whether it has stopped the walk for good; `safe_state` says why."""
+        return self.safe_state is not None
+
+    @property
+    def safe_state(self) -> str | None:
+        """The state in which it stays because it cannot go on, None while it walks: "no way on", where no footstep is
+        left that may be stepped on, and it stands; "blind", where encoders or IMU have said nothing for too long, and
+        it holds its last command."""
+        if self._hearing.blind:
+            return "blind"
+        return "no way on" if self.guard is not None and self.guard.stopped else None
 
     @property
     def proximity_sides(self) -> tuple[Side, ...]:
@@ -382,7 +395,20 @@ class WalkingController:
         return (*sides, last) if looks and last is not None and last not in sides else sides
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick: sensors in, command out."""
+        """One control tick: sensors in, command out; a blind controller commands what it did last."""
+        told = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
+        heard = self._hearing.heard(told)
+        if heard is None:
+            assert self._last is not None
+            return replace(self._last, footholds=(), moved_steps=())
+        if heard is not told:
+            joints, gyro, accelerometer = heard
+            sensors = replace(sensors, joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
+        self._last = self._stepped(sensors)
+        return self._last
+
+    def _stepped(self, sensors: Sensors) -> Command:
+        """A tick whose encoders and IMU are there."""
         time = sensors.time
         sensed = self._sense(sensors)
         self._ticks += 1

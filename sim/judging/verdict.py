@@ -31,7 +31,7 @@ class Ending:
 
     Attributes:
         fall: What fell how far, as (criterion's value, limit, text); None for no fall.
-        stopped: Whether the controller stopped in an emergency.
+        stopped: The safe state in which the controller stays (`WalkingController.safe_state`); None while it walks.
         steps: Steps taken and planned.
         missed: What became of the first step that was not taken.
         position: Distance in m of the CoM from the walk's end; None for a walk that has no place to end at.
@@ -44,7 +44,7 @@ class Ending:
     """
 
     fall: tuple[float, float, str] | None
-    stopped: bool
+    stopped: str | None
     steps: tuple[int, int]
     missed: str
     position: float | None
@@ -74,8 +74,8 @@ def reasons(ending: Ending, legs: LegContact, joints: JointLimits) -> list[dict[
     if ending.fall is not None:
         value, limit, text = ending.fall
         add("fall", round(value, 3), round(limit, 3), text)
-    if ending.stopped:
-        add("emergency_stop", 1, 0, "the controller stopped for good")
+    if ending.stopped is not None:
+        add("emergency_stop", 1, 0, f"the controller stopped for good: {ending.stopped}")
     if ending.overrun is not None:
         time, planned_end = ending.overrun
         text = f"the controller still put its end off at {time:.0f} s, where the run was cut off"

@@ -358,7 +358,7 @@ class Simulation:
         position, yaw = self._final_error()
         upright = math.degrees(math.acos(min(1.0, float(data.xmat[world.torso, 8]))))
         balance = {} if self.recovery is None else self.recovery.summary()
-        stopped = self.controller.stopped
+        stopped = self.controller.safe_state
         ending = Ending(
             body=self.body,
             fall=judge.fall,
@@ -386,7 +386,7 @@ class Simulation:
             "seed": self.seed,
             "completed": not why,
             "reasons": why,
-            "emergency_stop": stopped,
+            "emergency_stop": stopped is not None,
             "fell": judge.fell,
             "steps_planned": len(self.steps),
             "steps_taken": taken,

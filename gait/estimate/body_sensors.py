@@ -1,0 +1,64 @@
+"""Encoders and IMU that say nothing: for a moment what they last said stands, for longer the robot is blind."""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import InputError
+
+__all__ = ["BodySensors"]
+
+Told: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+
+class BodySensors:
+    """Follows whether encoders and IMU say something.
+
+    Args:
+        period: Control period in s.
+        bridged: Time in s for which what they last said may stand.
+
+    Attributes:
+        blind: Whether they have said nothing for longer; it stays so.
+
+    Example:
+        >>> body, silent = BodySensors(0.005, 0.01), np.full(3, np.nan)
+        >>> told = body.heard((np.zeros(2), np.zeros(3), np.array([0.0, 0.0, 9.8])))
+        >>> [body.heard((np.zeros(2), silent, silent)) is told for _ in range(3)], body.blind
+        ([True, True, False], True)
+    """
+
+    def __init__(self, period: float, bridged: float) -> None:
+        self._most = round(bridged / period)
+        self._silent = 0
+        self._last: Told | None = None
+        self.blind = False
+
+    def heard(self, told: Told) -> Told | None:
+        """What to go by at this tick.
+
+        Args:
+            told: Joint angles (k,) in rad, angular velocity (3,) in rad/s and specific force (3,) in m/s^2.
+
+        Returns:
+            The very same, or all three as they were last said where one of them holds what is no number; None if blind.
+
+        Raises:
+            InputError: If nothing was said since the start.
+        """
+        if self.blind:
+            return None
+        joints, gyro, accelerometer = told
+        if math.isfinite(joints.dot(joints) + gyro.dot(gyro) + accelerometer.dot(accelerometer)):
+            self._silent = 0
+            self._last = told
+            return told
+        if self._last is None:
+            raise InputError("encoders or IMU hold a value that is not finite; the first reading has to be sound")
+        self._silent += 1
+        self.blind = self._silent > self._most
+        return None if self.blind else self._last

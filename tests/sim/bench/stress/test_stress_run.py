@@ -1,0 +1,112 @@
+"""Stress runs: what was found by them stays mended, and what is wrong is seen."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gait.command import Sensors
+from gait.controller import WalkingController
+from plantar.errors import InputError
+from plantar.sensing.reading import Reading
+from sim.bench.stress import stress_sweep
+from sim.bench.stress.faults import Faults, FaultySensors
+from sim.bench.stress.scenario import SCENES, Scenario, draw_scenario
+from sim.bench.stress.stress_run import FAILURES, Outcome, run_scenario
+from sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
+from sim.run.scene import load_scene
+
+CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case["found"][:50] for case in CASES])
+def test_what_was_found_stays_mended(case: dict[str, Any]):
+    outcome = run_scenario(Scenario.from_dict(case["scenario"]), case["longest"])
+    assert outcome.kind == case["outcome"], outcome.detail
+
+
+def test_a_scenario_is_its_values_and_its_number():
+    for number in range(50):
+        scenario = draw_scenario(number)
+        assert Scenario.from_dict(json.loads(json.dumps(scenario.as_dict()))) == scenario
+
+
+def test_every_scene_takes_what_makes_it_short():
+    for name, (settings, _) in SCENES.items():
+        load_scene(name, settings)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "kind"),
+    [
+        (lambda command: replace(command, com=command.com * math.nan), "not finite"),
+        (lambda command: replace(command, com=command.com + np.array([9.0, 0.0, 0.0])), "out of bounds"),
+        (lambda command: replace(command, rotation_torso=2.0 * command.rotation_torso), "out of bounds"),
+    ],
+)
+def test_a_command_that_may_not_be_is_seen(spoil: Any, kind: str, monkeypatch: pytest.MonkeyPatch):
+    step = WalkingController.step
+    monkeypatch.setattr(WalkingController, "step", lambda self, sensors: spoil(step(self, sensors)))
+    assert run_scenario(Scenario(0, "flat", "h1"), 0.05).kind == kind
+
+
+def test_what_a_tick_raises_is_told_with_its_place(monkeypatch: pytest.MonkeyPatch):
+    def fail(*_: Any) -> None:
+        raise ZeroDivisionError("by nothing")
+
+    monkeypatch.setattr(WalkingController, "step", fail)
+    outcome = run_scenario(Scenario(0, "flat", "h1"), 0.05)
+    assert outcome.kind == "raised"
+    assert "ZeroDivisionError: by nothing (bench/stress/test_stress_run.py:" in outcome.detail
+
+
+def test_settings_that_a_scene_does_not_take_are_no_failure():
+    assert run_scenario(Scenario(0, "flat", "h1", ("compliance.damping=1",))).kind == "refused"
+
+
+def test_faults_do_what_they_say():
+    force = np.arange(1.0, 7.0)
+    readings = {"left": Reading(0.0, force), "right": Reading(0.0, force)}
+    told = Sensors(0.0, np.zeros(2), np.full(3, 0.1), np.zeros(3), readings)
+
+    def passed(**faults: Any) -> Sensors:
+        sensors = FaultySensors(Faults(**faults), {"left": 100.0, "right": 200.0}, 0)
+        sensors.passed(told)
+        return sensors.passed(replace(told, time=0.005, readings={s: Reading(0.004, 2.0 * force) for s in readings}))
+
+    assert (passed().readings["left"].force == 2.0 * force).all()
+    assert (passed(dropped=1.0).readings["left"].force == force).all()
+    assert (passed(stuck=1.0).readings["left"].force == force).all()
+    assert (passed(saturated=1.0).readings["right"].force == 200.0).all()
+    assert np.isnan(passed(silent=1.0).readings["left"].force).all()
+    assert np.isnan(passed(missing=1.0).gyro).all()
+    assert passed(single=True).gyro[0] == float(np.float32(0.1)) != 0.1
+    assert passed(jitter=1e-3).readings["left"].time != 0.004
+
+
+def test_a_table_goes_on_where_it_was_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    ran: list[int] = []
+
+    def run(scenario: Scenario) -> Outcome:
+        ran.append(scenario.number)
+        return Outcome(FAILURES[0] if scenario.number == 2 else "ended", "a, text", 1.0)
+
+    monkeypatch.setattr(stress_sweep, "run_scenario", run)
+    measure_stress(tmp_path, 2)
+    with (tmp_path / "stress.csv").open("a") as table:
+        table.write("2,fl")  # a run that was killed
+    result = measure_stress(tmp_path, 4)
+    assert ran == [0, 1, 2, 3]
+    assert result["outcomes"] == {"ended": 3, "raised": 1}
+    assert "FAILED 2," in stress_loop_text(result)
+    (tmp_path / "stress.csv").write_text("something else\n")
+    with pytest.raises(InputError, match="no table of stress runs"):
+        measure_stress(tmp_path, 1)
+    with pytest.raises(InputError, match="allowed: 1 or more"):
+        measure_stress(tmp_path, 0)
