@@ -53,7 +53,7 @@ def test_a_trunk_that_leans_leaves_the_hip_what_a_push_needs(seed: int) -> None:
         _, out = run("push", seed, *sets, robot="hrp2kai")
         share.append(out["torque_limit"]["share_of_ticks"])
         assert lean == "0" or out["completed"], out["reasons"]
-    assert share[0] < 0.5 * share[1]
+    assert share[0] < 0.7 * share[1]
 
 
 @pytest.mark.long
