@@ -1,4 +1,4 @@
-"""Count what feedback is worth under pushes: the table of push.md and its bars push.png.
+"""Count what feedback, and steps that move for balance, are worth under pushes: the table of push.md and its bars push.png.
 
 `python benchmarks/outcomes.py` runs what is missing in push.csv; `python benchmarks/push.py` writes table and bars.
 """
@@ -16,18 +16,28 @@ COLUMNS = ("fell", "direction", "step", "steps_taken", "tilt_max_deg", "zmp_marg
 COLUMNS += ("impact_max_N", "position_error_m", "heading_error_deg", "com_error_max_m")
 
 # robot and impulse in N s
-LINES = (("h1", 20), ("h1", 25), ("h1", 30), ("hrp2kai", 20), ("hrp2kai", 25))
+LINES = (("h1", 20), ("h1", 25), ("h1", 30), ("h1", 40), ("hrp2kai", 20), ("hrp2kai", 25))
+
+_ANKLES = ("control.step_adjustment=false", "control.push_estimate=off")
+WAYS = {
+    "steps": (),
+    "feedback on": (*_ANKLES, "feedback=true"),
+    "feedback off": (*_ANKLES, "feedback=false"),
+}
+"""What balances, with its settings: ankles and steps, ankles alone, nothing."""
+
+TITLES = ("steps move", "ankles alone", "no feedback")
 
 
-def _name(impulse: int, feedback: bool) -> str:
-    return f"{impulse} N s, feedback {'on' if feedback else 'off'}"
+def _name(impulse: int, way: str) -> str:
+    return f"{impulse} N s, {way}"
 
 
 def _cases() -> list[Case]:
     return [
-        Case(_name(n, on), "push", robot, (f"impulse={n}", f"feedback={str(on).lower()}"), 20)
+        Case(_name(n, way), "push", robot, (f"impulse={n}", *settings), 20)
         for robot, n in LINES
-        for on in (True, False)
+        for way, settings in WAYS.items()
     ]
 
 
@@ -51,22 +61,24 @@ def report() -> None:
 
     rows = latest(rows_of(BENCHMARK.path))
     lines = [
-        "| robot | impulse | feedback on | on, fresh seeds | feedback off | off, fresh seeds |",
-        "|---|---|---|---|---|---|",
+        "| robot | impulse | " + " | ".join(f"{title} | fresh seeds" for title in TITLES) + " |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     bars: list[tuple[str, list[float]]] = []
     for robot, impulse in LINES:
-        found = [[r for r in rows if r["robot"] == robot and r["case"] == _name(impulse, on)] for on in (True, False)]
+        found = [[r for r in rows if r["robot"] == robot and r["case"] == _name(impulse, way)] for way in WAYS]
         cells = [count(mine, fresh) for mine in found for fresh in (False, True)]
         lines.append(f"| {robot} | {impulse} N s | " + " | ".join(cells) + " |")
-        if all(found):
-            shares = [100.0 * sum(r["completed"] == "True" for r in mine) / len(mine) for mine in found]
+        if any(found):
+            shares = [100.0 * sum(r["completed"] == "True" for r in mine) / max(len(mine), 1) for mine in found]
             bars.append((f"{robot}\n{impulse} N s", shares))
     write_table(FOLDER / "push.md", [*lines, "", origin(BENCHMARK)])
     figure, axis = new_figure(6.0, 3.2)
-    for i, (name, colour) in enumerate((("on", COLOURS["left"]), ("off", COLOURS["right"]))):
-        places = [k + 0.4 * (i - 0.5) for k in range(len(bars))]
-        axis.bar(places, [shares[i] for _, shares in bars], 0.38, color=colour, label=f"feedback {name}")
+    for i, (title, colour) in enumerate(
+        zip(TITLES, (COLOURS["reference"], COLOURS["left"], COLOURS["right"]), strict=True)
+    ):
+        places = [k + 0.27 * (i - 1) for k in range(len(bars))]
+        axis.bar(places, [shares[i] for _, shares in bars], 0.25, color=colour, label=title)
     axis.set_xticks(range(len(bars)), [name for name, _ in bars], fontsize=8)
     axis.set_ylabel("completed, all seeds [%]")
     axis.legend(fontsize=8)

@@ -1,17 +1,20 @@
 """Count the scenes in which hands push or a partner leads: `python benchmarks/push_steps.py [MINUTES]`.
 
 Rows go to push_steps.csv, one a run; stopped, it goes on where it was. Fresh seeds only, from 1000 on, which nothing
-was tuned on; each ablation gets the first eight of them. `... report` writes the table.
+was tuned on; each ablation gets the first eight of them. `... report` writes the table. Robots that are not built in are
+introduced from `PLANTAR_REAL_DATA`; without it their rows wait.
 """
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 from typing import Any
 
+from introduced_robots import introduce, robot_file
 from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
 
 FOLDER = Path(__file__).parent
@@ -38,7 +41,12 @@ LINES: list[tuple[str, str, tuple[str, ...], bool]] = [
     ("the same, taken for a whole one", "push-partial", ("footholds=off",), True),
     ("along a beam, 20 N s", "push-beam", (), False),
 ]
+ANY = ("push.dv=0.25",)
+ANKLES = ("control.step_adjustment=false", "control.push_estimate=off")
 CASES = [Case(name, scene, "h1", settings, 0, aside=aside) for name, scene, settings, aside in LINES]
+for _name, _file in (("hrp2kai", ""), *((n, str(robot_file(n))) for n in ("JVRC-1", "OP3"))):
+    CASES.append(Case(f"{_name}, 0.25 m/s in any direction", "push", _name, ANY, 0, file=_file))
+    CASES.append(Case(f"{_name}, the same, ankles alone", "push", _name, (*ANY, *ANKLES), 0, aside=True, file=_file))
 
 
 def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
@@ -65,6 +73,8 @@ def missing() -> Iterator[tuple[int, Case, int]]:
     for case in CASES:
         for i, seed in enumerate(SEEDS):
             if (case.name, seed) not in done and not (case.aside and i >= FEW):
+                if case.file and not Path(case.file).exists():
+                    continue
                 yield (4 * i + 2 if case.aside else i), case, seed
 
 
@@ -102,5 +112,9 @@ def middle(rows: list[dict[str, str]], name: str) -> str:
 
 if __name__ == "__main__":
     if sys.argv[1:] != ["report"]:
+        if "PLANTAR_REAL_DATA" in os.environ:
+            introduce(Path(os.environ["PLANTAR_REAL_DATA"]))
+        else:
+            print("PLANTAR_REAL_DATA is not set: robots that are not built in are left out")
         run_for(BENCHMARK, missing(), float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
     report()
