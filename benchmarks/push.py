@@ -1,4 +1,4 @@
-"""Count what feedback, and steps that move for balance, are worth under pushes: the table of push.md and its bars push.png.
+"""Count what feedback, and steps that move, are worth under pushes: the table of push.md and its bars push.png.
 
 `python benchmarks/outcomes.py` runs what is missing in push.csv; `python benchmarks/push.py` writes table and bars.
 """
@@ -74,9 +74,8 @@ def report() -> None:
             bars.append((f"{robot}\n{impulse} N s", shares))
     write_table(FOLDER / "push.md", [*lines, "", origin(BENCHMARK)])
     figure, axis = new_figure(6.0, 3.2)
-    for i, (title, colour) in enumerate(
-        zip(TITLES, (COLOURS["reference"], COLOURS["left"], COLOURS["right"]), strict=True)
-    ):
+    colours = [COLOURS[name] for name in ("polygon", "left", "right")]
+    for i, (title, colour) in enumerate(zip(TITLES, colours, strict=True)):
         places = [k + 0.27 * (i - 1) for k in range(len(bars))]
         axis.bar(places, [shares[i] for _, shares in bars], 0.25, color=colour, label=title)
     axis.set_xticks(range(len(bars)), [name for name, _ in bars], fontsize=8)

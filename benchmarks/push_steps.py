@@ -1,8 +1,8 @@
 """Count the scenes in which hands push or a partner leads: `python benchmarks/push_steps.py [MINUTES]`.
 
 Rows go to push_steps.csv, one a run; stopped, it goes on where it was. Fresh seeds only, from 1000 on, which nothing
-was tuned on; each ablation gets the first eight of them. `... report` writes the table. Robots that are not built in are
-introduced from `PLANTAR_REAL_DATA`; without it their rows wait.
+was tuned on; each ablation gets the first eight of them. `... report` writes the table. Robots that are not
+built in are introduced from `PLANTAR_REAL_DATA`; without it their rows wait.
 """
 
 from __future__ import annotations
