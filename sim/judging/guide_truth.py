@@ -63,9 +63,8 @@ class GuideTruth:
         data = self._world.data
         held = data.xpos[self._link] + data.xmat[self._link].reshape(3, 3) @ self._point
         trunk = data.xmat[self._base].reshape(3, 3)
-        ahead = self._sign * float(
-            trunk[:, 0] @ (held - data.xpos[self._base])
-        )  # a trunk that turns is no arm that yields
+        # In the trunk's frame: a trunk that turns is no arm that yields.
+        ahead = self._sign * float(trunk[:, 0] @ (held - data.xpos[self._base]))
         x, y, _ = np.mean([data.site_xpos[self._world.sole_sites[side]] for side in SIDES], axis=0).tolist()
         if self._from is None or float(data.time) < self._starts:
             self._from = (ahead, x, y)
