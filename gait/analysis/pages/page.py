@@ -103,7 +103,7 @@ def _figure(path: Path, caption: str) -> str:
     data, text = base64.b64encode(content).decode(), html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""
-    image = f'<img alt="{text}" decoding="async" src="data:image/png;base64,{data}">'
+    image = f'<img alt="{text}" src="data:image/png;base64,{data}">'
     return f"<figure{wide}>{image}<figcaption>{text}</figcaption></figure>\n"
 
 

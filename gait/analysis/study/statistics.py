@@ -23,6 +23,9 @@ PERMUTATIONS = 2000
 """Permutations that are drawn where there are more: a p of 0.05 is then known to 0.005 (one standard deviation)."""
 
 _SEED = 1
+_SPREAD = 1e-6
+"""Standard deviation of participants, as a share of their mean, below which it is rounding and no spread."""
+
 _CONFIDENCE = 0.95
 
 
@@ -134,7 +137,7 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
         p_all: What it says among all measures.
 
     Returns:
-        The effect.
+        The effect; its size is NaN where the participants do not differ from each other, so that nothing measures it.
 
     Example:
         >>> effect = effect_of(np.array([1.0, 2.0, 3.0]), np.array([2.0, 3.0, 4.0]), False, 0.4, 0.4)
@@ -157,7 +160,8 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
         correction, scale = _correction(n + m - 2), 1.0 / n + 1.0 / m
         weight = 1.0 / (2.0 * (n + m))
     reach = student_quantile(0.5 + 0.5 * _CONFIDENCE, max(freedom, 1.0)) * error
-    size = correction * difference / pooled if pooled > 0.0 else math.nan
+    least = _SPREAD * max(abs(float(a.mean())), abs(float(b.mean())))
+    size = correction * difference / pooled if pooled > least else math.nan
     half = student_quantile(0.5 + 0.5 * _CONFIDENCE, 1e6) * math.sqrt(scale + size**2 * weight)
     means = float(a.mean()), float(b.mean())
     return Effect(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -74,13 +75,13 @@ def _sentence(one: Comparison) -> str:
     """What a comparison found, in words."""
     if one.note:
         return f"{one.a} and {one.b} are not compared: {one.note}."
-    found = sorted((-abs(e.effect_size), key, e) for key, e in one.effects.items() if e.p_all < 0.05)
+    sizes = {key: e.effect_size if math.isfinite(e.effect_size) else None for key, e in one.effects.items()}
+    found = [(key, e) for key, e in one.effects.items() if e.p_all < 0.05]
+    found.sort(key=lambda pair: -abs(sizes[pair[0]] or 0.0))
     how = "the same participants in both" if one.paired else "different participants"
     if not found:
         return f"{one.a} and {one.b} ({how}): no measure differs when all {len(one.effects)} are allowed for."
-    named = [
-        f"{_title(key)[0]} ({'+' if e.difference > 0 else '−'}, g = {number(e.effect_size, 2)})" for _, key, e in found
-    ]
+    named = [f"{_title(key)[0]} ({'+' if e.difference > 0 else '−'}, g = {number(sizes[key], 2)})" for key, e in found]
     more = "" if len(named) <= 4 else f" and {len(named) - 4} more"
     return f"In {one.b} against {one.a} ({how}) these differ: {', '.join(named[:4])}{more}."
 

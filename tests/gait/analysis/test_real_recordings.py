@@ -14,6 +14,7 @@ import pytest
 
 from gait.analysis.analyse import analyse
 from plantar import PlantarError
+from plantar.sides import Side
 
 EXAMPLES = ("pedar_walk.asc", "emed_step.lst", "fscan_walk_left.asf", "xsensor_walk.csv", "moticon_walk_a.txt")
 
@@ -89,11 +90,33 @@ def test_the_emed_step_by_another_packages_definitions(real_data: Path) -> None:
         "impulse_Ns": (force.sum() * frame, 0.001),
         "pressure_time_integral_Pas": (pressure.max(axis=1).sum() * frame, 0.005),
         "pressure_time_integral_cell_Pas": (pressure.sum(axis=0).max() * frame, 0.002),
+        "contact_area_m2": (((pressure > 0.0) * layout.areas).sum(axis=1).max(), 1e-9),
         "footprint_area_m2": (layout.areas[(pressure > 0.0).any(axis=0)].sum(), 0.005),
         "contact_time_s": ((force > 0.0).sum() * frame, 0.01),
     }
     for key, (value, share) in theirs.items():
         assert step[key] == pytest.approx(value, rel=share), key
+
+
+@pytest.mark.parametrize(("side", "share"), [("left", 0.065), ("right", 0.017)])
+def test_the_pedar_steps_by_another_packages_definitions(real_data: Path, side: Side, share: float) -> None:
+    """pressuRe's steps reach from 30 N to 30 N; all that does not depend on where they begin is the same."""
+    gait = analyse(real_data / "recordings" / "pedar_walk.asc").feet[side]
+    force, pressure, layout = gait.foot.vertical_force, gait.foot.pressure(), gait.foot.layout
+    assert pressure is not None
+    assert layout is not None
+    theirs: dict[str, list[float]] = {key: [] for key in ("contact_time_s", "impulse_Ns", "contact_area_m2")}
+    for step in gait.used:
+        middle = (step.contact.begin + step.contact.end) // 2
+        light = np.flatnonzero(force <= 30.0)
+        begin, end = light[light < middle][-1] + 1, light[light > middle][0]
+        theirs["contact_time_s"].append((end - begin) / 100.0)
+        theirs["impulse_Ns"].append(force[begin : end + 1].sum() / 100.0)
+        theirs["contact_area_m2"].append(((pressure[begin : end + 1] > 10e3) * layout.areas).sum(axis=1).max())
+    ours = {key: np.mean([step[key] for step in gait.used]) for key in theirs}
+    assert ours["contact_area_m2"] == pytest.approx(np.mean(theirs["contact_area_m2"]), rel=1e-9)
+    assert ours["impulse_Ns"] == pytest.approx(np.mean(theirs["impulse_Ns"]), rel=0.01)
+    assert ours["contact_time_s"] == pytest.approx(np.mean(theirs["contact_time_s"]), rel=share)
 
 
 @pytest.mark.long

@@ -30,6 +30,15 @@ def test_intervals_of_a_difference_are_students_and_welchs() -> None:
     assert (pairs.low, pairs.high) == pytest.approx((student.low, student.high), rel=1e-5)
 
 
+@pytest.mark.parametrize("paired", [True, False])
+def test_participants_that_are_all_alike_have_no_effect_size(paired: bool) -> None:
+    """Rounding is no spread: a size of ten million standard deviations says nothing."""
+    alike = 154.0 + np.array([0.0, 1e-8, -1e-8, 2e-8])
+    effect = effect_of(alike, alike - 0.4, paired, 0.03, 0.03)
+    assert np.isnan([effect.effect_size, effect.effect_low, effect.effect_high]).all()
+    assert effect.difference == pytest.approx(-0.4)
+
+
 def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
     random = np.random.default_rng(5)
     draws = [effect_of(random.normal(0, 1, 15), random.normal(0.8, 1, 15), False, 1.0, 1.0) for _ in range(200)]
