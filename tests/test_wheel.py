@@ -143,7 +143,7 @@ def test_the_sdist_holds_what_its_tests_need(tmp_path):
 def test_the_wheel_holds_code_and_data(wheel):
     with zipfile.ZipFile(wheel) as archive:
         names = {n for n in archive.namelist() if ".dist-info/" not in n}
-    data = {".toml", ".xml", ".json", ".html", ".css", ".js", ".typed"}
+    data = {".toml", ".xml", ".json", ".html", ".css", ".js", ".typed", ".bin", ".txt"}
     wanted = {
         p.as_posix()
         for p in tracked()
