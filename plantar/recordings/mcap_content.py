@@ -20,6 +20,7 @@ from plantar.files.structured_text import JSON_MOST
 from plantar.files.zip_archive import ALLOWED, is_bomb
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
+from plantar.recordings.foxglove import SCHEMAS
 from plantar.recordings.frame_table import FrameTable
 
 __all__ = ["MCAP_MAGIC", "McapContent"]
@@ -91,10 +92,17 @@ class McapContent:
         metadata: What was stored beside the data.
         layouts: Sole layout of each side that has one.
         topics: The topics whose messages are made of float64 fields, by the number of their channel.
+        drawn: Time in s and encoding of each message for viewers, by topic; empty unless they are wanted.
         warnings: What was missing, damaged or skipped, one line each.
+
+    Args:
+        with_drawn: Whether messages for viewers (`plantar.recordings.foxglove.SCHEMAS`) are wanted.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, with_drawn: bool = False) -> None:
+        self.drawn: dict[str, list[tuple[float, bytes]]] = {}
+        self._with_drawn = with_drawn
+        self._drawn_channels: dict[int, list[tuple[float, bytes]]] = {}
         self.metadata: dict[str, Any] = {}
         self.layouts: dict[str, SoleLayout] = {}
         self.topics: dict[int, _Topic] = {}
@@ -162,6 +170,8 @@ class McapContent:
             number, _, time = struct.unpack_from("<HIQ", body)
             if number in self.topics:
                 self.topics[number].gather(time, body[22:])
+            elif number in self._drawn_channels:
+                self._drawn_channels[number].append((time * 1e-9, body[22:]))
             else:
                 self._undescribed += number not in self._others
         elif opcode == _OPCODES["schema"]:
@@ -189,9 +199,13 @@ class McapContent:
         schema = self._schemas.get(channel.schema_id)
         fields = _float_fields(channel, schema)
         if fields is None:
-            kind = schema.name if schema is not None else "without a schema"
-            self.warnings.append(f"topic {channel.topic} is skipped: its type {kind} is not made of float64 fields")
             self._others.add(channel.id)
+            kind = schema.name if schema is not None else "without a schema"
+            if kind in SCHEMAS:  # drawn by viewers; its numbers stand in other topics
+                if self._with_drawn:
+                    self._drawn_channels[channel.id] = self.drawn.setdefault(channel.topic, [])
+                return
+            self.warnings.append(f"topic {channel.topic} is skipped: its type {kind} is not made of float64 fields")
         else:
             self.topics[channel.id] = _Topic(channel.topic, fields)
 

@@ -1,9 +1,9 @@
 """Writing a recording: append-only, crash-safe MCAP that Foxglove and `read_mcap` open.
 
-The container is MCAP with the profile "ros2": each topic has one message type of float64 fields, encoded as CDR (a
-4-byte header, then the little-endian values). Rows are gathered in one array a topic and become messages in one
+The container is MCAP with the profile "ros2": each topic of numbers has one message type of float64 fields, encoded as
+CDR (a 4-byte header, then the little-endian values). Rows are gathered in one array a topic and become messages in one
 vectorised step a chunk, which is compressed: under 3 us a message with everything, where building them one by one takes
-4 and more.
+4 and more. Topics for viewers carry messages of Foxglove's schemas (`plantar.recordings.foxglove`), already encoded.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ import os
 import re
 import struct
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Self
+from typing import IO, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +27,11 @@ from plantar.atomic import temporary_beside
 from plantar.errors import InputError, RecordingError
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.layout_file import layout_to_dict
+from plantar.recordings.foxglove import SCHEMAS, descriptor
 from plantar.recordings.mcap_content import MCAP_MAGIC
+from plantar.recordings.protobuf import Template
 
-__all__ = ["RecordChannel", "Recorder"]
+__all__ = ["MessageChannel", "RecordChannel", "Recorder", "TemplateChannel"]
 
 _INDEX_ENTRY = np.dtype([("log_time", "<u8"), ("offset", "<u8")])
 _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x05, 0x06, 0x07
@@ -37,6 +39,15 @@ _CHUNK_HEAD = struct.Struct("<BQQQQII4sQ")  # opcode, length, first and last tim
 _COMPRESSION = b"zstd"
 _CDR_LITTLE_ENDIAN = (0, 1, 0, 0)
 _FIELD_NAME = re.compile(r"[a-z](?:_?[a-z0-9])*")
+_MESSAGE_HEAD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log and publish time
+
+
+class _Gathered(NamedTuple):
+    """The messages of a topic that a chunk takes: m records, one after the other."""
+
+    times: NDArray[np.uint64]
+    offsets: NDArray[np.int64]
+    data: bytes | memoryview
 
 
 class RecordChannel:
@@ -92,8 +103,8 @@ class RecordChannel:
         self._rows[self._filled] = values
         self._filled += 1
 
-    def _take_messages(self) -> NDArray[np.void]:
-        """The gathered rows as MCAP message records (m,); the channel is empty afterwards."""
+    def _take_messages(self) -> _Gathered:
+        """The gathered rows as MCAP message records; the channel is empty afterwards."""
         rows = self._rows[: self._filled]
         out = np.empty(len(rows), dtype=self._message)
         nanoseconds = np.rint(self._times[: self._filled] * 1e9).astype(np.uint64)
@@ -107,7 +118,118 @@ class RecordChannel:
         out["values"] = rows
         self._written += len(rows)
         self._filled = 0
-        return out
+        return _Gathered(nanoseconds, np.arange(len(rows)) * out.itemsize, out.view(np.uint8).data)
+
+
+class MessageChannel:
+    """One topic of a recording whose messages come encoded. Made by `Recorder.message_channel`.
+
+    Attributes:
+        topic: Name of the topic, for example "/tf".
+        schema: Name of the schema of its messages.
+    """
+
+    def __init__(self, recorder: Recorder, number: int, topic: str, schema: str) -> None:
+        self.topic = topic
+        self.schema = schema
+        self._recorder = recorder
+        self._number = number
+        self._times: list[int] = []
+        self._messages: list[bytes] = []
+        self._written = 0
+
+    @property
+    def _filled(self) -> int:
+        return len(self._messages)
+
+    def write(self, time_s: float, message: bytes) -> None:
+        """Append one message; it is on disk after the recorder's next flush.
+
+        Args:
+            time_s: Time in s, 0 or more.
+            message: Its encoding.
+
+        Raises:
+            RecordingError: If the time is negative or not finite.
+        """
+        time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
+        self._times.append(time)
+        self._messages.append(message)
+
+    def _take_messages(self) -> _Gathered:
+        """The gathered messages as MCAP message records; the channel is empty afterwards."""
+        messages, times = self._messages, self._times
+        self._messages, self._times = [], []
+        parts: list[bytes] = []
+        offsets = []
+        offset = 0
+        for time, message in zip(times, messages, strict=True):
+            length = _MESSAGE_HEAD.size - 9 + len(message)
+            parts += [_MESSAGE_HEAD.pack(_MESSAGE, length, self._number, self._written % 2**32, time, time), message]
+            offsets.append(offset)
+            offset += 9 + length
+            self._written += 1
+        return _Gathered(np.array(times, dtype=np.uint64), np.array(offsets, dtype=np.int64), b"".join(parts))
+
+
+class TemplateChannel:
+    """One topic of a recording whose messages are filled in from rows of numbers. Made by `Recorder.template_channel`.
+
+    Attributes:
+        topic: Name of the topic, for example "/tf".
+    """
+
+    def __init__(
+        self,
+        recorder: Recorder,
+        number: int,
+        topic: str,
+        template: Template,
+        values: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None,
+    ) -> None:
+        self.topic = topic
+        self._recorder = recorder
+        self._number = number
+        self._template = template
+        self._values = values
+        self._times: list[int] = []
+        self._rows: list[NDArray[np.float64]] = []
+        self._written = 0
+
+    @property
+    def _filled(self) -> int:
+        return len(self._rows)
+
+    def write(self, time_s: float, row: NDArray[np.float64]) -> None:
+        """Append one message; it is on disk after the recorder's next flush.
+
+        Args:
+            time_s: Time in s, 0 or more.
+            row: Its numbers, which the caller leaves alone from now on.
+
+        Raises:
+            RecordingError: If the time is negative or not finite.
+        """
+        time = self._recorder._due(self.topic, time_s)  # which may take what has been gathered
+        self._times.append(time)
+        self._rows.append(row)
+
+    def _take_messages(self) -> _Gathered:
+        """The gathered rows as MCAP message records; the channel is empty afterwards."""
+        times, rows = np.array(self._times, dtype=np.uint64), np.array(self._rows)
+        self._times, self._rows = [], []
+        messages = self._template.filled_all(times, rows if self._values is None else self._values(rows))
+        head, length = _MESSAGE_HEAD.size, messages.shape[1]
+        out = np.empty((len(times), head + length), dtype=np.uint8)
+        out[:, head:] = messages
+        for i, time in enumerate(times.tolist()):
+            packed = _MESSAGE_HEAD.pack(_MESSAGE, head - 9 + length, self._number, self._written % 2**32, time, time)
+            out[i, :head] = np.frombuffer(packed, dtype=np.uint8)
+            self._written += 1
+        return _Gathered(times, np.arange(len(times)) * (head + length), out.ravel().data)
+
+
+_Channel = RecordChannel | MessageChannel | TemplateChannel
 
 
 class Recorder:
@@ -163,7 +285,7 @@ class Recorder:
         self._records: Any = records
         self._builder_type: Any = RecordBuilder
         self._compress = ZstdCompressor(level=1).compress  # a third less, in 1 us a message
-        self._channels: list[RecordChannel] = []
+        self._channels: list[_Channel] = []
         self._definitions: list[Any] = []  # schema and channel records that no chunk holds yet
         self._summary: list[Any] = []
         self._chunk_indexes: list[Any] = []
@@ -199,8 +321,7 @@ class Recorder:
         Raises:
             RecordingError: If the topic exists, or a field's name or width is not valid.
         """
-        if not topic.startswith("/") or any(c.topic == topic for c in self._channels):
-            raise RecordingError(f"topic {topic!r} is not new or does not start with '/'")
+        self._check_new(topic)
         names = [name for name, _ in fields]
         if not names or len(set(names)) != len(names):
             raise RecordingError(f"topic {topic} needs one or more fields with names that differ; got {names}")
@@ -210,18 +331,82 @@ class Recorder:
                     f"field {name!r} of topic {topic} with {width} values is not valid; "
                     "allowed: lower-case names of letters, digits and single underscores, 1 value or more"
                 )
-        number = len(self._channels) + 1
-        channel = RecordChannel(self, number, topic, fields)
+        channel = RecordChannel(self, len(self._channels) + 1, topic, fields)
         lines = [f"float64 {n}" if width == 1 else f"float64[{width}] {n}" for n, width in fields]
         kind = "".join(part[:1].upper() + part[1:] for part in re.split(r"[^A-Za-z0-9]+", topic))
-        schema = self._records.Schema(
-            id=number, name=f"plantar_msgs/msg/{kind}", encoding="ros2msg", data="\n".join(lines).encode()
-        )
-        entry = self._records.Channel(id=number, topic=topic, message_encoding="cdr", metadata={}, schema_id=number)
-        self._definitions += [schema, entry]
-        self._summary += [schema, entry]
-        self._channels.append(channel)
+        self._declare(channel, f"plantar_msgs/msg/{kind}", "ros2msg", "\n".join(lines).encode(), "cdr")
         return channel
+
+    def message_channel(self, topic: str, schema: str) -> MessageChannel:
+        """Declare a topic of messages that viewers draw.
+
+        Args:
+            topic: Name that starts with "/", new in this recording.
+            schema: Name of their schema, one of `plantar.recordings.foxglove.SCHEMAS`.
+
+        Returns:
+            The channel to write to.
+
+        Raises:
+            RecordingError: If the topic exists or the schema is not known.
+        """
+        self._check_new(topic, schema)
+        channel = MessageChannel(self, len(self._channels) + 1, topic, schema)
+        self._declare(channel, schema, "protobuf", descriptor(schema), "protobuf")
+        return channel
+
+    def template_channel(
+        self,
+        topic: str,
+        schema: str,
+        template: Template,
+        values: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
+    ) -> TemplateChannel:
+        """Declare a topic of messages for viewers that differ in their numbers alone: they are encoded a chunk at once.
+
+        Args:
+            topic: Name that starts with "/", new in this recording.
+            schema: Name of their schema, one of `plantar.recordings.foxglove.SCHEMAS`.
+            template: The message.
+            values: Makes the values (m, k) that the template's slots name of the rows (m, j) that were written; None
+                where they are the same.
+
+        Returns:
+            The channel to write to.
+
+        Raises:
+            RecordingError: If the topic exists or the schema is not known.
+        """
+        self._check_new(topic, schema)
+        channel = TemplateChannel(self, len(self._channels) + 1, topic, template, values)
+        self._declare(channel, schema, "protobuf", descriptor(schema), "protobuf")
+        return channel
+
+    def _due(self, topic: str, time_s: float) -> int:
+        """A message's time in ns, after what was gathered has been written where that is due."""
+        if not 0.0 <= time_s < 1e9:
+            raise RecordingError(f"topic {topic} got the time {time_s} s; allowed: 0 to 1e9 s")
+        if time_s >= self._flush_at:
+            self.flush()
+            self._flush_at = time_s + self.chunk_duration
+        return round(time_s * 1e9)
+
+    def _check_new(self, topic: str, schema: str | None = None) -> None:
+        if not topic.startswith("/") or any(c.topic == topic for c in self._channels):
+            raise RecordingError(f"topic {topic!r} is not new or does not start with '/'")
+        if schema is not None and schema not in SCHEMAS:
+            raise RecordingError(f"schema {schema!r} of topic {topic} is unknown; allowed: {', '.join(SCHEMAS)}")
+
+    def _declare(self, channel: _Channel, schema: str, language: str, text: bytes, encoding: str) -> None:
+        """Keep a topic's schema and channel records for the next chunk and the summary."""
+        number = channel._number
+        described = self._records.Schema(id=number, name=schema, encoding=language, data=text)
+        entry = self._records.Channel(
+            id=number, topic=channel.topic, message_encoding=encoding, metadata={}, schema_id=number
+        )
+        self._definitions += [described, entry]
+        self._summary += [described, entry]
+        self._channels.append(channel)
 
     def flush(self) -> None:
         """Write what was gathered as one chunk and hand it to the operating system.
@@ -239,11 +424,11 @@ class Recorder:
         low, high = 2**63, 0
         for channel in full:
             messages = channel._take_messages()
-            times = messages["log_time"]
+            times = messages.times
             low, high = min(low, int(times.min())), max(high, int(times.max()))
-            entries = np.empty(len(messages), dtype=_INDEX_ENTRY)
+            entries = np.empty(len(times), dtype=_INDEX_ENTRY)
             entries["log_time"] = times
-            entries["offset"] = offset + np.arange(len(messages)) * messages.itemsize
+            entries["offset"] = offset + messages.offsets
             entries = entries[np.argsort(times, kind="stable")]
             index = self._builder_type()
             index.start_record(_MESSAGE_INDEX)
@@ -252,8 +437,8 @@ class Recorder:
             index.write(entries.tobytes())
             index.finish_record()
             indexes.append((channel._number, index.end()))
-            parts.append(messages.view(np.uint8).data)
-            offset += messages.nbytes
+            parts.append(messages.data)
+            offset += len(messages.data)
         data = b"".join(parts)
         packed = self._compress(data)
         head = (low, high, offset, zlib.crc32(data), len(_COMPRESSION), _COMPRESSION, len(packed))

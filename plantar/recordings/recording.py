@@ -48,6 +48,7 @@ class Recording:
         layouts: Sole layout of each side that has one.
         topics: Table of each topic.
         warnings: What was missing, damaged or skipped, one line each.
+        drawn: Time in s and encoding of each message for viewers, by topic; empty unless they were asked for.
     """
 
     path: Path
@@ -55,6 +56,7 @@ class Recording:
     layouts: Mapping[str, SoleLayout] = field(default_factory=dict)
     topics: Mapping[str, Table] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
+    drawn: Mapping[str, list[tuple[float, bytes]]] = field(default_factory=dict)
 
     def to_npz(self, path: str | os.PathLike[str]) -> Path:
         """Write all tables to one compressed NPZ; it appears whole or not at all.
@@ -109,7 +111,7 @@ class Recording:
         return [Path(folder) / name for name in [*texts, *names]]
 
 
-def read_mcap(path: str | os.PathLike[str]) -> Recording:
+def read_mcap(path: str | os.PathLike[str], *, drawn: bool = False) -> Recording:
     """Read an MCAP recording whose topics are made of float64 fields.
 
     A file that was cut short, by a killed run or a full disk, is read up to its last whole chunk; a damaged chunk is
@@ -117,6 +119,7 @@ def read_mcap(path: str | os.PathLike[str]) -> Recording:
 
     Args:
         path: The file.
+        drawn: Whether to keep the messages for viewers, too (`plantar.recordings.foxglove`).
 
     Returns:
         The recording.
@@ -129,7 +132,7 @@ def read_mcap(path: str | os.PathLike[str]) -> Recording:
         Traceback (most recent call last):
         plantar.errors.FormatError: none.mcap: cannot be read (No such file or directory)
     """
-    content = McapContent()
+    content = McapContent(drawn)
     with open_input(path, FormatError) as stream:
         head = stream.read(len(MCAP_MAGIC))
         if not head:
@@ -150,4 +153,5 @@ def read_mcap(path: str | os.PathLike[str]) -> Recording:
         layouts=content.layouts,
         topics=topics,
         warnings=tuple(content.warnings),
+        drawn=content.drawn,
     )

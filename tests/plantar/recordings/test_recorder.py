@@ -14,6 +14,8 @@ import pytest
 from mcap.reader import make_reader
 
 from plantar import RecordingError, hex_layout
+from plantar.recordings import foxglove
+from plantar.recordings.protobuf import Slot, Template
 from plantar.recordings.recorder import Recorder
 from plantar.recordings.recording import read_mcap
 
@@ -60,6 +62,40 @@ def test_mcap_library_reads_and_seeks_the_file(tmp_path: Path) -> None:
     assert (schema.encoding, schema.data) == ("ros2msg", b"float64[42] force")
     assert message.data[:4] == b"\x00\x01\x00\x00"
     assert len(message.data) == 4 + 42 * 8
+
+
+def test_messages_for_viewers_are_kept_beside_the_numbers_and_read_where_they_are_wanted(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    said = [foxglove.log_message(0.1 * i, f"line {i}") for i in range(20)]
+    ball = Template(
+        foxglove.entity("ball", "world", foxglove.sphere(foxglove.pose([Slot(0)] * 3), (1.0,) * 3, (1.0,) * 4))
+    )
+    with Recorder(path) as recorder:
+        log = recorder.message_channel("/log", "foxglove.Log")
+        scene = recorder.template_channel("/scene", "foxglove.SceneUpdate", ball, lambda rows: 2.0 * rows)
+        numbers = recorder.channel("/numbers", [("a", 1)])
+        for i, message in enumerate(said):
+            log.write(0.1 * i, message)
+            scene.write(0.1 * i, np.array([float(i)]))
+            numbers.write(0.1 * i, np.array([float(i)]))
+    plain, drawn = read_mcap(path), read_mcap(path, drawn=True)
+    assert plain.warnings == drawn.warnings == ()
+    assert list(plain.topics) == list(drawn.topics) == ["/numbers"]
+    assert plain.drawn == {}
+    assert [message for _, message in drawn.drawn["/log"]] == said
+    assert [time for time, _ in drawn.drawn["/scene"]] == pytest.approx([0.1 * i for i in range(20)])
+    assert [m for _, m in drawn.drawn["/scene"]] == [ball.filled(0.1 * i, [2.0 * i]) for i in range(20)]
+
+
+def test_a_schema_that_is_unknown_and_a_topic_that_exists_are_refused(tmp_path: Path) -> None:
+    with Recorder(tmp_path / "run.mcap") as recorder:
+        channel = recorder.message_channel("/log", "foxglove.Log")
+        with pytest.raises(RecordingError, match=r"foxglove\.Log"):
+            recorder.message_channel("/other", "foxglove.Grid")
+        with pytest.raises(RecordingError, match="not new"):
+            recorder.message_channel("/log", "foxglove.Log")
+        with pytest.raises(RecordingError, match="allowed: 0 to"):
+            channel.write(-1.0, b"")
 
 
 def test_layouts_are_kept(tmp_path: Path) -> None:
