@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command, Sensors
+from gait.plan.walk_plan import PlanView
 from plantar.layouts.layout import Side
 from plantar.recordings.recorder import Recorder
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES
 from sim.arms.compliant_arm import CompliantArm
+from sim.figures.drawn_run import DrawnRun
 from sim.model.contact_truth import GroundTruth
 from sim.model.world import World
 from sim.partner.guide import Guide
@@ -86,6 +88,7 @@ class RunLog:
             self._guides = channel("/guide", [("place", 3), ("held", 3), ("reference", 1), ("moved", 1), ("force", 1)])
         self._joint_row, self._estimate_row, self._reference_row = np.empty(3 * k), np.empty(10), np.empty(11)
         self._foot_row, self._body_row = np.empty(13), np.empty(21)
+        self._drawn = DrawnRun(self._recorder, world)
 
     def __enter__(self) -> RunLog:
         self._recorder.__enter__()
@@ -98,6 +101,7 @@ class RunLog:
         """Record the soles' latest readings at the time of their samples."""
         for side, channel in self._skin.items():
             channel.write(readings[side].time, readings[side].force)
+        self._drawn.skin(readings)
 
     def zmps(self, time: float, skin: NDArray[np.float64] | None, force_torque: NDArray[np.float64] | None) -> None:
         """Record the filtered ZMP (2,) in m of the skin and that of the ankles' sensors; NaN for none.
@@ -120,12 +124,25 @@ class RunLog:
             row[5 : 5 + len(ring)] = ring
             self._foothold.write(time, row)
 
-    def tick(self, sensors: Sensors, command: Command, joints: NDArray[np.float64], truth: GroundTruth) -> None:
+    def say(self, time: float, text: str, level: str = "info") -> None:
+        """Record what happened as a line of the log.
+
+        Args:
+            time: Time in s.
+            text: What happened.
+            level: "info", "warning" or "error".
+        """
+        self._drawn.say(time, text, level)
+
+    def tick(
+        self, sensors: Sensors, command: Command, plan: PlanView, joints: NDArray[np.float64], truth: GroundTruth
+    ) -> None:
         """Record one control tick.
 
         Args:
             sensors: What the controller read.
             command: What it asked for.
+            plan: The plan of the walk.
             joints: Joint references (k,) in rad.
             truth: What the judge saw.
         """
@@ -155,6 +172,7 @@ class RunLog:
         self._body.write(time, row)
         if command.footholds:
             self._footholds(time, command)
+        self._drawn.tick(time, command, plan, truth)
         if self._touch is not None:
             self._record_touch(self._touch, sensors, command)
         if self._arm is not None:

@@ -292,12 +292,14 @@ class Simulation:
                     self.recovery.update(data.time, truth.zmp, com, plan.vrp, plan.com)
                 zmps = None if self.zmps is None else self.zmps.update(data.time, command)
                 if log is not None:
-                    log.tick(reading, command, joints, truth)
+                    log.tick(reading, command, controller.plan.view, joints, truth)
                     if zmps is not None:
                         log.zmps(data.time, *zmps)
                 else:
                     skipped["recorded_ticks"] += 1
-                if judge.fell:
+                if judge.fall is not None:
+                    if log is not None:
+                        log.say(data.time, judge.fall[2], "error")
                     break
                 if progress is not None and start - shown > 0.1:
                     shown = start

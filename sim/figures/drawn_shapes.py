@@ -1,0 +1,152 @@
+"""A model's shapes as primitives of a 3D viewer, each body's in its own frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.recordings.foxglove import cube, cylinder, entity, pose, sphere, triangles
+from plantar.recordings.protobuf import Part
+
+__all__ = ["body_entity", "coarse_mesh", "drawn_bodies", "frame_name"]
+
+_SHOWN = (0, 1, 2)  # groups of geoms that MuJoCo's own viewer shows at first
+_UNSET = (0.5, 0.5, 0.5, 1.0)  # colour of a geom that takes its material's
+_FLOOR = 20.0  # m: side of what is drawn of an endless plane
+_FACES = 60_000  # of all meshes of a model together; what is finer is drawn coarser
+
+_Geom = mujoco.mjtGeom
+
+
+def frame_name(model: Any, body: int) -> str:
+    """Name of a body's frame.
+
+    Args:
+        model: The MuJoCo model.
+        body: Its id.
+
+    Returns:
+        The body's name, or its number where it has none; "world" for the world.
+    """
+    return str(model.body(body).name) or f"body_{body}"
+
+
+def drawn_bodies(model: Any) -> list[int]:
+    """Ids of the bodies, the world excepted, that have something to show."""
+    return sorted({int(model.geom_bodyid[i]) for i in range(model.ngeom) if _is_shown(model, i)} - {0})
+
+
+def body_entity(model: Any, body: int) -> Part:
+    """A body's visible geoms as an entity that moves with its frame.
+
+    Args:
+        model: The MuJoCo model.
+        body: Its id.
+
+    Returns:
+        An entity (`plantar.recordings.foxglove.entity`).
+    """
+    name = frame_name(model, body)
+    geoms = [i for i in range(model.ngeom) if model.geom_bodyid[i] == body and _is_shown(model, i)]
+    return entity(name, name, *(part for i in geoms for part in _primitives(model, i)))
+
+
+def _is_shown(model: Any, geom: int) -> bool:
+    return int(model.geom_group[geom]) in _SHOWN and _colour(model, geom)[3] > 0.0
+
+
+def _colour(model: Any, geom: int) -> tuple[float, ...]:
+    rgba = tuple(map(float, model.geom_rgba[geom]))
+    material = int(model.geom_matid[geom])
+    if material >= 0 and rgba == _UNSET:
+        return tuple(map(float, model.mat_rgba[material]))
+    return rgba
+
+
+def _primitives(model: Any, geom: int) -> list[Part]:
+    """What is drawn of a geom; nothing of height fields and of what MuJoCo itself does not draw."""
+    kind, colour = int(model.geom_type[geom]), _colour(model, geom)
+    a, b, c = map(float, model.geom_size[geom])
+    position = tuple(map(float, model.geom_pos[geom]))
+    w, x, y, z = map(float, model.geom_quat[geom])
+    rotation = (x, y, z, w)
+    place = pose(position, rotation)
+    if kind == _Geom.mjGEOM_PLANE:
+        thin = 1e-3
+        below = np.array(position) - thin * _axis(model, geom)
+        return [cube(pose(tuple(below.tolist()), rotation), (2 * a or _FLOOR, 2 * b or _FLOOR, 2 * thin), colour)]
+    if kind == _Geom.mjGEOM_BOX:
+        return [cube(place, (2 * a, 2 * b, 2 * c), colour)]
+    if kind == _Geom.mjGEOM_SPHERE:
+        return [sphere(place, (2 * a, 2 * a, 2 * a), colour)]
+    if kind == _Geom.mjGEOM_ELLIPSOID:
+        return [sphere(place, (2 * a, 2 * b, 2 * c), colour)]
+    if kind in (_Geom.mjGEOM_CYLINDER, _Geom.mjGEOM_CAPSULE):
+        parts = [cylinder(place, (2 * a, 2 * a, 2 * b), colour)]
+        if kind == _Geom.mjGEOM_CAPSULE:
+            for end in (b, -b):
+                top = tuple((np.array(position) + end * _axis(model, geom)).tolist())
+                parts.append(sphere(pose(top, rotation), (2 * a, 2 * a, 2 * a), colour))
+        return parts
+    if kind == _Geom.mjGEOM_MESH:
+        return [_mesh(model, geom, colour)]
+    return []
+
+
+def _axis(model: Any, geom: int) -> NDArray[np.float64]:
+    """The z axis (3,) of a geom in its body's frame."""
+    return _rotation(model.geom_quat[geom])[:, 2]
+
+
+def _rotation(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
+    matrix = np.empty(9)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
+
+
+def _mesh(model: Any, geom: int, colour: tuple[float, ...]) -> Part:
+    """A mesh, coarser where the model's meshes together have more faces than a viewer draws at ease."""
+    mesh = int(model.geom_dataid[geom])
+    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+    start, number = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+    vertices = np.asarray(model.mesh_vert[first : first + count], dtype=float)
+    faces = np.asarray(model.mesh_face[start : start + number], dtype=np.int64)
+    share = _FACES / model.nmeshface
+    if share < 1.0:
+        vertices, faces = coarse_mesh(vertices, faces, max(4, int(share * number)))
+    placed = vertices @ _rotation(model.geom_quat[geom]).T + model.geom_pos[geom]
+    return triangles(np.round(placed, 5).tolist(), faces, colour)
+
+
+def coarse_mesh(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], most: int
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """A mesh of fewer faces: vertices in one cell of a lattice become one, at their mean.
+
+    (Vertex clustering; Rossignac and Borrel, 1993.)
+
+    Args:
+        vertices: Corners (v, 3) in m.
+        faces: Three corners (f, 3) of each triangle.
+        most: Number of faces that it may have, 4 or more.
+
+    Returns:
+        Corners and triangles; those of the mesh itself where it has no more than `most`.
+    """
+    size = float(np.ptp(vertices, axis=0).max())
+    cells = 128
+    coarse, kept = vertices, faces
+    while len(kept) > most and cells > 0:
+        lattice = np.floor((vertices - vertices.min(axis=0)) / (size / cells)).astype(np.int64).clip(max=cells - 1)
+        _, owner = np.unique(lattice, axis=0, return_inverse=True)
+        owner = owner.ravel()
+        counts = np.bincount(owner)
+        coarse = np.column_stack([np.bincount(owner, weights=column) / counts for column in vertices.T])
+        moved = owner[faces]
+        whole = (moved != np.roll(moved, 1, axis=1)).all(axis=1)
+        kept = np.unique(moved[whole], axis=0)
+        cells = int(0.8 * cells)
+    return coarse, kept
