@@ -52,6 +52,7 @@ LEVELS = {"info": 2, "warning": 3, "error": 4}
 
 Numbers = Sequence[float | Slot]
 
+_ORIGIN = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 _LINE_LOOP = 1
 
@@ -192,7 +193,8 @@ def line_loop(points: Sequence[Numbers], thickness: float, colour: Numbers) -> P
         The field of an entity.
     """
     corners = [numbers(5, point) for point in points]
-    return nested(11, integer(1, _LINE_LOOP), double(3, thickness), *corners, numbers(6, colour))
+    place = nested(2, numbers(1, _ORIGIN), numbers(2, _UPRIGHT))
+    return nested(11, integer(1, _LINE_LOOP), place, double(3, thickness), *corners, numbers(6, colour))
 
 
 def triangles(points: Sequence[Numbers], indices: ArrayLike, colour: Numbers) -> Part:
@@ -207,7 +209,7 @@ def triangles(points: Sequence[Numbers], indices: ArrayLike, colour: Numbers) ->
         The field of an entity.
     """
     corners = [numbers(2, point) for point in points]
-    return nested(12, *corners, numbers(3, colour), fixed32s(5, np.ravel(indices)))
+    return nested(12, pose(_ORIGIN), *corners, numbers(3, colour), fixed32s(5, np.ravel(indices)))
 
 
 def words(place: Part, value: str, size: float, colour: Numbers) -> Part:

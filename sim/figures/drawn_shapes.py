@@ -59,11 +59,18 @@ def _is_shown(model: Any, geom: int) -> bool:
 
 
 def _colour(model: Any, geom: int) -> tuple[float, ...]:
-    rgba = tuple(map(float, model.geom_rgba[geom]))
+    """Red, green, blue and opacity of a geom; of a texture the mean."""
+    rgba = model.geom_rgba[geom].astype(float)
     material = int(model.geom_matid[geom])
-    if material >= 0 and rgba == _UNSET:
-        return tuple(map(float, model.mat_rgba[material]))
-    return rgba
+    if material >= 0:
+        rgba = model.mat_rgba[material].astype(float) if tuple(rgba) == _UNSET else rgba
+        texture = int(model.mat_texid[material, mujoco.mjtTextureRole.mjTEXROLE_RGB])
+        if texture >= 0:
+            count = int(model.tex_height[texture]) * int(model.tex_width[texture]) * int(model.tex_nchannel[texture])
+            first = int(model.tex_adr[texture])
+            pixels = model.tex_data[first : first + count].reshape(-1, int(model.tex_nchannel[texture]))
+            rgba[:3] *= pixels[:, :3].mean(axis=0) / 255.0
+    return tuple(rgba.round(4).tolist())
 
 
 def _primitives(model: Any, geom: int) -> list[Part]:

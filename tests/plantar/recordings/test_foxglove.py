@@ -64,6 +64,7 @@ def test_an_entity_of_every_primitive() -> None:
     assert (cylinder.top_scale, cylinder.bottom_scale) == (1.0, 1.0)
     assert (arrow.shaft_length, arrow.shaft_diameter, arrow.head_diameter) == (0.5, 0.02, 0.04)
     (line,), (mesh,) = found.lines, found.triangles
+    assert line.pose.orientation.w == mesh.pose.orientation.w == 1.0  # a viewer may take none for a quaternion of zeros
     assert (line.type, len(line.points), line.thickness) == (LinePrimitive.LINE_LOOP, 3, 0.01)
     assert (list(mesh.indices), len(mesh.points), mesh.color.a) == ([0, 1, 2], 3, 0.5)
     assert (found.texts[0].text, found.texts[0].billboard) == ("7", True)

@@ -14,10 +14,12 @@ MODEL = """
 <mujoco>
   <asset>
     <material name="blue" rgba="0 0 1 0.5"/>
+    <texture name="checker" type="2d" builtin="checker" rgb1="1 1 1" rgb2="0 0 0" width="64" height="64"/>
+    <material name="checker" texture="checker" rgba="1 1 0.5 1"/>
     <mesh name="wedge" vertex="0 0 0  1 0 0  0 1 0  0 0 1"/>
   </asset>
   <worldbody>
-    <geom type="plane" size="0 0 1" euler="0 90 0" pos="2 0 0"/>
+    <geom type="plane" size="0 0 1" euler="0 90 0" pos="2 0 0" material="checker"/>
     <body name="arm">
       <geom type="box" size="0.1 0.2 0.3" pos="1 2 3" euler="90 0 0" material="blue"/>
       <geom type="sphere" size="0.1" rgba="1 0 0 1"/>
@@ -42,6 +44,8 @@ def test_every_visible_shape_is_drawn_as_large_and_there_where_it_is() -> None:
     (floor,) = world.cubes
     assert (world.frame_id, floor.size.x, floor.size.y) == ("world", 20.0, 20.0)
     assert floor.pose.position.x == pytest.approx(2.0 - 1e-3)  # its upper face lies in the plane, whose normal is x
+    # Black and white squares are grey from afar, and half as blue as the material says.
+    assert [floor.color.r, floor.color.g, floor.color.b] == pytest.approx([0.5, 0.5, 0.25], abs=0.01)
     (box,), (cylinder, shaft), (mesh,) = arm.cubes, arm.cylinders, arm.triangles
     assert [box.size.x, box.size.y, box.size.z] == [0.2, 0.4, 0.6]
     assert [box.color.b, box.color.a] == [1.0, 0.5]
