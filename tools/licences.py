@@ -17,8 +17,9 @@ PAGE = ROOT / "docs" / "licences.md"
 HEAD = """# Licences of what Plantar depends on
 
 Made by `python tools/licences.py` from what the installed packages state of themselves. Plantar is Apache-2.0 and
-contains none of them. Extras: none = always installed; `dev` and `docs` only for working on Plantar itself, where the
-one library under the GPL belongs: quadprog, a reference in tests.
+contains none of them, but three.js 0.170 (MIT, `plantar/viewer/three.LICENSE.txt`), with which pages of `plantar view`
+draw, and the descriptors of three Foxglove schemas (MIT). Extras: none = always installed; `dev` and `docs` only for
+working on Plantar itself, where the one library under the GPL belongs: quadprog, a reference in tests.
 
 | library | extra | licence |
 |---|---|---|
