@@ -26,7 +26,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
         *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points", "lazy", "atomic", "console"),
         *("optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting"),
-        *("geometry", "sensing", "percepts", "recordings", "formats", "bench"),
+        *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
     ),
     "gait": (
         *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "controller"),

@@ -54,7 +54,16 @@ def axe_script() -> str:
     return "<script>" + AXE.read_text(encoding="utf-8").replace("</script", "<\\/script") + "</script>"
 
 
-def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: float = 90.0, width: int = 1000) -> Visit:
+def visit(
+    page: Path,
+    probe: str,
+    work: Path,
+    *,
+    dark: bool = False,
+    timeout: float = 90.0,
+    width: int = 1000,
+    webgl: bool = False,
+) -> Visit:
     """Open a copy of a page that runs a probe at its end, and take what the probe sends back.
 
     The page comes from a server on this machine, so that the browser runs in real time and ends when the probe has.
@@ -66,6 +75,7 @@ def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: fl
         dark: Whether the system prefers dark mode.
         timeout: Longest time in s.
         width: Width of the window in CSS pixels.
+        webgl: Whether the page draws in 3D, which the browser then does without a GPU.
     """
     script = (
         "<script>window.problems = [];"
@@ -102,7 +112,8 @@ def visit(page: Path, probe: str, work: Path, *, dark: bool = False, timeout: fl
 
     server = ThreadingHTTPServer(("127.0.0.1", 0), Server)
     Thread(target=server.serve_forever, daemon=True).start()
-    command = [browser(), "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]
+    command = [browser(), "--headless=new", "--no-sandbox", "--disable-dev-shm-usage"]
+    command += ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] if webgl else ["--disable-gpu"]
     command += [f"--user-data-dir={work / 'profile'}", "--enable-logging=stderr", f"--window-size={width},1400"]
     command += ["--no-first-run", "--disable-extensions", "--disable-background-networking"]
     command += ["--blink-settings=preferredColorScheme=0"] if dark else []

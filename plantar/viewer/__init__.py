@@ -1,0 +1,1 @@
+"""A recording in the browser: one page that needs no network."""

@@ -1,0 +1,202 @@
+"""The page itself: HTML, style, script, three.js and the walks in one file that asks for no other.
+
+three.js lies beside this file as its npm package has it (three 0.170.0, `build/three.module.min.js`, 692 kB, MIT
+licence). A page that loaded it from a server would be dead without a network, and would tell that server who looks at
+which recording.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import os
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from importlib.resources import files as package_files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from plantar.atomic import write_text
+from plantar.errors import InputError
+from plantar.viewer.messages import Entity, Shape
+from plantar.viewer.walk import Walk, read_walk
+
+__all__ = ["page_of", "view_text", "write_page"]
+
+_MOST = 2  # walks side by side
+_NOT_MEASURED = 0xFFFF
+_EXPORT = re.compile(r"export\s*\{([^}]*)\};?\s*$")
+
+
+def write_page(recordings: Sequence[str | os.PathLike[str]], path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Write the page of one recording, or of two side by side.
+
+    Args:
+        recordings: MCAP files.
+        path: HTML file to write.
+
+    Returns:
+        What was written: the file, its size in bytes, for each walk its name, duration in s and number of log lines,
+        and the warnings.
+
+    Raises:
+        InputError: If there are too many recordings or the page cannot be written.
+        FormatError: If a recording cannot be read or has no soles to show.
+    """
+    if not 1 <= len(recordings) <= _MOST:
+        raise InputError(f"{len(recordings)} recordings to show; allowed: 1, or {_MOST} side by side")
+    walks = [read_walk(recording) for recording in recordings]
+    if len({walk.name for walk in walks}) < len(walks):  # the same scene twice: files tell them apart
+        files = [Path(recording) for recording in recordings]
+        known = [file.stem if len({f.stem for f in files}) == len(files) else str(file) for file in files]
+        walks = [replace(walk, name=f"{walk.name} ({name})") for walk, name in zip(walks, known, strict=True)]
+    text = page_of(walks)
+    write_text(path, text)
+    return {
+        "file": str(Path(path)),
+        "bytes": len(text.encode()),
+        "walks": [
+            {"name": walk.name, "duration_s": round(float(np.ptp(walk.time)), 3), "log_lines": len(walk.events)}
+            for walk in walks
+        ],
+        "warnings": [line for walk in walks for line in walk.warnings],
+    }
+
+
+def view_text(written: Mapping[str, Any]) -> str:
+    """What was written, for people.
+
+    Args:
+        written: As `write_page` returns it.
+
+    Returns:
+        Lines of text.
+    """
+    walks = "\n".join(f"  {walk['name']}: {walk['duration_s']:.1f} s" for walk in written["walks"])
+    return f"{walks}\n  {written['file']} ({written['bytes'] / 1e6:.1f} MB)"
+
+
+def page_of(walks: Sequence[Walk]) -> str:
+    """The page of walks.
+
+    Args:
+        walks: One or two.
+
+    Returns:
+        HTML.
+    """
+    title = " and ".join(walk.name for walk in walks)
+    data = json.dumps([_walk(walk) for walk in walks], separators=(",", ":")).replace("<", "\\u003c")
+    parts = {
+        "TITLE": html.escape(title),
+        "STYLE": _asset("view.css"),
+        "VIEWS": "\n".join(_view(number, walk, len(walks) == 1) for number, walk in enumerate(walks)),
+        "DATA": data,
+        "SCRIPT": _three() + _asset("view.js"),
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], _asset("view.html"))
+
+
+def _asset(name: str) -> str:
+    return package_files("plantar.viewer").joinpath(name).read_text(encoding="utf-8")
+
+
+def _three() -> str:
+    """three.js as a part of a script: what the module exports becomes the members of a constant."""
+    code = _asset("three.module.min.js")
+    exported = _EXPORT.search(code)
+    assert exported is not None, "three.module.min.js ends with its exports"
+    names = [entry.split(" as ") for entry in exported[1].split(",")]
+    members = ",".join(f"{name[-1]}:{name[0]}" for name in names)
+    return f"{code[: exported.start()]}\nconst THREE={{{members}}};\n"
+
+
+def _view(number: int, walk: Walk, alone: bool) -> str:
+    """The part of the page for a walk; where it is alone, the page's title names it already."""
+    name = html.escape(walk.name)
+    warnings = "".join(f"<li>{html.escape(line)}</li>" for line in walk.warnings)
+    lines = "".join(
+        f'<li class="{event.level}"><button type="button" data-time="{event.time:.3f}">{event.time:.2f} s</button> '
+        f"{html.escape(event.text)}</li>"
+        for event in walk.events
+    )
+    log = f'<ol class="log">{lines}</ol>' if lines else "<p>Nothing was logged.</p>"
+    return f"""<section class="walk" id="walk-{number}" aria-labelledby="name-{number}">
+<h2 id="name-{number}"{' class="hidden"' if alone else ""}>{name}</h2>
+{f'<ul class="warnings">{warnings}</ul>' if warnings else ""}
+<canvas class="space" tabindex="0" role="img"
+aria-label="{name} in 3D; drag to turn, arrow keys to step in time"></canvas>
+<p class="readout"></p>
+<div class="small">
+<figure><canvas class="soles" role="img" aria-label="Force on each taxel of both soles"></canvas>
+<figcaption>Soles from above; the cross is the CoP</figcaption></figure>
+<figure><canvas class="forces" role="img" aria-label="Force on each sole over time"></canvas>
+<figcaption>Force on each sole: <span class="left">left</span>, <span class="right">right</span></figcaption></figure>
+</div>
+<h3>Log</h3>
+<div class="scroll" tabindex="0" role="region" aria-label="Log of {name}">{log}</div>
+</section>"""
+
+
+def _walk(walk: Walk) -> dict[str, Any]:
+    """A walk as JSON; arrays as base64 of little-endian numbers."""
+    frames = list(walk.poses)
+    poses = np.stack([walk.poses[name] for name in frames], axis=1)
+    return {
+        "time": _packed(walk.time - walk.time[0], "<f4"),
+        "frames": frames,
+        "poses": _packed(poses, "<f4"),
+        "entities": [_entity(entity) for entity in walk.shapes],
+        "soles": {
+            side: {
+                "cells": [layout.vertices[list(corners), :2].round(5).tolist() for corners in layout.corners],
+                "centers": layout.positions[:, :2].round(5).tolist(),
+                "outline": layout.outline.round(5).tolist(),
+                "force": _packed(_decinewtons(walk.force[side]), "<u2"),
+            }
+            for side, layout in walk.layouts.items()
+        },
+        "zmp": _packed(walk.zmp, "<f4"),
+        "polygon": _packed(walk.polygon, "<f4"),
+        "footsteps": [
+            {"time": time - float(walk.time[0]), "entities": [_entity(entity) for entity in shown]}
+            for time, shown in walk.footsteps
+        ],
+        "weight": walk.weight,
+    }
+
+
+def _decinewtons(force: ArrayLike) -> Any:
+    """Forces in 0.1 N from 0 on, as 16-bit numbers; the largest number is one that was not measured."""
+    values = np.asarray(force)
+    rounded = np.clip(np.nan_to_num(values) * 10.0, 0, _NOT_MEASURED - 1).round()
+    return np.where(np.isfinite(values), rounded, _NOT_MEASURED)
+
+
+def _entity(entity: Entity) -> dict[str, Any]:
+    shapes = [_shape(shape) for shape in entity.shapes if shape.kind != "text"]
+    return {"name": entity.name, "frame": entity.frame, "shapes": shapes}
+
+
+def _shape(shape: Shape) -> dict[str, Any]:
+    out: dict[str, Any] = {
+        "kind": shape.kind,
+        "pose": [round(v, 6) for v in shape.pose],
+        "colour": [round(v, 3) for v in shape.colour],
+    }
+    if shape.size:
+        out["size"] = [round(v, 6) for v in shape.size]
+    if shape.points:
+        out["points"] = _packed(shape.points, "<f4")
+    if shape.indices:
+        out["indices"] = _packed(shape.indices, "<u4")
+    return out
+
+
+def _packed(values: ArrayLike, kind: str) -> str:
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()

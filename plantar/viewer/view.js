@@ -1,0 +1,501 @@
+// Shows the walks of the page: in 3D, on the soles, over time. Everything is drawn for one time, when that changes.
+(() => {
+'use strict';
+const $ = id => document.getElementById(id);
+const NOT_MEASURED = 0xFFFF, FULL = 0.1, ARROW = 0.4, CORNERS = 12;  // FULL: weight; ARROW: m that stand for the weight
+const VIRIDIS = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]].map(c => c.map(v => v / 255));
+const SEEN = {corner: [-0.9, 0.3], side: [-Math.PI / 2, 0.12], front: [0, 0.12], above: [-Math.PI / 2, 1.5],
+  below: [-Math.PI / 2, -1.3]};  // azimuth and elevation in rad of the eye
+const SIDES = ['left', 'right'];
+const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+function unpack(text, type) {
+  const bytes = Uint8Array.from(atob(text), c => c.charCodeAt(0));
+  return new type(bytes.buffer);
+}
+
+function viridis(share) {
+  const at = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1), low = Math.min(Math.floor(at), VIRIDIS.length - 2);
+  return VIRIDIS[low].map((v, i) => v + (at - low) * (VIRIDIS[low + 1][i] - v));
+}
+
+// A walk's numbers, and what they are at a time.
+class Walk {
+  constructor(given) {
+    Object.assign(this, given);
+    this.time = unpack(given.time, Float32Array);
+    this.poses = unpack(given.poses, Float32Array);
+    this.zmp = unpack(given.zmp, Float32Array);
+    this.polygon = unpack(given.polygon, Float32Array);
+    this.totals = {};
+    for (const side of SIDES) {
+      const sole = this.soles[side];
+      if (!sole) continue;
+      sole.force = unpack(sole.force, Uint16Array);
+      const n = sole.centers.length;
+      this.totals[side] = Float32Array.from(this.time, (_, i) => {
+        let sum = 0;
+        for (let k = i * n; k < (i + 1) * n; k++) if (sole.force[k] !== NOT_MEASURED) sum += sole.force[k] / 10;
+        return sum;
+      });
+    }
+  }
+  get duration() { return this.time[this.time.length - 1]; }
+  index(time) {
+    let low = 0, high = this.time.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (this.time[middle] <= time + 1e-6) low = middle; else high = middle - 1;
+    }
+    return low;
+  }
+  // Position and quaternion of a frame between two pictures.
+  pose(frame, time, place, turn) {
+    const i = this.index(time), j = Math.min(i + 1, this.time.length - 1), span = this.time[j] - this.time[i];
+    const share = span > 0 ? Math.min(Math.max((time - this.time[i]) / span, 0), 1) : 0;
+    const a = 7 * (i * this.frames.length + frame), b = 7 * (j * this.frames.length + frame), p = this.poses;
+    place.set(p[a], p[a + 1], p[a + 2]).lerp(new THREE.Vector3(p[b], p[b + 1], p[b + 2]), share);
+    turn.set(p[a + 3], p[a + 4], p[a + 5], p[a + 6]);
+    turn.slerp(new THREE.Quaternion(p[b + 3], p[b + 4], p[b + 5], p[b + 6]), share);
+  }
+  force(side, taxel, i) {
+    const sole = this.soles[side], value = sole.force[i * sole.centers.length + taxel];
+    return value === NOT_MEASURED ? NaN : value / 10;
+  }
+  cop(side, i) {
+    let x = 0, y = 0, sum = 0;
+    this.soles[side].centers.forEach((c, k) => {
+      const f = this.force(side, k, i) || 0;
+      x += f * c[0]; y += f * c[1]; sum += f;
+    });
+    return sum > 0.02 * this.weight ? [x / sum, y / sum] : null;
+  }
+}
+
+function meshOf(shape) {
+  const [r, g, b, a] = shape.colour, size = shape.size;
+  const material = new THREE.MeshStandardMaterial({color: new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace),
+    opacity: a, transparent: a < 1, roughness: 0.75, metalness: 0.05});
+  let mesh;
+  if (shape.kind === 'cube') mesh = new THREE.Mesh(new THREE.BoxGeometry(...size), material);
+  else if (shape.kind === 'sphere') {
+    mesh = new THREE.Mesh(new THREE.SphereGeometry(0.5, 24, 16), material);
+    mesh.scale.set(...size);
+  } else if (shape.kind === 'cylinder') {
+    const tube = new THREE.CylinderGeometry(0.5, 0.5, 1, 24);
+    tube.rotateX(Math.PI / 2);  // three's lies along y
+    mesh = new THREE.Mesh(tube, material);
+    mesh.scale.set(...size);
+  } else if (shape.kind === 'triangles') {
+    const corners = new THREE.BufferGeometry();
+    corners.setAttribute('position', new THREE.BufferAttribute(unpack(shape.points, Float32Array), 3));
+    corners.setIndex(new THREE.BufferAttribute(unpack(shape.indices, Uint32Array), 1));
+    const flat = corners.toNonIndexed();
+    flat.computeVertexNormals();
+    material.side = THREE.DoubleSide;
+    return new THREE.Mesh(flat, material);
+  } else if (shape.kind === 'line') {
+    const points = new THREE.BufferGeometry();
+    points.setAttribute('position', new THREE.BufferAttribute(unpack(shape.points, Float32Array), 3));
+    return new THREE.LineLoop(points, new THREE.LineBasicMaterial({color: new THREE.Color(r, g, b)}));
+  } else return null;
+  mesh.position.set(...shape.pose.slice(0, 3));
+  mesh.quaternion.set(...shape.pose.slice(3));
+  return mesh;
+}
+
+// Lines along x and y up to half a size about the origin, in short pieces: software renderers lose those that begin
+// behind the eye.
+function gridOf(half, pitch) {
+  const at = [], n = Math.round(half / pitch);
+  for (let i = -n; i <= n; i++)
+    for (let j = -n; j < n; j++) {
+      const [a, b, c] = [i * pitch, j * pitch, (j + 1) * pitch];
+      at.push(a, b, 0, a, c, 0, b, a, 0, c, a, 0);
+    }
+  const points = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(at, 3));
+  return new THREE.LineSegments(points, new THREE.LineBasicMaterial());
+}
+
+// What lies inside the robot, such as the soles in its shoes, is drawn over it.
+const over = options => ({depthTest: false, depthWrite: false, transparent: true, ...options});
+
+class Space {
+  constructor(walk, canvas, eye) {
+    this.walk = walk;
+    this.canvas = canvas;
+    this.eye = eye;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, preserveDrawingBuffer: true});  // to be saved and printed
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
+    this.camera.up.set(0, 0, 1);
+    this.target = new THREE.Vector3();
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8890a0, 2.1));
+    const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-1, -2, 4);
+    this.scene.add(sun);
+    this.groups = {robot: new THREE.Group(), soles: new THREE.Group(), forces: new THREE.Group(), plan: new THREE.Group()};
+    this.scene.add(...Object.values(this.groups));
+    this.frames = walk.frames.map(name => {
+      const frame = new THREE.Group();
+      (name.startsWith('sole_') ? this.groups.soles : this.groups.robot).add(frame);
+      return frame;
+    });
+    this.ground = 0;
+    for (const entity of walk.entities) this.place(entity);
+    this.grid = gridOf(10, 0.5);
+    this.grid.position.z = this.ground + 4e-3;
+    this.scene.add(this.grid);
+    this.cells = {}; this.arrows = {};
+    for (const side of SIDES) if (walk.soles[side]) this.addSole(side);
+    this.addBalance();
+    this.shownPlan = -2;
+    this.recolour();
+    this.resize();
+  }
+  place(entity) {
+    const frame = entity.frame === 'world' ? this.scene : this.frames[this.walk.frames.indexOf(entity.frame)];
+    for (const shape of entity.shapes) {
+      const mesh = meshOf(shape);
+      if (!mesh || !frame) continue;
+      if (entity.frame === 'world' && shape.kind === 'cube' && Math.min(shape.size[0], shape.size[1]) > 10)
+        this.ground = shape.pose[2] + shape.size[2] / 2;
+      frame.add(mesh);
+    }
+  }
+  addSole(side) {
+    const sole = this.walk.soles[side], at = [], owner = [];
+    sole.cells.forEach((cell, taxel) => {
+      for (let k = 1; k + 1 < cell.length; k++)
+        for (const corner of [cell[0], cell[k], cell[k + 1]]) { at.push(corner[0], corner[1], 0); owner.push(taxel); }
+    });
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(at, 3));
+    geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(at.length), 3));
+    const frame = this.frames[this.walk.frames.indexOf('sole_' + side)];
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(over({vertexColors: true, opacity: 0.85,
+      side: THREE.DoubleSide})));
+    mesh.renderOrder = 2;
+    frame.add(mesh);
+    this.cells[side] = {geometry, owner};
+    const arrow = new THREE.Group(), red = new THREE.MeshBasicMaterial(over({color: style('--cop')}));
+    const shaft = new THREE.Mesh(new THREE.CylinderGeometry(0.006, 0.006, 1, 12).rotateX(Math.PI / 2).translate(0, 0, 0.5), red);
+    const head = new THREE.Mesh(new THREE.ConeGeometry(0.016, 0.04, 16).rotateX(Math.PI / 2), red);
+    shaft.renderOrder = head.renderOrder = 4;
+    arrow.add(shaft, head);
+    this.groups.forces.add(arrow);
+    this.arrows[side] = {arrow, shaft, head, red};
+  }
+  addBalance() {
+    const ball = (size, colour) => {
+      const mesh = new THREE.Mesh(new THREE.SphereGeometry(size, 16, 12), new THREE.MeshBasicMaterial(over({color: colour})));
+      mesh.renderOrder = 5;
+      this.groups.forces.add(mesh);
+      return mesh;
+    };
+    this.zmp = ball(0.012, style('--cop'));
+    this.com = ball(0.018, '#f29a1a');
+    const points = new THREE.BufferGeometry();
+    points.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * CORNERS), 3));
+    const fan = [];
+    for (let k = 1; k + 1 < CORNERS; k++) fan.push(0, k, k + 1);
+    points.setIndex(fan);
+    this.polygon = new THREE.Group();
+    const fill = new THREE.Mesh(points, new THREE.MeshBasicMaterial(over({color: '#1a9850', opacity: 0.3, side: THREE.DoubleSide})));
+    const edge = new THREE.LineLoop(new THREE.BufferGeometry().setAttribute('position', points.getAttribute('position')),
+      new THREE.LineBasicMaterial(over({color: '#1a9850'})));
+    fill.frustumCulled = edge.frustumCulled = false;
+    fill.renderOrder = 1; edge.renderOrder = 3;
+    this.polygon.add(fill, edge);
+    this.groups.forces.add(this.polygon);
+    this.corners = points.getAttribute('position');
+  }
+  recolour() {
+    this.scene.background = new THREE.Color(style('--sky'));
+    this.grid.material.color = new THREE.Color(style('--grid'));
+  }
+  resize() {
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / Math.max(height, 1);
+    this.camera.updateProjectionMatrix();
+  }
+  draw(time, shown) {
+    const walk = this.walk, i = walk.index(time);
+    this.frames.forEach((frame, k) => walk.pose(k, time, frame.position, frame.quaternion));
+    for (const [name, group] of Object.entries(this.groups)) group.visible = shown[name];
+    const center = walk.frames.indexOf('center_of_mass');
+    this.com.visible = center >= 0;
+    if (center >= 0) this.com.position.copy(this.frames[center].position);
+    for (const side of Object.keys(this.cells)) this.drawSole(side, i);
+    const has = !Number.isNaN(walk.zmp[3 * i]);
+    this.zmp.visible = has;
+    if (has) this.zmp.position.fromArray(walk.zmp, 3 * i);
+    const start = 3 * CORNERS * i;
+    this.polygon.visible = !Number.isNaN(walk.polygon[start]);
+    if (this.polygon.visible) {
+      this.corners.array.set(walk.polygon.subarray(start, start + 3 * CORNERS));
+      for (let k = 0; k < CORNERS; k++) this.corners.array[3 * k + 2] += 2e-3;
+      this.corners.needsUpdate = true;
+    }
+    this.drawPlan(time);
+    this.look(shown.follow);
+    this.renderer.render(this.scene, this.camera);
+  }
+  drawSole(side, i) {
+    const walk = this.walk, {geometry, owner} = this.cells[side], colours = geometry.getAttribute('color');
+    const known = walk.soles[side].centers.map((_, k) => {
+      const force = walk.force(side, k, i);
+      return Number.isNaN(force) ? [0.5, 0.5, 0.5] : viridis(force / (FULL * walk.weight));
+    }).map(c => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace));
+    owner.forEach((taxel, k) => colours.setXYZ(k, known[taxel].r, known[taxel].g, known[taxel].b));
+    colours.needsUpdate = true;
+    const cop = walk.cop(side, i), {arrow, shaft, head} = this.arrows[side];
+    arrow.visible = cop !== null;
+    if (!cop) return;
+    const frame = this.frames[walk.frames.indexOf('sole_' + side)], length = ARROW * walk.totals[side][i] / walk.weight;
+    arrow.position.set(cop[0], cop[1], 0).applyQuaternion(frame.quaternion).add(frame.position);
+    arrow.quaternion.copy(frame.quaternion);
+    shaft.scale.z = Math.max(length, 1e-4);
+    head.position.z = length;
+  }
+  drawPlan(time) {
+    let number = -1;
+    this.walk.footsteps.forEach((plan, k) => { if (plan.time <= time + 1e-6) number = k; });
+    if (number === this.shownPlan) return;
+    this.shownPlan = number;
+    for (const old of this.groups.plan.children) { old.geometry.dispose(); old.material.dispose(); }
+    this.groups.plan.clear();
+    if (number < 0) return;
+    for (const entity of this.walk.footsteps[number].entities)
+      for (const shape of entity.shapes) { const mesh = meshOf(shape); if (mesh) this.groups.plan.add(mesh); }
+  }
+  look(follow) {
+    const center = this.walk.frames.indexOf('center_of_mass');
+    const followed = center >= 0 ? this.frames[center].position : this.middle();
+    if (follow || !this.seen) {
+      this.target.copy(followed);
+      this.seen = true;
+    }
+    const {azimuth, elevation, distance} = this.eye, away = Math.cos(elevation) * distance;
+    this.camera.position.set(this.target.x + away * Math.cos(azimuth), this.target.y + away * Math.sin(azimuth),
+      this.target.z + Math.sin(elevation) * distance);
+    this.camera.lookAt(this.target);
+  }
+  middle() {
+    const soles = this.walk.frames.map((name, k) => name.startsWith('sole_') ? this.frames[k].position : null).filter(Boolean);
+    const sum = soles.reduce((a, b) => a.add(b), new THREE.Vector3());
+    return sum.divideScalar(Math.max(soles.length, 1)).add(new THREE.Vector3(0, 0, 0.3));
+  }
+}
+
+function flat(canvas) {
+  const ratio = Math.min(devicePixelRatio, 2), width = canvas.clientWidth, height = canvas.clientHeight;
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const pen = canvas.getContext('2d');
+  pen.scale(ratio, ratio);
+  return {pen, width, height};
+}
+
+// Both soles from above, toes up: x of the sole is up, y to the left.
+function drawSoles(walk, canvas, i) {
+  const {pen, width, height} = flat(canvas);
+  const all = SIDES.filter(s => walk.soles[s]), outlines = all.flatMap(s => walk.soles[s].outline);
+  const [low, high] = [Math.min, Math.max].map(f => [f(...outlines.map(p => p[0])), f(...outlines.map(p => p[1]))]);
+  const column = width / all.length;
+  const scale = 0.9 * Math.min(height / (high[0] - low[0]), column / (high[1] - low[1]));
+  all.forEach((side, n) => {
+    const sole = walk.soles[side];
+    const put = p => [column * (n + 0.5) - scale * (p[1] - (low[1] + high[1]) / 2), height / 2 - scale * (p[0] - (low[0] + high[0]) / 2)];
+    const ring = points => { pen.beginPath(); points.forEach((p, k) => pen[k ? 'lineTo' : 'moveTo'](...put(p))); pen.closePath(); };
+    sole.cells.forEach((cell, taxel) => {
+      const force = walk.force(side, taxel, i);
+      pen.fillStyle = Number.isNaN(force) ? '#888888' : `rgb(${viridis(force / (FULL * walk.weight)).map(v => Math.round(255 * v))})`;
+      ring(cell);
+      pen.fill();
+    });
+    pen.strokeStyle = style('--soft');
+    ring(sole.outline);
+    pen.stroke();
+    const cop = walk.cop(side, i);
+    if (!cop) return;
+    const [x, y] = put(cop);
+    for (const [line, colour] of [[5, '#ffffff'], [2.5, style('--cop')]]) {
+      pen.lineWidth = line; pen.strokeStyle = colour;
+      pen.beginPath(); pen.moveTo(x - 8, y); pen.lineTo(x + 8, y); pen.moveTo(x, y - 8); pen.lineTo(x, y + 8); pen.stroke();
+    }
+    pen.lineWidth = 1;
+  });
+}
+
+function drawForces(walk, canvas, time, end) {
+  const {pen, width, height} = flat(canvas), most = Math.max(...SIDES.map(s => walk.totals[s] ? walk.totals[s].reduce((a, b) => Math.max(a, b), 1) : 1));
+  const x = t => width * t / Math.max(end, 1e-6), y = f => height - 4 - (height - 20) * f / most;
+  pen.font = '12px system-ui, sans-serif';
+  pen.fillStyle = style('--soft');
+  pen.fillText(most.toFixed(0) + ' N', 4, 12);
+  for (const side of SIDES) {
+    const total = walk.totals[side];
+    if (!total) continue;
+    const step = Math.max(1, Math.floor(total.length / (2 * width)));
+    pen.strokeStyle = style('--' + side);
+    pen.beginPath();
+    for (let i = 0; i < total.length; i += step) pen[i ? 'lineTo' : 'moveTo'](x(walk.time[i]), y(total[i]));
+    pen.stroke();
+  }
+  pen.strokeStyle = style('--ink');
+  pen.beginPath(); pen.moveTo(x(time), 0); pen.lineTo(x(time), height); pen.stroke();
+}
+
+const walks = JSON.parse($('data').textContent).map(given => new Walk(given));
+const end = Math.max(...walks.map(walk => walk.duration));
+const eye = {azimuth: SEEN.corner[0], elevation: SEEN.corner[1], distance: 3.4};
+const sections = walks.map((_, k) => $('walk-' + k));
+let time = 0, playing = false, last = 0, waiting = false;
+
+const spaces = walks.map((walk, k) => {
+  try {
+    return new Space(walk, sections[k].querySelector('.space'), eye);
+  } catch (error) {
+    $('trouble').textContent = 'This browser draws nothing in 3D (' + error.message + '); soles and forces are shown below.';
+    return null;
+  }
+});
+
+function said(walk) {
+  const i = walk.index(time);
+  return SIDES.filter(s => walk.totals[s]).map(s => `${s} ${walk.totals[s][i].toFixed(0)} N`).join(', ');
+}
+
+function draw() {
+  waiting = false;
+  const shown = Object.fromEntries(['robot', 'soles', 'forces', 'plan', 'follow'].map(id => [id, $(id).checked]));
+  walks.forEach((walk, k) => {
+    const section = sections[k], i = walk.index(time);
+    if (spaces[k]) spaces[k].draw(time, shown);
+    drawSoles(walk, section.querySelector('.soles'), i);
+    drawForces(walk, section.querySelector('.forces'), time, end);
+    section.querySelector('.readout').textContent = said(walk) + (time > walk.duration ? ' (ended)' : '');
+    let current = null;
+    for (const item of section.querySelectorAll('.log li')) {
+      item.classList.remove('now');
+      if (Number(item.firstChild.dataset.time) <= time + 1e-3) current = item;
+    }
+    if (current) current.classList.add('now');
+  });
+  $('now').textContent = time.toFixed(2) + ' s';
+  $('time').value = String(time);
+  $('time').setAttribute('aria-valuetext', time.toFixed(2) + ' seconds');
+  document.body.dataset.time = time.toFixed(3);
+}
+
+function soon() {
+  if (!waiting && !playing) { waiting = true; requestAnimationFrame(draw); }
+}
+
+function go(to, tell) {
+  time = Math.min(Math.max(to, 0), end);
+  soon();
+  if (tell) $('live').textContent = time.toFixed(2) + ' seconds: ' + walks.map(said).join('; ');
+}
+
+function step(pictures) {
+  stop();
+  const walk = walks.reduce((a, b) => a.duration >= b.duration ? a : b), i = walk.index(time) + pictures;
+  go(walk.time[Math.min(Math.max(i, 0), walk.time.length - 1)], true);
+}
+
+function tick(now) {
+  if (!playing) return;
+  time += Math.min((now - last) / 1000, 0.25) * Number($('speed').value);
+  last = now;
+  if (time >= end) { time = end; stop(); }
+  draw();
+  if (playing) requestAnimationFrame(tick);
+}
+
+function stop() {
+  playing = false;
+  $('play').textContent = 'Play';
+  $('play').setAttribute('aria-pressed', 'false');
+}
+
+function toggle() {
+  if (playing) { stop(); go(time, true); return; }
+  if (time >= end) time = 0;
+  playing = true;
+  $('play').textContent = 'Stop';
+  $('play').setAttribute('aria-pressed', 'true');
+  last = performance.now();
+  requestAnimationFrame(tick);
+}
+
+function from(name) {
+  $('from').value = name;
+  [eye.azimuth, eye.elevation] = SEEN[name];
+  soon();
+}
+
+function zoom(factor) {
+  eye.distance = Math.min(Math.max(eye.distance * factor, 0.3), 30);
+  soon();
+}
+
+const KEYS = {' ': toggle, ArrowLeft: e => e.shiftKey ? go(time - 1, true) : step(-1),
+  ArrowRight: e => e.shiftKey ? go(time + 1, true) : step(1), Home: () => go(0, true), End: () => go(end, true),
+  f: () => $('follow').click(), '+': () => zoom(0.8), '-': () => zoom(1.25)};
+Object.keys(SEEN).forEach((name, k) => { KEYS[k + 1] = () => from(name); });
+
+document.addEventListener('keydown', event => {
+  // A control that has its own use of the key keeps it.
+  if (event.ctrlKey || event.altKey || event.metaKey || !(event.key in KEYS)) return;
+  if (event.target.closest('input, select, button, summary, .scroll')) return;
+  event.preventDefault();
+  KEYS[event.key](event);
+});
+$('play').addEventListener('click', toggle);
+$('back').addEventListener('click', () => step(-1));
+$('on').addEventListener('click', () => step(1));
+$('time').addEventListener('input', () => { stop(); go(Number($('time').value)); });
+$('from').addEventListener('change', () => from($('from').value));
+for (const id of ['robot', 'soles', 'forces', 'plan', 'follow']) $(id).addEventListener('change', soon);
+sections.forEach(section => {
+  for (const button of section.querySelectorAll('[data-time]'))
+    button.addEventListener('click', () => { stop(); go(Number(button.dataset.time), true); });
+  const chart = section.querySelector('.forces');
+  chart.addEventListener('pointerdown', e => { stop(); go(end * e.offsetX / chart.clientWidth); });
+  turnable(section.querySelector('.space'));
+});
+
+// One finger or the mouse turns, two fingers or the wheel come nearer.
+function turnable(canvas) {
+  const held = new Map();
+  const spread = () => { const [a, b] = [...held.values()]; return Math.hypot(a.x - b.x, a.y - b.y); };
+  canvas.addEventListener('pointerdown', e => { canvas.setPointerCapture(e.pointerId); held.set(e.pointerId, {x: e.clientX, y: e.clientY}); });
+  canvas.addEventListener('pointermove', e => {
+    const before = held.get(e.pointerId);
+    if (!before) return;
+    const apart = held.size === 2 ? spread() : 0;
+    if (held.size === 1) {
+      eye.azimuth -= 0.008 * (e.clientX - before.x);
+      eye.elevation = Math.min(Math.max(eye.elevation + 0.008 * (e.clientY - before.y), -1.55), 1.55);
+    }
+    held.set(e.pointerId, {x: e.clientX, y: e.clientY});
+    if (held.size === 2) zoom(apart / Math.max(spread(), 1));
+    soon();
+  });
+  for (const name of ['pointerup', 'pointercancel']) canvas.addEventListener(name, e => held.delete(e.pointerId));
+  canvas.addEventListener('wheel', e => { e.preventDefault(); zoom(Math.exp(0.001 * e.deltaY)); }, {passive: false});
+}
+
+$('time').max = String(end);
+$('full').textContent = (FULL * walks[0].weight).toFixed(0) + ' N';
+new ResizeObserver(() => { for (const space of spaces) if (space) space.resize(); soon(); }).observe($('walks'));
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { for (const space of spaces) if (space) space.recolour(); soon(); });
+const asked = /^#t=(\d+(?:\.\d+)?)$/.exec(location.hash);  // a link to an instant
+if (asked) time = Math.min(Number(asked[1]), end);
+draw();
+document.body.dataset.ready = 'true';
+})();
