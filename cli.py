@@ -319,7 +319,9 @@ def sim(
     settings: Annotated[
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change a value of the scene; repeatable.")
     ] = None,
-    record: Annotated[Path | None, Option(help="Write a recording: an .mcap file that Foxglove reads.")] = None,
+    record: Annotated[
+        Path | None, Option(help="Write a recording: an .mcap file for Foxglove and plantar view.")
+    ] = None,
     video: Annotated[Path | None, Option(help="Write a video: an .mp4 file (slow without a GPU).")] = None,
     plot: Annotated[Path | None, Option(help="Folder for figures: balance, plane and feet.")] = None,
     as_json: Json = False,
@@ -352,6 +354,33 @@ def sim(
     with progress_bar() as tell:
         summary = run_opened_to_files(loaded, seed, record=record, video=video, plot=plot, progress=tell)
     end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
+
+
+@app.command()
+def view(
+    recording: Annotated[Path, Argument(help="Recording (.mcap) of plantar sim --record, or of a robot's soles.")],
+    other: Annotated[
+        Path | None, Argument(help="A second recording, to see both side by side.", show_default=False)
+    ] = None,
+    output: Annotated[Path, Option("-o", "--output", help="The page to write, an .html file.")] = Path("out/view.html"),
+    as_json: Json = False,
+) -> None:
+    """Write a page that plays a recording in 3D: robot, soles, CoP, forces, support polygon and footsteps.
+
+    The page is one file for any browser and asks for no network: about 1 MB, and 60 kB for each second.
+
+    Example: plantar view run.mcap -o view.html
+
+    Example: plantar view feedback.mcap open_loop.mcap -o both.html
+    """
+    if output.suffix not in (".html", ".htm"):
+        raise InputError(f"-o {output} needs a name that ends in .html")
+    from plantar.atomic import parent_folder
+    from plantar.viewer.page import view_text, write_page
+
+    with parent_folder(output):
+        written = write_page([recording] if other is None else [recording, other], output)
+    end_command(written, as_json, view_text(written), written["warnings"])
 
 
 @app.command()

@@ -60,6 +60,8 @@ def test_a_fall_is_exit_code_1(tmp_path: Path) -> None:
         (["sweep", "flat", "--grid", "steps"], ("steps", "key=a,b,c")),
         (["sweep", "flat", "--grid", "steps=1,x"], ("steps", "x")),
         (["demo", "-o", "/proc/none/demo"], ("/proc/none",)),
+        (["view", "none.mcap"], ("none.mcap", "cannot be read")),
+        (["view", "none.mcap", "-o", "view.mp4"], ("view.mp4", ".html")),
     ],
 )
 def test_bad_input_is_one_line_exit_2_and_nothing_left(
