@@ -169,7 +169,7 @@ class Simulation:
         """Where the feet stand, and the footsteps that are planned at the start."""
         walk = self.scene.walk
         steps = walk.steps if self.velocities is None else 0
-        width, height = walk.stance_width or self.robot.stance_width, self.scene.terrain.height
+        width, height = self._stance_width, self.scene.terrain.height
         first: Side = "left" if walk.first == "left" else "right"
         if walk.pattern == "box":
             try:
@@ -178,11 +178,17 @@ class Simulation:
                 raise SceneError(f"scene '{self.scene.name}': [walk] {error}") from None
         return straight_plan(steps, length=walk.length, sideways=walk.sideways, width=width, first=first, height=height)
 
+    @property
+    def _stance_width(self) -> float:
+        """Distance in m of the ankles when the feet stand side by side."""
+        walk = self.scene.walk
+        return (walk.stance_width or self.robot.stance_width) + walk.wider
+
     def _commands(self) -> tuple[VelocityCommand, ...]:
         """Who commands the walk while it is walked."""
         if self.velocities is None:
             return ()
-        width = self.scene.walk.stance_width or self.robot.stance_width
+        width = self._stance_width
         outline = self.robot.layouts["left"].outline
         (rear, inner), toe = (-outline.min(axis=0)).tolist(), float(outline[:, 0].max())
         return (VelocityCommand(self.velocities, Legs(width, self.settings.com_height, rear, toe, inner)),)

@@ -60,6 +60,7 @@ class Walk(Settings):
         length: Distance by which a step leads the other foot.
         sideways: Lateral distance by which each opening step leads, positive to the left.
         stance_width: Distance of the ankles when the feet stand side by side; 0 takes the robot's own.
+        wider: By how much farther apart than that they stand.
         first: Foot that moves first.
         single_support: t_ss; 0 takes the robot's own.
         double_support: t_ds; 0 takes the robot's own.
@@ -89,6 +90,7 @@ class Walk(Settings):
     length: float = share(1 / 3, "leg", -0.5, 0.5)
     sideways: float = number(0.0, "m", -0.3, 0.3)
     stance_width: float = number(0.0, "m", 0, 0.6)
+    wider: float = share(0.0, "leg", 0, 0.5)
     first: str = choice("left", "right")
     single_support: float = number(0.0, "s", 0, 10)
     double_support: float = number(0.0, "s", 0, 10)
