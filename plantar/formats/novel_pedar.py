@@ -218,16 +218,21 @@ def _fixed_width(block: list[str], cells: int) -> NDArray[np.float64] | None:
     if not ((last == 9) | (last == 10)).all():
         return None
     decimals = int(wide[0]) - 2 - int(point[0])
-    powers = [*range(wide[0] - 3, wide[0] - 3 - int(point[0]), -1), *range(decimals - 1, -1, -1)]
-    total = np.zeros((len(block), cells))
+    total = np.zeros((len(block), cells), dtype=np.int32 if wide[0] < 12 else np.int64)  # nine digits at the most
     begun = np.zeros((len(block), cells), dtype=bool)
-    for at, power in zip([i for i in range(wide[0] - 1) if i != point[0]], powers, strict=True):
+    for at in range(wide[0] - 1):
+        if at == point[0]:
+            continue
         byte = body[:, :, at]
-        digit = (byte >= 48) & (byte <= 57)
-        if not (digit | ((byte == 32) & ~begun & (at < point[0]))).all():
-            return None
+        value = byte - np.uint8(48)  # what is less than "0" becomes large
+        digit = value < 10
+        if not digit.all():
+            if at > point[0] or not (digit | ((byte == 32) & ~begun)).all():
+                return None
+            value *= digit
         begun |= digit
-        total += np.where(digit, byte - np.uint8(48), 0) * 10.0**power
+        total *= 10
+        total += value
     if not begun.all():
         return None
     try:
