@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.arrays import numbers
 from plantar.errors import RobotError, SceneError
 from plantar.sensing.link_skin import BodySkin
 from plantar.sides import Side
@@ -46,7 +47,8 @@ class WornArm:
 
     Raises:
         RobotError: If the machine is unknown or not valid, or lacks the arm.
-        SceneError: If the robot has no such arm, or the posture another number of angles.
+        SceneError: If the robot has no such arm, or the posture another number of angles, or one that a joint cannot
+            take.
     """
 
     def __init__(self, robot: Robot, side: Side, posture: Sequence[float] = ()) -> None:
@@ -65,14 +67,22 @@ class WornArm:
             _PREFIX + name: table for (name, table), own in zip(every.items(), on_arm, strict=True) if own
         }
         self._resting = self._machine.posture[on_arm]
-        self.posture = np.radians(posture) if posture else self._resting
-        if len(self.posture) != len(self.joints):
-            names = ", ".join(name.removeprefix(_PREFIX) for name in self.joints)
-            raise SceneError(f"[arm] posture has {len(self.posture)} angles; allowed: {len(self.joints)}, of {names}")
         self._shoulder = _shoulder(whole, self._root, self._machine.base.link)
         self.model = self._alone()
+        self.posture = self._checked(posture) if posture else self._resting
         patches = [{**t, "link": _PREFIX + t["link"]} for t in self._machine.patches if t["link"] in links]
         self.skin: BodySkin = skin_from_tables(self.model, patches, f"machine '{self._machine.name}'")
+
+    def _checked(self, posture: Sequence[float]) -> NDArray[np.float64]:
+        """Angles (k,) in rad of a posture in degrees that the joints can take."""
+        names = [name.removeprefix(_PREFIX) for name in self.joints]
+        degrees = numbers(list(posture), "[arm] posture", SceneError)
+        if degrees.shape != (len(names),):
+            raise SceneError(f"[arm] posture has {degrees.size} angles; allowed: {len(names)}, of {', '.join(names)}")
+        for name, angle, low, high in zip(names, degrees.tolist(), *np.degrees(self.ranges).tolist(), strict=True):
+            if not low <= angle <= high:
+                raise SceneError(f"[arm] posture has {name} at {angle:g} deg; allowed: {low:g} to {high:g}")
+        return np.asarray(np.radians(degrees))
 
     def surface(self, patch: str) -> tuple[str, NDArray[np.float64], float]:
         """The part of a link that a patch of skin is wrapped around the link's z axis on.

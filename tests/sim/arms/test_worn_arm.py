@@ -57,6 +57,12 @@ def test_robots_without_such_an_arm_are_refused(h1: Robot) -> None:
         WornArm(load_robot("hrp2kai"), "left")
     with pytest.raises(SceneError, match=r"posture has 2 angles; allowed: 7, of left_shoulder_pitch, "):
         WornArm(h1, "left", [0.0, 10.0])
+    with pytest.raises(SceneError, match=r"posture has left_elbow at 170 deg; allowed: 0 to 135"):
+        WornArm(h1, "left", [0, 0, 0, 170, 0, 0, 0])
+    with pytest.raises(SceneError, match=r"left_shoulder_roll at nan deg; allowed: -5 to 110"):
+        WornArm(h1, "left", [0, float("nan"), 0, 0, 0, 0, 0])
+    with pytest.raises(SceneError, match=r"\[arm\] posture"):
+        WornArm(h1, "left", ["bent"])  # type: ignore[list-item]
     assert h1.arms is not None
     wrong = replace(h1, arms=Arms("h1-body", h1.arms.chest, {"left": "tail", "right": "tail"}))
     with pytest.raises(RobotError, match="left is 'tail'; machine 'h1-body' has no such link"):
