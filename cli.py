@@ -322,7 +322,7 @@ def sim(
     record: Annotated[
         Path | None, Option(help="Write a recording: an .mcap file for Foxglove and plantar view.")
     ] = None,
-    video: Annotated[Path | None, Option(help="Write a video: an .mp4 file (slow without a GPU).")] = None,
+    video: Annotated[Path | None, Option(help="Write a video with what the soles feel: an .mp4 file.")] = None,
     plot: Annotated[Path | None, Option(help="Folder for figures: balance, plane and feet.")] = None,
     as_json: Json = False,
 ) -> None:

@@ -37,22 +37,34 @@ from sim.figures.drawn_shapes import body_entity, drawn_bodies, frame_name
 from sim.model.contact_truth import GroundTruth
 from sim.model.world import World
 
-__all__ = ["DrawnRun", "change_text"]
+__all__ = ["FULL_COLOUR", "DrawnRun", "change_text", "scale_colours"]
 
 _FRAMES = 0.02  # s between two messages of where bodies are
 _SOLES = 0.04  # s between two of what soles feel and of the balance
 _CORNERS = 12  # of a support polygon that is drawn; it seldom has more
-_FULL = 0.1  # weight on a taxel that has the last colour: twice its share of a foot that carries all
 _CELL, _THICK = 0.92, 2e-3  # of a taxel's cell, and m: how wide and how thick it is drawn
 _ARROW = 0.5  # leg: length of an arrow that stands for the robot's weight
 _BEHIND, _AHEAD = 4, 12  # footsteps that are drawn before and after the current one
 _VIRIDIS = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]]
-_SHARES = np.linspace(0.0, 1.0, 64)
-_COLOURS = np.column_stack(
-    [np.interp(_SHARES, np.linspace(0.0, 1.0, 5), column) for column in zip(*_VIRIDIS, strict=True)]
-)
 _SIDE_COLOURS = {"left": (0.12, 0.42, 0.75, 1.0), "right": (0.80, 0.33, 0.10, 1.0)}
 _FORCE, _ZMP, _COM, _POLYGON = (0.85, 0.1, 0.3, 1.0), (0.85, 0.1, 0.3), (0.95, 0.6, 0.1, 1.0), (0.1, 0.55, 0.3, 1.0)
+
+
+FULL_COLOUR = 0.1
+"""Share of the weight on a taxel that has the last colour: twice what it has of a foot that carries all."""
+
+
+def scale_colours(largest: float) -> NDArray[np.float64]:
+    """Colours of taxels: the scale viridis in 64 steps from no force to FULL_COLOUR.
+
+    Args:
+        largest: What stands for a full red, green or blue: 1, or 255 in a picture.
+
+    Returns:
+        Red, green and blue (64, 3) of each step.
+    """
+    shares, steps = np.linspace(0.0, 1.0, 64), np.linspace(0.0, 1.0, len(_VIRIDIS))
+    return largest * np.column_stack([np.interp(shares, steps, column) for column in zip(*_VIRIDIS, strict=True)])
 
 
 class DrawnRun:
@@ -76,7 +88,8 @@ class DrawnRun:
         self._change: AppliedChange | None = None
         self._layouts = world.robot.layouts
         self._drawn_steps: dict[tuple[int, Footstep], Part] = {}
-        self._full, self._metres = _FULL * world.body.weight, _ARROW * world.body.leg / world.body.weight
+        self._full, self._metres = FULL_COLOUR * world.body.weight, _ARROW * world.body.leg / world.body.weight
+        self._colours = scale_colours(1.0)
         self._unit = 0.02 * world.body.leg  # diameter of a ball that stands for a point
         frames = self._frames_template()
         soles = Template(*(part for i, s in enumerate(SIDES) for part in self._sole(s, i)))
@@ -179,8 +192,8 @@ class DrawnRun:
     def _sole_values(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
         """The values (m, k) of the slots of `_sole` of the forces (m, n) of both soles in N."""
         forces = np.nan_to_num(rows)
-        places = np.clip(forces / self._full * len(_COLOURS), 0, len(_COLOURS) - 1).astype(np.intp)
-        values = [_COLOURS[places].reshape(len(rows), -1)]
+        places = np.clip(forces / self._full * len(self._colours), 0, len(self._colours) - 1).astype(np.intp)
+        values = [self._colours[places].reshape(len(rows), -1)]
         split = np.split(forces, [len(self._layouts["left"])], axis=1)
         for side, force in zip(SIDES, split, strict=True):
             total = force.sum(axis=1, keepdims=True).clip(min=0.0)

@@ -27,7 +27,8 @@ from plantar.sides import SIDES
 from sim.arms.compliant_arm import CompliantArm
 from sim.arms.settings import ArmSettings
 from sim.arms.worn_arm import WornArm
-from sim.figures.render import FRAME_RATE, Film
+from sim.figures.film import Film
+from sim.figures.render import FRAME_RATE
 from sim.judging.foothold_truth import FootholdTruth
 from sim.judging.judge import Judge
 from sim.judging.recovery import Recovery
@@ -315,7 +316,7 @@ class Simulation:
                     )
             if k % frame_every == 0:
                 if film is not None:
-                    film.add()
+                    film.add(sensors.readings)
                 else:
                     skipped["rendered_frames"] += 1
             servos.drive()
