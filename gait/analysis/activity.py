@@ -21,6 +21,9 @@ _FLIGHT = 0.01
 _RUNNING_STANCE = 45.0
 """Stance in % of the stride under which one foot's steps are those of a run: walking has 58 to 65, a run below 45."""
 
+_HALF = 52.0
+"""Stance in % of the stride of both feet above which they cannot both be in the air, with 2 % for what events err."""
+
 _STEADY = 0.5
 """Share of the usual load that a standing body keeps on the ground."""
 
@@ -66,7 +69,7 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
 
 def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> list[str]:
-    """A warning for each foot that is rolled over from toes to heel: cells in the wrong order, or backward walking.
+    """Warnings of feet that are rolled over from toes to heel, and of two feet that were not recorded at one time.
 
     Args:
         recording: The recording.
@@ -76,6 +79,11 @@ def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGai
         The warnings.
     """
     out = []
+    if _out_of_step(feet):
+        out.append(
+            "both feet seem to be off the ground between steps, though each stands for more than half of its stride: "
+            "check whether left and right were recorded at the same time"
+        )
     for side, gait in feet.items():
         strides = _rolls(recording, gait)
         if len(strides) and float(np.median(strides[:, 0] - strides[:, 1])) > _BACKWARD:
@@ -84,6 +92,20 @@ def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGai
                 "unless this is walking backwards"
             )
     return out
+
+
+def _out_of_step(feet: Mapping[Side, FootGait]) -> bool:
+    """Whether both feet seem to fly though each stands for more than half of its stride: their clocks disagree."""
+    if len(feet) < 2:
+        return False
+    known = {
+        s: [(f, p) for t in g.used if np.isfinite([f := t["flight_time_s"], p := t["stance_percent"]]).all()]
+        for s, g in feet.items()
+    }
+    if not all(known.values()):
+        return False
+    medians = [np.median(np.array(rows), axis=0) for rows in known.values()]
+    return max(float(m[0]) for m in medians) > _FLIGHT and min(float(m[1]) for m in medians) > _HALF
 
 
 def _rolls(recording: PressureRecording, gait: FootGait) -> NDArray[np.float64]:
@@ -129,7 +151,7 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]
     if flights:
         median = float(np.median(flights))
-        if median > _FLIGHT:
+        if median > _FLIGHT and not _out_of_step(feet):
             return Activity("running", f"both feet are off the ground for {median:.3g} s between steps")
         return Activity("walking", "a foot is on the ground at all times")
     if stances:

@@ -17,6 +17,10 @@ _RATE = (20.0, 5000.0)
 _HELD, _FLAT, _CELLS = 0.4, 5, 3
 """Share of loaded frames that repeat the one before from which the sensor is slower than the file; frames in a row at
 a cell's largest reading, and cells that share that reading, from which it is the end of the sensor's range."""
+_ALONE, _HIGH = 4.0, 50e3
+"""How many times higher than both frames beside it, and from which pressure in Pa, a single value is no foot's."""
+_QUICK = 50.0
+"""Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame."""
 _SEEN = 20_000
 """Frames that are looked at for this."""
 _LONGEST_FOOT = 0.40
@@ -80,6 +84,13 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
         out.append(
             f"{clipped} cells of the {foot.side} foot stay at {highest / 1e3:.4g} kPa, the largest value: the end of "
             "the sensor's range? Forces and pressures would be larger"
+        )
+    beside = np.maximum(value[:-2], value[2:])
+    alone = int(((value[1:-1] > _ALONE * beside) & (value[1:-1] > _HIGH)).sum())
+    if alone and rate >= _QUICK:
+        out.append(
+            f"{alone} value(s) of the {foot.side} foot stand alone, more than {_ALONE:g} times as high as the frames "
+            "beside them: a loose contact? Peaks rest on them"
         )
     both = loaded[1:] & loaded[:-1]
     repeated = (part[1:] == part[:-1]).all(axis=1) & both

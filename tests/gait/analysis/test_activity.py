@@ -66,6 +66,18 @@ def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:
     assert all("order of the cells" in d for d in doubts)
 
 
+def test_feet_that_were_not_recorded_at_one_time_are_told() -> None:
+    """A walk whose right foot is 0.3 s late seems to fly; a run, which does, is not doubted."""
+    recording = made_walk(strides=6).recording
+    right = replace(recording.feet["right"], force=np.roll(recording.feet["right"].force, 30, axis=0))
+    late = replace(recording, feet={"left": recording.feet["left"], "right": right})
+    feet = analyse_feet(late)
+    assert activity_of(late, feet).name == "walking"
+    assert any("recorded at the same time" in d for d in progression_doubts(late, feet))
+    run = made_walk(stride=0.7, stance=0.36, strides=6).recording
+    assert progression_doubts(run, analyse_feet(run)) == []
+
+
 def standing(seconds: float = 20.0, seed: int = 0) -> PressureRecording:
     """Two feet that carry 350 N each, whose CoP wanders over 4 and 2 mm (standard deviations)."""
     random = np.random.default_rng(seed)

@@ -44,6 +44,14 @@ def test_cells_at_the_end_of_their_range_are_told() -> None:
     assert "cells of the left foot stay at 50 kPa" in doubt
 
 
+def test_values_that_stand_alone_are_told() -> None:
+    recording = steps()
+    force = recording.feet["left"].force.copy()
+    force[[120, 460, 700], 30] += 100.0
+    (doubt,) = doubts(with_force(recording, force))
+    assert "3 value(s) of the left foot stand alone" in doubt
+
+
 def test_frames_that_repeat_are_told() -> None:
     recording = steps()
     slow = recording.feet["left"].force[np.arange(1000) // 5 * 5]
