@@ -546,9 +546,14 @@ class WalkingController:
             return
         if state.loads[feet.side] <= self.settings.landing.contact_force:  # only the plan has it down
             return
-        place = self._frame.to_command(state.positions_sole[feet.side][:2])
-        if math.dist(place, feet.footholds[feet.side][0][:2]) > rules.misplaced:
-            self.motion.stand_at(feet.side, place, heading(state.rotations_sole[feet.side]) - self._frame.turn)
+        side, other, soles = feet.side, other_side(feet.side), state.positions_sole
+        x, y = self._frame.to_command(soles[side][:2]).tolist()
+        # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
+        z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
+        place, commanded = np.array([x, y, z]), feet.footholds[side][0]
+        if math.dist(place, commanded) > rules.misplaced:
+            self.motion.stand_at(side, place, heading(state.rotations_sole[side]) - self._frame.turn)
+            self._compensation.keep(commanded - place)
 
     def _press(self) -> float | None:
         """Force in N that a foot that sees the ground holds in single support; None leaves it to its gains. A foot that

@@ -264,11 +264,10 @@ class FootMotion:
 
         Args:
             side: Which foot.
-            place: Where it stands (2,) in the command frame in m.
+            place: Where it stands (3,) in the command frame in m.
             yaw: Its heading in rad.
         """
-        x, y = place.tolist()
-        self.footholds[side] = (np.array([x, y, self.footholds[side][0].item(2)]), yaw)
+        self.footholds[side] = (place.copy(), yaw)
 
     def _advance(self, phase: Phase, time: float, load: float) -> None:
         """Advance a foot that does not see the ground."""

@@ -47,6 +47,7 @@ class PostureCompensation:
     shift: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     turn: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     _weight: float = 0.0
+    _kept: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
 
     @classmethod
     def for_body(cls, body: BodyScale, period: float, fade: float) -> PostureCompensation:
@@ -64,7 +65,19 @@ class PostureCompensation:
 
     def start(self) -> None:
         """Begin with no correction: the foot lifts off."""
-        self.shift, self.turn, self._weight = np.zeros(3), np.zeros(3), 0.0
+        self.shift, self.turn, self._weight, self._kept = np.zeros(3), np.zeros(3), 0.0, np.zeros(3)
+
+    def keep(self, shift: NDArray[np.float64]) -> None:
+        """Keep what a foot that stands beside its place was commanded farther: it goes out with the correction.
+
+        A leg that leans stands there with the joints of another place. Commanded to where it stands at once, as the leg
+        of a body that does not lean, it would pull the foot away from there before that carries.
+
+        Args:
+            shift: Where it was commanded less where it is from now on (3,) in m, command frame.
+        """
+        self._kept = shift
+        self.shift = self.shift + self._weight * shift
 
     def update(
         self,
@@ -98,7 +111,8 @@ class PostureCompensation:
         # The sine instead of the angle: the leans are small, and it has no singularity to guard.
         turn = sine_vector(lean)
         share = min(1.0, self.period / self.time_constant)
-        self.shift = self.shift + share * (self._weight * _limited(shift, self.largest_shift) - self.shift)
+        wanted = self._weight * (_limited(shift, self.largest_shift) + self._kept)
+        self.shift = self.shift + share * (wanted - self.shift)
         self.turn = self.turn + share * (self._weight * _limited(turn, self.largest_turn) - self.turn)
         return self.shift, self.turn
 

@@ -58,3 +58,21 @@ def test_no_step_between_two_ticks_is_large() -> None:
         shift, _ = compensation.update(k < 200, FOOT, FOOT, COM, COM, LEVEL, lean)
         assert np.abs(shift - last).max() < 2.5e-3
         last = shift
+
+
+def test_a_foot_that_stands_beside_its_place_is_not_pulled_there_at_once() -> None:
+    compensation, lean = PostureCompensation(0.005), np.asarray(Rotation.from_rotvec([0.05, 0.0, 0.0]).as_matrix())
+    shift, _ = settle(compensation, True, lean)
+    beside = np.array([0.0, 0.06, 0.02])
+    commanded, stands = FOOT + shift, FOOT - beside
+    compensation.keep(beside)
+    targets = []
+    for _ in range(100):
+        shift, _ = compensation.update(False, stands, stands, COM, COM, LEVEL, lean)
+        targets.append(stands + shift)
+    steps = np.diff([commanded, *targets], axis=0)
+    way = float(np.abs(commanded - stands).max())
+    assert np.abs(steps).max() < 2.0 * way * 0.005 / compensation.fade  # an even fade takes half of that a tick
+    assert targets[-1] == pytest.approx(stands, abs=1e-6)
+    compensation.start()
+    assert compensation.update(True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)[0] == pytest.approx(np.zeros(3), abs=1e-12)
