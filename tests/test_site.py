@@ -14,8 +14,8 @@ from types import ModuleType
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGES = [ROOT / "docs" / "start.md", *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
-QUICK = {"format", "sensor", "task"}
+PAGES = [ROOT / "docs" / "start.md", ROOT / "docs" / "concepts.md", *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
+QUICK = {"concepts", "format", "sensor", "task"}
 """Pages that take a second; the others walk, build or analyse, and run with the long tests."""
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
