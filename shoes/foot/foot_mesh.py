@@ -25,6 +25,7 @@ from shoes.foot.orientation import (
     straightened,
 )
 from shoes.geometry.outline import cut_below, outline_below, outline_of, touching
+from shoes.geometry.surface import convex_outline, is_closed
 
 __all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
 
@@ -122,7 +123,7 @@ def foot_from_triangles(
     scale, note = unit_scale(float(np.ptp(triangles.reshape(-1, 3), axis=0).max()), unit, file_unit, where)
     triangles = triangles * scale
     notes = [note]
-    if not _is_closed(triangles):
+    if not is_closed(triangles):
         notes.append("the mesh is not closed; only its outline is used")
     settings: dict[str, Any] = {
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
@@ -240,8 +241,6 @@ def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: 
 
 def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, path: str) -> Any:
     """Outline of the lowest band, refused where the body cannot be a foot."""
-    import shapely
-
     points = triangles.reshape(-1, 3)
     length, width, height = (float(v) for v in np.ptp(points, axis=0))
     if height < _HEIGHT_MIN:
@@ -253,7 +252,7 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
         sole = outline_of(cut_below(triangles, sole_band), sole_band)
     except FootError as error:
         raise FootError(f"{path}: {error}") from None
-    share = sole.area / shapely.MultiPoint(points[:, :2]).convex_hull.area
+    share = sole.area / convex_outline(points[:, :2]).area
     if share < _SOLE_SHARE:
         raise FootError(
             f"{path}: no flat sole: the lowest {sole_band:g} mm cover {100 * share:.0f} % of the silhouette; "
@@ -282,14 +281,3 @@ def _box_holds(box: tuple[float, float, float, float], slack: float) -> bool:
     """Whether the origin lies in a box grown by a share of its size."""
     dx, dy = slack * (box[2] - box[0]), slack * (box[3] - box[1])
     return box[0] - dx <= 0.0 <= box[2] + dx and box[1] - dy <= 0.0 <= box[3] + dy
-
-
-def _is_closed(triangles: Triangles) -> bool:
-    """Whether every edge belongs to exactly two triangles."""
-    points = np.round(triangles.reshape(-1, 3), 4) + 0.0
-    _, index = np.unique(points, axis=0, return_inverse=True)
-    faces = index.reshape(-1, 3)
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    edges = edges[edges[:, 0] != edges[:, 1]]
-    _, count = np.unique(edges, axis=0, return_counts=True)
-    return bool((count == 2).all())

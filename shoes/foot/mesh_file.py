@@ -28,13 +28,13 @@ Unit = Literal["m", "cm", "mm", "in"]
 MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".3mf", ".step", ".stp")
 """File endings that are read."""
 
-MOST_TRIANGLES = 200_000
-"""Triangles that a mesh may have, as many as MuJoCo takes; the feet of robots have some ten thousand."""
+MOST_TRIANGLES = 1_200_000
+"""Triangles that a mesh may have, as a scan has them; the feet of robots have some ten thousand."""
 
-_LARGEST = 60e6  # bytes: so many triangles as text
-_BY_TRIMESH = ("trimesh", "shoes.foot.trimesh_file:triangles_of_trimesh", 330e6, 2.5)
-_BY_OPENCASCADE = ("OCP", "shoes.foot.step_file:triangles_of_step", 330e6, 3.0)
-_MEMORY_PER_BYTE, _SECONDS_PER_BYTE = 30.0, 1e-6  # beyond that, of a STEP file
+_LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
+# Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.
+_BY_TRIMESH = ("trimesh", "shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (2.5, 2.5e-7))
+_BY_OPENCASCADE = ("OCP", "shoes.foot.step_file:triangles_of_step", (330e6, 30.0), (3.0, 1e-6))
 
 
 def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit | None]:
@@ -92,18 +92,20 @@ def _read_step(file: Path) -> NDArray[np.float64]:
     data = read_input(file, FootError, _LARGEST)
     if b"ISO-10303-21" not in data[:200]:
         raise FootError(f"{file}: not a readable STEP file: it does not start with ISO-10303-21")
-    library, function, memory, seconds = _BY_OPENCASCADE
-    size = float(len(data))
     del data
-    return _read_confined(
-        file, ".step", library, function, memory + _MEMORY_PER_BYTE * size, seconds + _SECONDS_PER_BYTE * size
-    )
+    return _read_confined(file, ".step", *_BY_OPENCASCADE)
 
 
 def _read_confined(
-    file: Path, kind: str, library: str, function: str, memory: float, seconds: float
+    file: Path,
+    kind: str,
+    library: str,
+    function: str,
+    memory: tuple[float, float],
+    seconds: tuple[float, float],
 ) -> NDArray[np.float64]:
     if find_spec(library) is None:
         raise DependencyError(library, "shoes")
-    what = f"a {kind[1:].upper()} mesh"
-    return np.asarray(confined(function, file, FootError, what, memory, seconds)["triangles"], dtype=np.float64)
+    what, size = f"a {kind[1:].upper()} mesh", file.stat().st_size
+    limits = [least + each * size for least, each in (memory, seconds)]
+    return np.asarray(confined(function, file, FootError, what, *limits)["triangles"], dtype=np.float64)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.optional_library import optional_library
+from shoes.geometry.surface import convex_outline, corner_numbers
 
 __all__ = [
     "AXES",
@@ -33,6 +34,8 @@ _TILT_LEAST = math.radians(1.0)
 _TILT_MOST = math.radians(25.0)
 _SAME_PLANE = math.cos(math.radians(0.5))
 _NEAR = 1.0  # mm
+_MANY = 100_000  # points, above which the lowest in each column are looked at
+_COLUMN = 1.0  # mm
 _RESTS = 0.3  # share of the silhouette that one plane of the hull must have to be what the foot rests on
 _LONGER = 1.05  # of the other side: what counts as the long side
 _CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
@@ -65,12 +68,24 @@ def rotation_forward(forward: Axis) -> Array:
     return np.stack([x, np.cross(z, x), z])
 
 
+def _thinned(points: Array) -> Array:
+    """Points without repetition; of very many the lowest in each column of a grid.
+
+    They are points of the surface, so that a plane through them is one of its own.
+    """
+    if len(points) <= _MANY:
+        return np.unique(points.round(6), axis=0)
+    order = np.argsort(points[:, 2], kind="stable")
+    _, first = np.unique(corner_numbers(points[order, :2] * (1e-3 / _COLUMN)), return_index=True)
+    return np.asarray(points[order[first]])
+
+
 def _resting_plane(triangles: Array) -> tuple[Array, float]:
     """Normal of the largest plane of the convex hull's lower side, and its share of the silhouette."""
     with optional_library("scipy", "shoes"):
         from scipy.spatial import ConvexHull, QhullError
 
-    points = np.unique(triangles.reshape(-1, 3).round(6), axis=0)
+    points = _thinned(triangles.reshape(-1, 3))
     try:
         hull = ConvexHull(points)
         silhouette = ConvexHull(points[:, :2]).volume
@@ -95,15 +110,11 @@ def _resting_plane(triangles: Array) -> tuple[Array, float]:
 
 def _flat_area(triangles: Array, normal: Array) -> float:
     """Share of the silhouette that faces of the mesh have in its outermost plane with a normal."""
-    with optional_library("scipy", "shoes"):
-        from scipy.spatial import ConvexHull
-
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double = np.linalg.norm(cross, axis=1)
     depth = triangles @ normal
     near = (depth.max() - depth.min(axis=1) < _NEAR) & (np.abs(cross @ normal) > _SAME_PLANE * double)
-    silhouette = ConvexHull(np.unique(triangles.reshape(-1, 3)[:, :2].round(6), axis=0)).volume
-    return float(0.5 * double[near].sum() / silhouette)
+    return float(0.5 * double[near].sum() / convex_outline(triangles.reshape(-1, 3)[:, :2]).area)
 
 
 def flat_share(triangles: Array) -> float:
@@ -148,8 +159,9 @@ def check_one_body(triangles: Array, where: str) -> None:
         from scipy.sparse import coo_array
         from scipy.sparse.csgraph import connected_components
 
-    _, index = np.unique(triangles.reshape(-1, 3).round(3), axis=0, return_inverse=True)
-    a, b, c = index.reshape(-1, 3).T
+    index = corner_numbers(triangles)
+    a, b, c = index.T
+    index = index.ravel()
     links = coo_array((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, c]))))
     size = int(index.max()) + 1
     links.resize(size, size)
@@ -184,7 +196,7 @@ def straightened(triangles: Array) -> tuple[Array, list[str]]:
     """
     import shapely
 
-    hull = shapely.MultiPoint(np.unique(triangles.reshape(-1, 3)[:, :2].round(2), axis=0)).convex_hull
+    hull = convex_outline(triangles.reshape(-1, 3)[:, :2])
     if hull.geom_type != "Polygon":
         return triangles, []
     hull = hull.simplify(0.3)

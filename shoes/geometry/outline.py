@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from shoes.geometry.surface import convex_outline, covered_area
 
 __all__ = [
     "CORNER",
@@ -30,12 +31,8 @@ GRID = 1e-3
 """Grid in mm that polygon corners lie on."""
 CORNER = 1.2
 """How much farther than its edges the corner of a grown outline may lie."""
-_SIMPLIFY = 0.05  # mm of detail that is dropped
+_SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between foot and wall may lack
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
-_MANY = 20_000  # triangles, above which they are joined on a coarser grid
-_COARSE_GRID = 0.4  # mm
-_LAYERS = 30  # of a surface, seen from above
-_TILE, _IN_TILE = 10.0, 2000  # mm and triangles
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
 
 
@@ -130,11 +127,9 @@ def outline_of(below: NDArray[np.float64], height: float) -> Any:
     Raises:
         FootError: If it has no area.
     """
-    import shapely
-
     if len(below) == 0:
         raise FootError(f"the mesh has no surface in its lowest {height:g} mm")
-    points = shapely.MultiPoint(below.reshape(-1, 3)[:, :2]).convex_hull
+    points = convex_outline(below.reshape(-1, 3)[:, :2])
     if points.geom_type != "Polygon" or points.area < 1.0:
         raise FootError(f"the lowest {height:g} mm of the mesh have no area: a point or an edge is no sole")
     # Vertical walls project to lines: they count in the hull, not in the union.
@@ -158,48 +153,7 @@ def _projected(triangles: NDArray[np.float64]) -> Any:
     """Union of triangles seen from above."""
     import shapely
 
-    flat = triangles[..., :2]
-    if len(flat) > _MANY:  # corners that are shared move together, so no gap opens
-        flat = np.unique((flat / _COARSE_GRID).round().reshape(-1, 6), axis=0).reshape(-1, 3, 2) * _COARSE_GRID
-    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
-    flat = flat[np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) > 1e-9]
-    if not len(flat):
-        return shapely.Polygon()
-    cells = shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1))
-    if len(flat) > _MANY:
-        cells = _joined_in_tiles(cells, flat)
-    return shapely.set_precision(_united(cells), GRID)  # which closes hairline gaps
-
-
-def _united(cells: Any) -> Any:
-    """Union of polygons; on the grid, which takes longer, where their crossings lie too near each other without."""
-    import shapely
-
-    try:
-        return shapely.union_all(cells)
-    except shapely.errors.GEOSException:
-        return shapely.union_all(cells, grid_size=GRID)
-
-
-def _joined_in_tiles(cells: Any, flat: NDArray[np.float64]) -> Any:
-    """Unions of triangles that lie side by side; refused where they are a crowd, which takes minutes to unite.
-
-    Triangles of a surface join: the border of a tile has few corners. What overlaps at random gets more of them.
-    """
-    import shapely
-
-    box = shapely.total_bounds(cells)
-    if shapely.area(cells).sum() > _LAYERS * (box[2] - box[0]) * (box[3] - box[1]):
-        raise FootError(f"its triangles lie over each other more than {_LAYERS} times; give a surface")
-    rows = np.floor(flat[:, 0, 0] / _TILE)
-    order = np.lexsort((flat[:, 0, 1], rows))
-    tiles = []
-    for start in range(0, len(order), _IN_TILE):
-        tile = cells[order[start : start + _IN_TILE]]
-        tiles.append(_united(tile))
-        if shapely.get_num_coordinates(tiles[-1]) > len(tile):
-            raise FootError("its triangles overlap without joining; give a surface")
-    return tiles
+    return shapely.set_precision(covered_area(triangles[..., :2]), GRID)  # which closes hairline gaps
 
 
 def single_outline(union: Any, hull: Any, *, detail: float = _SIMPLIFY) -> Any:

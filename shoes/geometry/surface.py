@@ -1,0 +1,153 @@
+"""What surfaces of up to a million triangles are asked: whether they are closed, what they cover, and their hull.
+
+All of it is exact but for a grid of a micrometre. Corners are numbered by their place on the grid, and a covered area
+comes from the edges that are left when those that two triangles share in opposite directions cancel: their winding
+number about a point is the number of triangles over it, of a surface as of triangles that do not join.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.errors import FootError
+
+__all__ = ["convex_outline", "corner_numbers", "covered_area", "is_closed"]
+
+_GRID = 1e-3  # mm
+_MOST_EDGES = 60_000  # left over: more come of triangles that do not join
+_MOST_CROSSED = 40_000_000  # edges times faces that they enclose
+_DIRECTIONS = 32  # in which points are sought that lie farthest out
+_FEW = 2000  # points whose hull is found at once
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+
+def corner_numbers(points: Array) -> Numbers:
+    """A number for each point, the same for points of the same place on a grid of a micrometre.
+
+    Args:
+        points: Points (..., 2) or (..., 3) in mm.
+
+    Returns:
+        Numbers (...), from 0 on without gaps.
+
+    Example:
+        >>> corner_numbers(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1e-6]])).tolist()
+        [0, 1, 0]
+    """
+    shape, places = points.shape[:-1], np.rint(points.reshape(-1, points.shape[-1]) / _GRID).astype(np.int64)
+    number: Numbers = np.zeros(len(places), dtype=np.int64)
+    for i in range(places.shape[1]):
+        axis = places[:, i] - places[:, i].min(initial=0)
+        span = int(axis.max(initial=0)) + 1
+        if int(number.max(initial=0)) > np.iinfo(np.int64).max // (2 * span):
+            number = np.unique(number, return_inverse=True)[1].reshape(-1)
+        number = number * span + axis
+    return np.unique(number, return_inverse=True)[1].reshape(shape)
+
+
+def is_closed(triangles: Array) -> bool:
+    """Whether every edge of a surface belongs to exactly two triangles.
+
+    Args:
+        triangles: Triangles (n, 3, 3) in mm.
+
+    Returns:
+        Whether it is closed.
+    """
+    corners = corner_numbers(triangles)
+    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    long = start != end
+    key = np.minimum(start, end)[long] * (int(corners.max(initial=0)) + 1) + np.maximum(start, end)[long]
+    return bool((np.unique(key, return_counts=True)[1] == 2).all())
+
+
+def convex_outline(points: Array) -> Any:
+    """The convex hull of points in a plane; those inside of what the farthest of them span are left out first.
+
+    Args:
+        points: Points (n, 2) in mm.
+
+    Returns:
+        A shapely geometry: a polygon, or a line or point where they have no area.
+    """
+    import shapely
+
+    if len(points) > _FEW:
+        x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
+        extreme: list[int] = []
+        for turn in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS:
+            along = np.cos(turn) * x + np.sin(turn) * y
+            extreme += [int(along.argmin()), int(along.argmax())]
+        spanned = shapely.MultiPoint(points[extreme]).convex_hull
+        if spanned.geom_type == "Polygon":
+            shapely.prepare(spanned)
+            outside = np.unique((x + 1j * y)[~shapely.contains_xy(spanned, x, y)])
+            points = np.column_stack([outside.real, outside.imag])
+    return shapely.MultiPoint(points).convex_hull
+
+
+def covered_area(flat: Array) -> Any:
+    """What triangles in a plane cover together.
+
+    Args:
+        flat: Triangles (n, 3, 2) in mm, in any order and direction, over each other or not.
+
+    Returns:
+        A shapely polygon or multipolygon, possibly empty.
+
+    Raises:
+        FootError: If most of them do not join: of so many no surface is made, and to unite them takes minutes.
+    """
+    import shapely
+
+    flat = np.rint(flat / _GRID) * _GRID
+    u, v = flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    double = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    flat = np.where((double < 0.0)[:, None, None], flat[:, ::-1], flat)[np.abs(double) > 0.1 * _GRID**2]
+    if not len(flat):
+        return shapely.Polygon()
+    edges, times = _left_over(flat)
+    if len(edges) > _MOST_EDGES:
+        raise FootError("its triangles overlap without joining; give a surface")
+    lines = shapely.linestrings(edges)
+    faces = shapely.get_parts(shapely.polygonize([shapely.union_all(lines, grid_size=_GRID)]))
+    if len(faces) * len(edges) > _MOST_CROSSED:
+        raise FootError("its triangles overlap without joining; give a surface")
+    inside = _winding(shapely.get_coordinates(shapely.point_on_surface(faces)), edges, times) > 0
+    return shapely.union_all(faces[inside])
+
+
+def _left_over(flat: Array) -> tuple[Array, Numbers]:
+    """Directed edges (m, 2, 2) of triangles that no others cancel, and how many times each is left."""
+    corners = corner_numbers(flat)
+    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    count = int(corners.max()) + 1
+    key = np.minimum(start, end) * count + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.diff(key[order], prepend=-1))
+    net = np.add.reduceat(np.where(start < end, 1, -1)[order], first)
+    left = np.flatnonzero(net)
+    which = order[first[left]]
+    points = flat.reshape(-1, 2)
+    following = 3 * (which // 3) + (which + 1) % 3
+    edges = np.stack([points[which], points[following]], axis=1)
+    turned = (start[which] < end[which]) != (net[left] > 0)
+    return np.where(turned[:, None, None], edges[:, ::-1], edges), np.abs(net[left])
+
+
+def _winding(points: Array, edges: Array, times: Numbers) -> Numbers:
+    """Winding number (k,) of directed edges (m, 2, 2) about points (k, 2)."""
+    out = np.zeros(len(points), dtype=np.int64)
+    (ax, ay), (bx, by) = edges[:, 0].T, edges[:, 1].T
+    step = max(1, 4_000_000 // len(edges))
+    for i in range(0, len(points), step):
+        x, y = points[i : i + step, :1], points[i : i + step, 1:]
+        side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)  # > 0: the point lies left of the edge
+        up, down = (ay <= y) & (by > y) & (side > 0.0), (ay > y) & (by <= y) & (side < 0.0)
+        out[i : i + step] = ((up.astype(np.int64) - down) * times).sum(axis=1)
+    return out
