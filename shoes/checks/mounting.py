@@ -14,6 +14,7 @@ from plantar.layouts.layout import Side
 from shoes.foot.foot import Foot
 from shoes.geometry.outline import cut_below, ring
 from shoes.geometry.section import cut_segments, section
+from shoes.geometry.surface import covered_area
 from shoes.parameters import ShoeParameters
 from shoes.solid.body import LEVELS
 from shoes.solid.retention import Retention
@@ -22,6 +23,7 @@ __all__ = ["Mounting", "check_mounting"]
 
 _ABOVE = 9  # sections above the wall
 _BESIDE = 8.0  # mm beside a clip or screw, where its window or boss is
+_MANY = 20_000  # triangles, above which the area that they cover is taken for them
 _SLIVER = 0.05  # mm that a wall may lean over
 _WALL_SHARE = 0.1  # of a section's area: what is smaller is a clip, no wall
 
@@ -138,6 +140,10 @@ def _gap_on_the_way(foot: Foot, height: float, solid: Any) -> float:
     if foot.triangles is None:
         return float(foot.passing(height).distance(solid))
     flat = cut_below(foot.triangles, height)[..., :2]
+    if not len(flat):
+        return math.inf
+    if len(flat) > _MANY:  # upright triangles, which cover nothing, are met in the sections of `_gap`
+        return float(covered_area(flat).distance(solid))
     tree = shapely.STRtree(shapely.polygons(np.concatenate([flat, flat[:, :1]], axis=1)))
     _, distances = tree.query_nearest(solid, return_distance=True)
     return float(distances.min(initial=math.inf))
