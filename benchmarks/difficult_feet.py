@@ -1,0 +1,116 @@
+"""Shoes for twelve difficult feet, each in small rotations: the table of difficult_feet.md.
+
+`python benchmarks/difficult_feet.py [TURNS] [FOOT...]` builds and exports what is missing in difficult_feet.csv, the
+left shoe of each foot in so many rotations (the first is none), and writes the table; stopped, it goes on where it was.
+`... difficult_feet.py 0` writes the table. The feet are those of tests/shoes/foot_family.py, and each shoe that passes
+its own checks is looked at by tests/shoes/shoe_witness.py, which shares no code with what makes it.
+
+An outcome is `holds`; `refused`, the foot told to be none; `told`, a shoe whose checks do not hold (exit code 1);
+`hidden`, one whose checks hold and the witness finds a fault; or `crashed`, any other exception.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import tempfile
+import time
+from collections import Counter
+from itertools import product
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from resumable import commit, write_table
+
+from plantar.errors import PlantarError
+from shoes import ShoeParameters, build_shoe, export_shoe
+from shoes.foot.foot_mesh import foot_from_triangles
+
+FOLDER = Path(__file__).parent
+sys.path.insert(0, str(FOLDER.parent / "tests" / "shoes"))
+from foot_family import FAMILY, TURNS, small_turns, turned  # noqa: E402
+from shoe_witness import Witness  # noqa: E402
+
+TABLE = FOLDER / "difficult_feet.csv"
+COLUMNS = ("foot", "turn", "outcome", "taxels", "bound", "flat_percent", "half_percent", "undercut_mm2", "blind_rim_mm")
+COLUMNS += ("seconds", "commit", "reason")
+OUTCOMES = ("holds", "refused", "told", "hidden", "crashed")
+LONG_BED = {"large": {"bed_length": 500.0}}
+"""Parameters of feet that the usual printer has no room for."""
+
+
+def shoe_of(name: str, turn: int) -> dict[str, Any]:
+    """The row of one foot in one rotation."""
+    start = time.perf_counter()
+    row: dict[str, Any] = dict.fromkeys(COLUMNS, "") | {"foot": name, "turn": turn, "commit": commit()}
+    try:
+        foot = foot_from_triangles(name, turned(FAMILY[name](), *small_turns(name)[turn]), where=name)
+        build = build_shoe(foot, side="left", parameters=ShoeParameters(**LONG_BED.get(name, {})))
+        with tempfile.TemporaryDirectory() as folder:
+            report = export_shoe(build, folder)
+            assert foot.triangles is not None
+            faults = Witness(Path(folder), foot.triangles).problems() if report.holds else []
+        checked, share = report.checks["left"], build.load_share
+        failed = [f"{c.name}: {c.value} ({c.allowed})" for c in checked.checks if not c.holds]
+        row |= {
+            "outcome": "told" if failed else "hidden" if faults else "holds",
+            "taxels": len(build.shoes[0].layout),
+            "bound": build.fit.bound,
+            "flat_percent": round(100.0 * share.flat, 1),
+            "half_percent": round(100.0 * share.half, 1),
+            "undercut_mm2": checked.mounting.undercut,
+            "blind_rim_mm": round(build.shoes[0].plan.blind_rim, 1),
+            "reason": "; ".join(failed + faults),
+        }
+    except PlantarError as error:
+        row |= {"outcome": "refused", "reason": str(error)}
+    except Exception as error:  # of every kind: that there is none is what is counted
+        row |= {"outcome": "crashed", "reason": f"{type(error).__name__}: {error}"}
+    return row | {"seconds": round(time.perf_counter() - start, 1)}
+
+
+def rows() -> dict[tuple[str, int], dict[str, str]]:
+    """The last row of each foot and turn."""
+    if not TABLE.exists():
+        return {}
+    with TABLE.open(encoding="utf-8", newline="") as file:
+        return {(row["foot"], int(row["turn"])): row for row in csv.DictReader(file)}
+
+
+def run(turns: int, names: list[str]) -> None:
+    """Build what is missing, turn by turn."""
+    for turn, name in product(range(turns), names or sorted(FAMILY)):
+        if (name, turn) not in rows():
+            row, new = shoe_of(name, turn), not TABLE.exists()
+            with TABLE.open("a", encoding="utf-8", newline="") as file:
+                writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+                if new:
+                    writer.writeheader()
+                writer.writerow(row)
+            print(*(row[c] for c in ("foot", "turn", "outcome", "seconds", "reason")), flush=True)
+
+
+def report() -> None:
+    """Write the table."""
+    lines = ["| foot | turns | holds | refused | told | hidden | crashed | taxels / bound | flat, half % | s |"]
+    lines.append("|---|---|---|---|---|---|---|---|---|---|")
+    found = rows()
+    for name in sorted({name for name, _ in found}):
+        own = [row for (foot, _), row in found.items() if foot == name]
+        outcomes = Counter(row["outcome"] for row in own)
+        counts = " | ".join(str(outcomes[kind]) for kind in OUTCOMES)
+        built = [row for row in own if row["taxels"]]
+        cells = span = "-"
+        if built:
+            least, most = (f([int(row["taxels"]) for row in built]) for f in (min, max))
+            cells = f"{least} to {most} / {max(int(row['bound']) for row in built)}"
+            span = ", ".join(f"{min(float(row[c]) for row in built):.0f}" for c in ("flat_percent", "half_percent"))
+        spent = median(float(row["seconds"]) for row in own)
+        lines.append(f"| {name} | {len(own)} | {counts} | {cells} | {span} | {spent:.0f} |")
+    write_table(FOLDER / "difficult_feet.md", lines)
+
+
+if __name__ == "__main__":
+    run(int(sys.argv[1]) if len(sys.argv) > 1 else TURNS, sys.argv[2:])
+    report()
