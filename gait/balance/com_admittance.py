@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ComAdmittance"]
+__all__ = ["LARGEST_OFFSET", "ComAdmittance"]
+
+LARGEST_OFFSET = 0.5
+"""Length in legs that a balance law lets the CoM's reference be off its plan: no foot reaches both from there."""
 
 
 class ComAdmittance:
@@ -20,6 +25,7 @@ class ComAdmittance:
         com_gain: k_x in 1/s: how fast it returns to the plan.
         zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
         period: Control period in s.
+        largest: Length in m that the offset does not exceed, however large gains and errors are.
 
     Example:
         >>> admittance = ComAdmittance(zmp_gain=1.0, com_gain=4.0, zmp_filter=0.02, period=0.005)
@@ -29,12 +35,15 @@ class ComAdmittance:
         [0.005, 0.0]
     """
 
-    def __init__(self, zmp_gain: float, com_gain: float, zmp_filter: float, period: float) -> None:
+    def __init__(
+        self, zmp_gain: float, com_gain: float, zmp_filter: float, period: float, largest: float = math.inf
+    ) -> None:
         self.offset = np.zeros(2)
         self.rate = np.zeros(2)
         self._zmp_gain = zmp_gain
         self._com_gain = com_gain
         self._period = period
+        self._largest = largest
         self._share = period / (zmp_filter + period)
         self._error = np.zeros(2)  # filtered
 
@@ -49,3 +58,6 @@ class ComAdmittance:
         # The second term brings the CoM back onto the plan; without it a bias of the ZMP would add up to a drift.
         self.rate = self._zmp_gain * self._error - self._com_gain * self.offset
         self.offset = self.offset + self._period * self.rate
+        size = math.sqrt(self.offset.dot(self.offset))
+        if size > self._largest:
+            self.offset = self.offset * (self._largest / size)

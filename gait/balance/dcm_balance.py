@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance.com_admittance import ComAdmittance
+from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
@@ -55,7 +55,8 @@ class DcmBalance:
         self.mass = mass
         self.period = period
         self.states: Counter[str] = Counter()
-        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period)
+        largest = LARGEST_OFFSET * gains.body.leg
+        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
 
     def desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]

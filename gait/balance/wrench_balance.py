@@ -16,7 +16,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance.com_admittance import ComAdmittance
+from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance, FootCorrection
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.plan.vrp_plan import LipReference
@@ -124,7 +124,8 @@ class WrenchBalance:
         self.feet = FootAdmittance(gains.feet, period)
         self.states: Counter[str] = Counter()
         self._integral = np.zeros(2)
-        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period)
+        largest = LARGEST_OFFSET * gains.body.leg
+        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
 
     def update(
         self,

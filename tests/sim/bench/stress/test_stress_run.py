@@ -25,7 +25,13 @@ from sim.run.scene import load_scene
 CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
 
 
-@pytest.mark.parametrize("case", CASES, ids=[case["found"][:50] for case in CASES])
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, id=case["found"][:50], marks=[pytest.mark.long] if case["longest"] > 1.0 else [])
+        for case in CASES
+    ],
+)
 def test_what_was_found_stays_mended(case: dict[str, Any]):
     outcome = run_scenario(Scenario.from_dict(case["scenario"]), case["longest"])
     assert outcome.kind == case["outcome"], outcome.detail
