@@ -191,8 +191,8 @@ class StepAdjustment:
         ):
             return None
         assert tick.phase.swing is not None
-        wanted = nearest_place(self._region(tick, tick.phase.swing), planned.x + more[0], planned.y + more[1])
-        x, y = self._reached(foot, wanted, left)
+        region = self._region(tick, tick.phase.swing)
+        (x, y), _ = self._landing(foot, (planned.x + more[0], planned.y + more[1]), left, region)
         dx, dy = x - planned.x, y - planned.y
         if dx * px + dy * py <= 0.5 * self._rules.least_error * size:
             return None
@@ -274,10 +274,10 @@ class StepAdjustment:
 
         def tried(time: float) -> _Choice:
             missed = _missed(pendulum, time)
-            wanted = nearest_place(region, planned.x + missed[0] / slope, planned.y + missed[1] / slope)
-            x, y = self._reached(foot, wanted, time)
+            wanted = planned.x + missed[0] / slope, planned.y + missed[1] / slope
+            (x, y), beyond = self._landing(foot, wanted, time, region)
             dx, dy = x - planned.x, y - planned.y
-            cost = math.dist(missed, (slope * dx, slope * dy)) + rules.price_time * abs(time - left)
+            cost = math.dist(missed, (slope * dx, slope * dy)) + beyond + rules.price_time * abs(time - left)
             return _Choice(time, (dx, dy), cost + price * math.hypot(dx, dy))
 
         step = (latest - soonest) / _COARSE
@@ -324,8 +324,29 @@ class StepAdjustment:
             return None
         time = found.time - begun
         px, py = (found.place - vrp + target).tolist()
-        (x, y), (tx, ty) = self._reached(foot, (px, py), time), target.tolist()
+        (x, y), _ = self._landing(foot, (px, py), time, region)
+        tx, ty = target.tolist()
         return _Choice(time, (x - tx, y - ty), 0.0)
+
+    def _landing(
+        self, foot: _Foot, wanted: tuple[float, float], time: float, region: NDArray[np.float64]
+    ) -> tuple[tuple[float, float], float]:
+        """Where in a region the swing foot lands that is wanted somewhere, and how far it would leave the region.
+
+        One that moves too fast to brake in time has to brake harder than it should: that costs what it would go beyond.
+
+        Args:
+            foot: The foot.
+            wanted: The wanted place in m.
+            time: Time in s until it lands.
+            region: Convex polygon (k, 2) in m.
+
+        Returns:
+            Place (x, y) in m, and distance in m.
+        """
+        x, y = self._reached(foot, nearest_place(region, *wanted), time)
+        inside = nearest_place(region, x, y)
+        return inside, math.dist(inside, (x, y))
 
     def _reached(self, foot: _Foot, wanted: tuple[float, float], time: float) -> tuple[float, float]:
         """The place (x, y) in m nearest to a wanted one that the swing foot gets to, at rest, in some time in s.
