@@ -9,69 +9,55 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.balance.ankle_strategy import AnkleRules
 from gait.balance.balance_laws import balance_law
-from gait.balance.dcm_balance import BalanceGains
 from gait.balance.law import Feet, FootAction, FootState
 from gait.balance.open_loop import OpenLoop
 from gait.command import Command, FootTarget, Sensors
 from gait.contact.ankle_limits import AnkleLimits
 from gait.contact.foot_contacts import FootContacts, middle_of_sole
-from gait.contact.ground_map import GroundMapSettings
-from gait.contact.stance_contact import ContactSettings
 from gait.contact.support_strip import SupportStrip
-from gait.estimate.ankle_sensor import AnkleSensor, SoleWrench
+from gait.controller_settings import ControllerSettings
+from gait.estimate.ankle_sensor import SoleWrench
 from gait.estimate.body_sensors import BodySensors
 from gait.estimate.com_height import CoMHeight
 from gait.estimate.command_frame import CommandFrame
-from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
-from gait.estimate.estimator import (
-    EstimatorGains,
-    FloatingBaseEstimator,
-    LegKinematics,
-    SoleLoad,
-)
+from gait.estimate.dcm_filter import DcmFilter
+from gait.estimate.estimator import FloatingBaseEstimator, LegKinematics, SoleLoad
 from gait.estimate.gyro_bias import GyroBias
-from gait.estimate.identification import IdentificationRules
 from gait.estimate.identified_body import IdentifiedBody
-from gait.estimate.push_estimate import PushEstimate, PushRules
+from gait.estimate.push_estimate import PushEstimate
 from gait.estimate.skin_load import at_its_limit
 from gait.estimate.sole_slope import SoleSlope
 from gait.estimate.steady_load import SteadyLoad
-from gait.estimate.wrench_filter import WrenchFilter, WrenchFilterRules
-from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
-from gait.feet.foot_motion import FootMotion, Landing, SoleSense
-from gait.feet.ground_conformity import ConformityGains, GroundConformity
+from gait.estimate.wrench_filter import WrenchFilter
+from gait.feet.foot_motion import FootMotion, SoleSense
+from gait.feet.ground_conformity import GroundConformity
 from gait.feet.landing_compliance import DampingGains, LandingCompliance
 from gait.feet.posture_compensation import PostureCompensation
 from gait.feet.swing_compliance import SwingCompliance
-from gait.feet.swing_fit import SwingFitRules
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
-from gait.plan.phases import Phase, PhaseKind, Timing, WalkSchedule
+from gait.plan.phases import Phase, PhaseKind, WalkSchedule
 from gait.plan.plan_change import AppliedChange
 from gait.plan.walk_plan import WalkPlan
 from gait.propose.decide import decide
-from gait.propose.double_support_timing import DoubleSupportTiming, DoubleSupportTimingRules
-from gait.propose.dsp_opt import DspWeights
+from gait.propose.double_support_timing import DoubleSupportTiming
 from gait.propose.edge_beside import EdgeBeside
-from gait.propose.feasibility import FeasibilityRules
 from gait.propose.foothold_found import FootholdCarries
 from gait.propose.foothold_refused import StepGuard
-from gait.propose.foothold_rules import FootholdRules
 from gait.propose.foothold_seen import FootholdSeenAhead
-from gait.propose.learned_stride import LearnedStride, LearnedStrideRules
+from gait.propose.learned_stride import LearnedStride
 from gait.propose.proposer import Pendulum, Proposer, Tick
-from gait.propose.slope_inside import SlopeInside, SlopeRules, inward_distance
-from gait.propose.ssp_opt import StepRegionRules, StepWeights, touching_distance
-from gait.propose.step_adjustment import StepAdjustment, StepAdjustmentRules
-from gait.propose.step_timing import StepTiming, StepTimingRules
+from gait.propose.slope_inside import SlopeInside, inward_distance
+from gait.propose.ssp_opt import touching_distance
+from gait.propose.step_adjustment import StepAdjustment
+from gait.propose.step_timing import StepTiming
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.layouts.layout import SoleLayout
@@ -82,15 +68,10 @@ from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequen
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
-from plantar.sensing.link_skin import BodySkin
-from plantar.sensing.net_wrench import NetWrenchRules, net_wrench
-from plantar.settings.schema import Settings, choice, number, share, switch
+from plantar.sensing.net_wrench import net_wrench
 from plantar.sides import SIDES, Side, other_side
 
-if TYPE_CHECKING:
-    from gait.balance.wrench_balance import WrenchBalanceGains
-
-__all__ = ["Command", "ControllerSettings", "FootTarget", "Sensors", "Start", "WalkingController"]
+__all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
 _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
@@ -99,104 +80,6 @@ _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this f
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 _BRIDGED = 0.2  # beats without encoders or IMU: a DCM that nobody follows is a fifth farther off by then
 _NO_WAY = 1 / 12  # leg: a walk that is shorter has no direction of its own
-
-
-class ControllerSettings(Settings):
-    """Settings of a walk.
-
-    Attributes:
-        com_height: CoM height above the soles in m.
-        mass: Robot mass in kg.
-        period: Control period in s.
-        timing: Durations of the phases.
-        swing_height: Clearance of the swing foot in m.
-        swing_fit: What the swing foot's path is fitted to, with that height; None takes polynomials of the time.
-        ankle_reach: How far in m from its frame's origin, which is below the ankle, along the sole, an ankle bears the
-            robot; nothing farther off is loaded.
-        landing: How a foot lands.
-        compliance: Preemptive foot compliance; None lands blindly.
-        touchdown: Loads of a foot that lands with compliance.
-        ground_map: Map of the ground under it.
-        slope: Ground that slopes across a foot which lands with compliance.
-        feasibility: Rules of step feasibility, which need compliance; None steps on everything.
-        conformity: Gains of feet that take the ground's shape, which need compliance; None leaves soles as they land.
-        trunk_lean: Roll of the torso in rad per metre of the CoM's distance from the middle between the feet.
-        lean_reach: Distance in m from which on the torso leans no further.
-        alignment_time: Time constant in s with which the command frame follows the real footholds.
-        gains: Gains of the balance law; their class says which.
-        estimator: Estimator gains.
-        dcm_filter: How far the Kalman filter of CoM and DCM trusts what; None leaves them to the estimator's observer.
-        identification: What is identified of the robot's differences from its model; None believes the model.
-        contact: How contact polygons are found from the taxels.
-        foothold: When what is found moves the plan.
-        step_timing: When a single support ends sooner or later than planned; None keeps the plan's times.
-        step_adjustment: When a footstep moves for balance, in place of `step_timing`; None keeps the footsteps.
-        learned_stride: How strides learn from steps that go along with pushes; None forgets them.
-        step_region: Where a footstep may move to.
-        step_weights: What a change of a footstep is weighed by in K 31.
-        double_support_timing: When a double support ends sooner or later.
-        dsp_weights: What another length of it is weighed by in K 37.
-        ankle_strategy: Which part of the support polygon a changed footstep is planned with (K 27).
-        push: When the soles and the IMU tell of a push on the body; None expects none.
-        push_felt: Which taxels of the upper body feel a push; None goes by the soles alone.
-        push_expected: How a push is expected to go on.
-        feedback: False walks the plan in open loop, for comparison.
-        zmp_source: What senses the loads and the ZMP that are fed back: "skin", or "force_torque" at the ankles.
-        ankles: Force-torque sensor of each ankle, where the robot has them.
-        ankle_limits: Strips (m, 4) of each sole in which the robot's weight may act on that foot alone without a joint
-            of its ankle beyond its torque limit (`gait.contact.ankle_limits`); empty for joints without limits.
-        footholds: What tells what a foot stands on: "off" takes every foothold for a whole sole, for comparison;
-            "force" goes by the taxels' forces, "skin" by what they see before they touch, too.
-        skin: Skin on its upper body, whose readings are `Sensors.skin`: on the base, so that its taxels stand in the
-            base frame, and on links that `Sensors.links` has the poses of; None for a robot without.
-    """
-
-    com_height: float
-    mass: float
-    period: float = number(0.005, "s", 1e-4, 0.1)
-    timing: Timing = field(default_factory=Timing)
-    swing_height: float = share(1 / 12, "leg", 0.0, 1.0)
-    swing_fit: SwingFitRules | None = None
-    ankle_reach: float = number(1.0, "m", 0.0, 1.0)
-    landing: Landing = field(default_factory=Landing)
-    compliance: ComplianceGains | None = None
-    touchdown: TouchdownGains = field(default_factory=TouchdownGains)
-    ground_map: GroundMapSettings = field(default_factory=GroundMapSettings)
-    slope: SlopeRules = field(default_factory=SlopeRules)
-    feasibility: FeasibilityRules | None = None
-    conformity: ConformityGains | None = None
-    trunk_lean: float = number(0.0, "rad/m", 0.0, 10.0)
-    lean_reach: float = share(53 / 600, "leg", 0.0, 1.0)
-    alignment_time: float = share(1.21, "beat", 0.01, 100.0)
-    gains: BalanceGains | WrenchBalanceGains = field(default_factory=BalanceGains)
-    estimator: EstimatorGains = field(default_factory=EstimatorGains)
-    dcm_filter: DcmFilterRules | None = None
-    identification: IdentificationRules | None = None
-    contact: ContactSettings = field(default_factory=ContactSettings)
-    foothold: FootholdRules = field(default_factory=FootholdRules)
-    step_timing: StepTimingRules | None = None
-    step_adjustment: StepAdjustmentRules | None = None
-    learned_stride: LearnedStrideRules | None = None
-    step_region: StepRegionRules = field(default_factory=StepRegionRules)
-    step_weights: StepWeights = field(default_factory=StepWeights)
-    double_support_timing: DoubleSupportTimingRules = field(default_factory=DoubleSupportTimingRules)
-    dsp_weights: DspWeights = field(default_factory=DspWeights)
-    ankle_strategy: AnkleRules = field(default_factory=AnkleRules)
-    push: PushRules | None = None
-    push_felt: NetWrenchRules | None = None
-    push_expected: WrenchFilterRules = field(default_factory=WrenchFilterRules)
-    feedback: bool = switch(True)
-    zmp_source: str = choice("skin", "force_torque")
-    ankles: Mapping[Side, AnkleSensor] = field(default_factory=dict)
-    ankle_limits: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
-    footholds: str = choice("off", "force", "skin")
-    skin: BodySkin | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("com_height", "mass"):
-            if not 0.0 < getattr(self, name) < math.inf:
-                raise InputError(f"setting '{name}' is {getattr(self, name)!r}; allowed: a finite number above 0")
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
     ),
     "gait": (
-        *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command", "controller"),
-        "controller_tables",
+        *("analysis", "plan", "estimate", "contact", "balance", "feet", "propose", "command"),
+        *("controller_settings", "controller", "controller_tables"),
     ),
     "gait.analysis": (
         *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity", "parameters"),

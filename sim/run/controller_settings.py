@@ -12,7 +12,7 @@ from gait.balance.ankle_strategy import AnkleRules
 from gait.balance.balance_laws import balance_gains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
-from gait.controller import ControllerSettings
+from gait.controller_settings import ControllerSettings
 from gait.estimate.ankle_sensor import AnkleSensor
 from gait.estimate.dcm_filter import DcmFilterRules
 from gait.estimate.estimator import EstimatorGains

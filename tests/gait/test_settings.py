@@ -12,7 +12,7 @@ from gait.balance.foot_admittance import AdmittanceGains
 from gait.balance.wrench_balance import WrenchBalanceGains
 from gait.contact.ground_map import GroundMapSettings
 from gait.contact.stance_contact import ContactSettings
-from gait.controller import ControllerSettings
+from gait.controller_settings import ControllerSettings
 from gait.controller_tables import CONTROLLER_TABLES, check_controller_table, controller_keys
 from gait.estimate.estimator import EstimatorGains
 from gait.feet.compliance_gains import ComplianceGains, TouchdownGains
