@@ -54,13 +54,18 @@ def owner_of(key: str, text: str, *groups: Mapping[str, Sequence[str]]) -> tuple
             raise SceneError(f"setting '{key}={text}' could be more than one key; allowed: {found}")
         if owners:
             return owners[0], name
-    every = [f"{s}.{n}" for tables in groups for s, names in tables.items() for n in names]
-    short = {full.partition(".")[2]: full for full in every}
-    near = get_close_matches(key, every, 3) or [short[n] for n in get_close_matches(name, short, 3)]
-    hint = f"nearest: {', '.join(near)}; " if near else ""
+    every = {f"{s}.{n}": n for tables in groups for s, names in tables.items() for n in names}
+    near = [full for full, n in every.items() if n == name] or get_close_matches(key, every, 3)
+    near = near or [full for n in get_close_matches(name, every.values(), 3) for full in every if every[full] == n]
+    hint = f"nearest: {', '.join(near[:3])}; " if near else ""
+    # All names of all tables would be a screenful.
+    tables = list(dict.fromkeys(s for tables in groups for s in tables))
+    allowed = [f"{section}.{n}" for tables in groups for n in tables.get(section, ())] or [
+        "robot",
+        *(f"{s}.*" for s in tables),
+    ]
     raise SceneError(
-        f"setting '{key}={text}': no such key; {hint}`plantar list settings` lists all; allowed: robot, "
-        + ", ".join(f"{s}.{n}" for s, names in groups[0].items() for n in names)
+        f"setting '{key}={text}': no such key; {hint}`plantar list settings` lists all; allowed: {', '.join(allowed)}"
     )
 
 
