@@ -113,7 +113,6 @@ def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dic
         "taxel forces": sum(len(skin) * skin.pressed for skin in skins),
         "proximity rays": sum(s.cast for s in run.sensors.proximity.values()),
         "steps of the IK with projectors": run.legs.inverse.careful,
-        "skin samples": sum(skin.pressed + skin.in_air for skin in skins) // 2,
         "recorded ticks": 0,
         "rendered frames": 0,
     }
@@ -123,7 +122,6 @@ def _counts(run: WatchedSimulation, summary: Mapping[str, Any]) -> dict[str, dic
         "taxel forces": sum(len(skin) * skin.in_air for skin in skins),
         "proximity rays": int(told.get("proximity_rays", 0)),
         "steps of the IK with projectors": run.legs.inverse.plain,
-        "skin samples": int(told["skin_samples"]),
         "recorded ticks": int(told["recorded_ticks"]),
         "rendered frames": int(told["rendered_frames"]),
     }

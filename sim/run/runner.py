@@ -261,10 +261,9 @@ class Simulation:
         world, data = self.world, self.world.data
         controller, servos, sensors, judge = self.controller, self.servos, self.sensors, self.judge
         everything = self.scene.control.skip == "none"
-        keeps_all = everything or log is not None
         pushes, warnings = bool(self.pusher.shoves), data.warning.number
         ticks: list[float] = []
-        skipped = {"percept_members": 0, "skin_samples": 0, "recorded_ticks": 0, "rendered_frames": 0}
+        skipped = {"percept_members": 0, "recorded_ticks": 0, "rendered_frames": 0}
         began = shown = clock.perf_counter()
         k, last = 0, math.ceil(self.end / world.period)
         longest = _LONGEST * last
@@ -272,10 +271,7 @@ class Simulation:
         frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
         while k < min(last, longest):
             feet = None
-            if k % sensors.skin_every == 0 and not keeps_all and sensors.unread(k, tick_every):
-                sensors.pass_over_skins()
-                skipped["skin_samples"] += 1
-            elif k % sensors.skin_every == 0:
+            if k % sensors.skin_every == 0:
                 feet = sensors.read_skins(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from gait.controller import Sensors
 from gait.estimate.ankle_sensor import AnkleSensor
-from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
@@ -87,8 +86,6 @@ class SensorSuite:
         self._plant = plant
         self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
-        step = self.skin_every * world.period
-        self._foreseen = all(abs(s.period - step) < SAME_TIME and not s.remembers for s in self.skins.values())
         self.readings: dict[Side, Reading] = {}
         self.body_skin: Callable[[], SkinReading] | None = None
         self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
@@ -108,25 +105,6 @@ class SensorSuite:
         for side, contacts in zip(SIDES, feet, strict=True):
             self.readings[side] = self.skins[side].read(data, contacts, near=side in near, everything=everything)
         return feet
-
-    def unread(self, step: int, tick_every: int) -> bool:
-        """Whether no control tick will see what the soles sample at a physics step, as they are faster than ticks.
-
-        Args:
-            step: Number of the step, at which a sample is due.
-            tick_every: Physics steps from a tick to the next one; the first is at step 0.
-
-        Returns:
-            False, too, where it is not known: samples do not fall on steps, or taxels remember.
-        """
-        arrives = step + self.skin_every * self._sensing.delay_periods
-        # The first one is delivered until another one arrives.
-        return self._foreseen and step > 0 and -arrives % tick_every >= self.skin_every
-
-    def pass_over_skins(self) -> None:
-        """What `read_skins` does where a sample will be `unread`."""
-        for side in SIDES:
-            self.readings[side] = self.skins[side].pass_over(self._world.data)
 
     def read_body(self) -> Sensors:
         """Read encoders and IMU, with the soles' latest readings: what of it has arrived by now."""

@@ -219,45 +219,17 @@ class SkinSensor:
             comes back until a newer sample arrives.
         """
         now = float(data.time)
-        if self._is_due(now):
+        if not self._queue:
+            self._start, self._taken = now, 0
+        if now >= self._start + self._taken * self.period - SAME_TIME:
+            # Count on from now: steps longer than the period skip samples, they do not pile up.
+            self._taken = int((now - self._start) / self.period + 1e-6) + 1
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)
             force = self._forces(data, contacts)
             if self._errors is not None:
                 self._errors.silence(now, force, distance)
             self._queue.append(Reading(time=now, force=force, proximity=distance))
         return self._queue[0]
-
-    def pass_over(self, data: Any) -> Reading:
-        """`read` where nobody will see the sample that is due: the noise goes on, and nothing is measured.
-
-        Args:
-            data: The MjData after `mj_step` or `mj_forward`.
-
-        Returns:
-            The reading that is delivered now: an earlier one where there is a delay.
-        """
-        if self._is_due(float(data.time)):
-            if self.proximity is not None:
-                self.proximity.read(data, False)
-            if self._rng is not None and self.noise_std > 0.0:
-                self._rng.normal(0.0, self.noise_std, len(self.skin))
-            self._queue.append(self._queue[-1])
-        return self._queue[0]
-
-    @property
-    def remembers(self) -> bool:
-        """Whether what the taxels read depends on what was on them before: then each sample counts."""
-        return self._errors is not None
-
-    def _is_due(self, now: float) -> bool:
-        """Whether a sample is due at a time in s; then the next one is due later."""
-        if not self._queue:
-            self._start, self._taken = now, 0
-        if now < self._start + self._taken * self.period - SAME_TIME:
-            return False
-        # Count on from now: steps longer than the period skip samples, they do not pile up.
-        self._taken = int((now - self._start) / self.period + 1e-6) + 1
-        return True
 
     def _forces(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
