@@ -16,8 +16,8 @@ LARGE = 100_000_000
 """Bytes from which a table is kept in a file: what is smaller is quicker in memory, and hurts nobody."""
 
 
-_BLOCK = 4_000_000
-"""Numbers that are worked on at a time: 32 MB."""
+_BLOCK = 250_000
+"""Numbers that are worked on at a time: 2 MB."""
 
 
 def room(rows: int, width: int) -> NDArray[np.float64]:
@@ -43,7 +43,7 @@ def room(rows: int, width: int) -> NDArray[np.float64]:
 
 
 def blocks_of_frames(values: NDArray[Any]) -> Iterator[slice]:
-    """Rows of a table in blocks of 32 MB or less; the pages of each are let go after it.
+    """Rows of a table in blocks of 2 MB or less; the pages of each are let go after it.
 
     Args:
         values: The table (n, k).
