@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.gravity import GRAVITY
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.foxglove import LEVELS
 from plantar.recordings.protobuf import read_fields
@@ -107,7 +108,7 @@ def read_walk(path: str | os.PathLike[str]) -> Walk:
     zmp, polygon = _balance(run, time)
     total = sum(np.nan_to_num(values).sum(axis=1) for values in force.values())
     mass = run.metadata.get("mass_kg")
-    weight = 9.81 * mass if isinstance(mass, (int, float)) and mass > 0 else float(np.percentile(total, 90)) or 1.0
+    weight = GRAVITY * mass if isinstance(mass, (int, float)) and mass > 0 else float(np.percentile(total, 90)) or 1.0
     return Walk(
         name=_name(run),
         time=time,
