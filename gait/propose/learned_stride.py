@@ -63,16 +63,17 @@ class LearnedStride:
 
     def propose(self, tick: Tick) -> PlanChange | None:
         """The footsteps from the next one on, where what is learned has changed (see `gait.propose.proposer`)."""
-        plan, step = tick.plan, tick.phase.step
+        plan, swings = tick.plan, tick.phase.swing is not None
         if self._strides is None:
             self._strides = _strides(plan)
         if self._asked is not None and was_applied(self._asked[0], tick):
             self._planned_with, self._asked = self._asked[1], None
-        if tick.phase.swing is None or step not in self._strides:
+        step = tick.phase.step if swings else self._step  # the one that was taken last
+        if step not in self._strides:
             return None
         if step != self._step:
             self._step, self._aimed, self._learned = step, plan.foothold(step).position[:2], False
-        if not tick.feet.landed:
+        if swings and not tick.feet.landed:
             return None
         if not self._learned:
             self._learned = True

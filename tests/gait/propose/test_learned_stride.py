@@ -15,9 +15,13 @@ NOWHERE = np.empty((0, 2))
 
 
 def walk(
-    plan: WalkPlan, tick_at: Callable[..., Tick], learns: LearnedStride, push: Callable[[int], float]
+    plan: WalkPlan,
+    tick_at: Callable[..., Tick],
+    learns: LearnedStride,
+    push: Callable[[int], float],
+    early: float = 0.01,
 ) -> Iterator[tuple[int, PlanChange | None]]:
-    """Take each step of a plan: lift off, go along with a push by some metres forward, land."""
+    """Take each step of a plan: lift off, go along with a push by some metres forward, land some seconds early."""
     for step in range(plan.view.count):
         phase = next(p for p in plan.schedule.phases if p.swing is not None and p.step == step)
         assert learns.propose(_in_flight(tick_at(plan, phase.start + 0.01))) is None
@@ -26,11 +30,11 @@ def walk(
             there = plan.view.foothold(step)
             moved = PlanChange("pushed", step, foothold=replace(there, x=there.x + by), shift=(by, 0.0))
             plan.apply(moved, phase.start + 0.3, NOWHERE)
-        tick = tick_at(plan, phase.end - 0.01)
-        tick = tick._replace(feet=tick.feet._replace(landed=True, touchdown=True))
+        tick = tick_at(plan, phase.end - early)
+        tick = tick._replace(feet=tick.feet._replace(landed=early > 0.0, touchdown=True))
         change = learns.propose(tick)
         if change is not None:
-            plan.apply(change, phase.end - 0.01, NOWHERE)
+            plan.apply(change, phase.end - early, NOWHERE)
         yield step, change
 
 
@@ -43,10 +47,11 @@ def strides(plan: WalkPlan) -> list[float]:
     return [b - a for a, b in zip(places[:-2], places[2:], strict=True)]
 
 
-def test_strides_that_are_pushed_become_the_robots_own(plan_of: Any, tick_at: Any) -> None:
+@pytest.mark.parametrize("early", [0.01, 0.0, -0.01])
+def test_strides_that_are_pushed_become_the_robots_own(plan_of: Any, tick_at: Any, early: float) -> None:
     plan, learns = plan_of(12), LearnedStride(RULES)
     usual = strides(plan)[3]
-    changes = dict(walk(plan, tick_at, learns, lambda step: 0.1 if 2 <= step < 6 else 0.0))
+    changes = dict(walk(plan, tick_at, learns, lambda step: 0.1 if 2 <= step < 6 else 0.0, early))
     assert changes[2] is not None
     assert changes[2].reason == "strides learned"
     assert all(changes[k] is None for k in (0, 1, 7, 8, 9, 10, 11))
