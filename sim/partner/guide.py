@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from plantar.mechanics.easing import minimum_jerk
 from plantar.settings.body_scale import BodyScale
 from sim.body_skin.sensing import SkinSensor
+from sim.model.body_point import body_point
 from sim.model.world import World
 from sim.partner.settings import GuideSettings
 
@@ -145,12 +146,7 @@ class Guide:
 
     def held(self, world: World) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Where the middle of the arm truly is that it holds (3,) in the world in m, and its velocity (3,) in m/s."""
-        data, link = world.data, self._link
-        place = data.xpos[link] + data.xmat[link].reshape(3, 3) @ self.grip.point
-        about = data.subtree_com[self._root]
-        # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.
-        (wx, wy, wz), (x, y, z) = data.cvel[link, :3].tolist(), (place - about).tolist()
-        return place, data.cvel[link, 3:] + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x])
+        return body_point(world.data, self._link, self._root, self.grip.point)
 
     def drive(self, world: World, skin: SkinSensor) -> None:
         """Set the forces that move it for the next physics step.

@@ -22,6 +22,7 @@ from plantar.sensing.link_skin import BodySkin
 from plantar.settings.body_scale import BodyScale
 from sim.body_skin.sensing import SkinSensor
 from sim.body_skin.upper_body import FACES
+from sim.model.body_point import body_point
 from sim.model.world import World
 from sim.partner.hand import Hand, HandTarget
 
@@ -264,9 +265,8 @@ class _Frame:
     """
 
     def __init__(self, data: Any, base: int) -> None:
+        self._data, self._base = data, base
         self._rotation = data.xmat[base].reshape(3, 3)
-        self._origin, self._about = data.xpos[base], data.subtree_com[base]
-        self._spin, self._drift = data.cvel[base, :3].tolist(), data.cvel[base, 3:]
         self.yaw = math.atan2(float(self._rotation[1, 0]), float(self._rotation[0, 0]))
 
     def inward(self, face: str) -> NDArray[np.float64]:
@@ -276,6 +276,4 @@ class _Frame:
 
     def point(self, local: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Where a point (3,) of the base is in the world in m, and how fast it moves in m/s."""
-        place = self._origin + self._rotation @ local
-        (wx, wy, wz), (x, y, z) = self._spin, (place - self._about).tolist()
-        return place, self._drift + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x])
+        return body_point(self._data, self._base, self._base, local)

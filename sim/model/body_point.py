@@ -1,0 +1,30 @@
+"""Where a point of a body is, and how fast it moves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["body_point"]
+
+
+def body_point(
+    data: Any, body: int, root: int, local: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A point of a body in the world.
+
+    Args:
+        data: The MjData.
+        body: Id of the body.
+        root: Id of the body that its tree begins with, about whose centre of mass MuJoCo tells velocities.
+        local: The point (3,) in the body's frame in m.
+
+    Returns:
+        Its place (3,) in m and its velocity (3,) in m/s.
+    """
+    place = data.xpos[body] + data.xmat[body].reshape(3, 3) @ local
+    # The cross product in full: np.cross takes ten times as long, and this runs once a physics step.
+    (wx, wy, wz), (x, y, z) = data.cvel[body, :3].tolist(), (place - data.subtree_com[root]).tolist()
+    return place, data.cvel[body, 3:] + np.array([wy * z - wz * y, wz * x - wx * z, wx * y - wy * x])
