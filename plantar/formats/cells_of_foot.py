@@ -15,7 +15,7 @@ from plantar.layouts.layout import Side, SoleLayout
 from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, layout_for
 
-__all__ = ["cells_of_foot", "halves", "unit_of_values"]
+__all__ = ["cells_of_foot", "halves", "scale_to_force", "unit_of_values"]
 
 
 def unit_of_values(stated: str | None, options: ReadOptions, warnings: list[str], what: str = "the file") -> Unit:
@@ -84,12 +84,22 @@ def cells_of_foot(
         )
     if layout is None:
         warnings.append(f"no layout of the {side} sole: forces only, give one with --layout for pressures and CoP")
-    factor = unit.factor
-    if unit.kind == "pressure" and layout is not None:
-        scale_frames(values, factor * layout.areas)
-    elif factor != 1.0:
-        scale_frames(values, factor)
+    scale_to_force(values, unit, None if layout is None else layout.areas)
     return FootRecording(side, values, layout)
+
+
+def scale_to_force(values: NDArray[np.float64], unit: Unit, areas: NDArray[np.float64] | None) -> None:
+    """Make forces in N of readings, in place; raw counts stay what they are.
+
+    Args:
+        values: Readings (n, k).
+        unit: What they are.
+        areas: Areas (k,) of the cells in m^2; None where they are not known, and the readings are no pressures.
+    """
+    if unit.kind == "pressure" and areas is not None:
+        scale_frames(values, unit.factor * areas)
+    elif unit.factor != 1.0:
+        scale_frames(values, unit.factor)
 
 
 def halves(

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
+from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import (
     FootRecording,
     PressureRecording,
@@ -79,7 +79,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     force = table.rows
     unit = find_unit(options.unit or "N")
     assert unit is not None
-    scale_frames(force, unit.factor * layout.areas if unit.kind == "pressure" else unit.factor)
+    scale_to_force(force, unit, layout.areas)
     foot = FootRecording(side or "left", force, layout)
     return PressureRecording(
         path=path,

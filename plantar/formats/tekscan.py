@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import blocks_of_frames, scale_frames
+from plantar.recordings.let_go import blocks_of_frames
 from plantar.recordings.pressure_recording import (
     FootRecording,
     Kind,
@@ -96,10 +97,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         )
         if kind == "insole":
             warnings.append("the first row of the matrix is taken as the toes, its columns as seen from above")
-    if unit.kind == "pressure":
-        scale_frames(flat, unit.factor * layout.areas)
-    elif unit.kind == "force":
-        scale_frames(flat, unit.factor)
+    scale_to_force(flat, unit, layout.areas)
     foot = FootRecording(side or "left", flat, layout)
     return PressureRecording(
         path=path,
