@@ -91,8 +91,8 @@ class HandPushes:
         pushes: The pushes in the order of time.
         skin: Skin of the upper body, in the base frame.
         body: How large the robot is.
-        height: Says at which height in the world in m the robot is pushed, once it stands; hands keep to that point of
-            it.
+        height: Says at which height above the base's origin in m the robot is pushed, once it stands; hands keep to
+            that point of it.
 
     Attributes:
         pushes: The pushes, with what became of them.
@@ -145,7 +145,7 @@ class HandPushes:
         Raises:
             SceneError: If the middle of a palm would be above or below the skin.
         """
-        self.height = self._ask(world) - float(world.data.xpos[self._base, 2])
+        self.height = self._ask(world)
         frame = _Frame(world.data, self._base)
         for face, hand in self.hands.items():
             low, high = float(self._faces[face][:, 2].min()), float(self._faces[face][:, 2].max())

@@ -18,7 +18,7 @@ from plantar.sides import SIDES, Side
 from sim.arms.worn_arm import WornArm
 from sim.body_skin.upper_body import upper_body_skin
 from sim.model.world import World
-from sim.partner.hand_pushes import HandPush, HandPushes
+from sim.partner.hand_pushes import HandPush, HandPushes, faces_of
 from sim.robots.robot import Robot
 from sim.run.pushing import direction_of
 from sim.run.scene import Push, Scene
@@ -84,7 +84,7 @@ def hand_pushes(
         k = _with_swing(steps, first, direction_of(push, seed)) if push.with_swing else first
         along = _along(steps, k) if push.direction == "step" else np.array(direction_of(push, seed))
         made.append(HandPush(share * push.strength * along, push.duration, _When(push, schedule, k), k))
-    return HandPushes(made, skin, body, lambda world: pushed_height(push, skin, world))
+    return HandPushes(made, skin, body, lambda world: pushed_height(push, skin, faces_of(made), world))
 
 
 def _pushed_steps(push: Push, schedule: WalkSchedule, rng: np.random.Generator) -> list[tuple[int, float]]:
@@ -164,27 +164,29 @@ def _along(steps: Steps, k: int) -> NDArray[np.float64]:
     return way / length if length > 0.0 else np.array([1.0, 0.0])
 
 
-def pushed_height(push: Push, skin: BodySkin, world: World) -> float:
-    """Height in the world in m at which hands push a robot that stands.
+def pushed_height(push: Push, skin: BodySkin, faces: Sequence[str], world: World) -> float:
+    """Height above the base's origin in m at which hands push a robot that stands.
 
     Args:
         push: The pushes of the scene.
         skin: Skin of the upper body, in the base frame.
+        faces: Faces of it that hands press on.
         world: The world.
 
     Returns:
-        The height; named ones as near as palms find skin.
+        The height; named ones as near as all palms find skin.
     """
     model, data = world.model, world.data
-    if push.place == "height":
-        return float(data.xipos[world.torso, 2]) + push.height
     base = float(data.xpos[model.body_rootid[world.torso], 2])
-    low, high = base + float(skin.positions[:, 2].min()), base + float(skin.positions[:, 2].max())
+    if push.place == "height":
+        return float(data.xipos[world.torso, 2]) + push.height - base
+    levels = [skin.positions[skin.slices[face], 2] for face in faces] or [skin.positions[:, 2]]
+    low, high = max(float(z.min()) for z in levels), min(float(z.max()) for z in levels)
     joints = [model.joint(world.robot.legs[side].joints[0]).id for side in SIDES]
-    hips = float(data.xanchor[joints, 2].mean())
-    levels = {
-        "com": float(data.subtree_com[world.torso, 2]),
+    hips = float(data.xanchor[joints, 2].mean()) - base
+    named = {
+        "com": float(data.subtree_com[world.torso, 2]) - base,
         "hip": hips,
         "shoulder": hips + _SHOULDER * (high - hips),
     }
-    return min(max(levels[push.place], low), high)
+    return min(max(named[push.place], low), high)

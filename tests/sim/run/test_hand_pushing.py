@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -13,7 +14,8 @@ from plantar.settings.schema import Settings
 from sim.partner.hand_pushes import HandPushes
 from sim.run.hand_pushing import hand_pushes
 from sim.run.pushing import Pusher
-from sim.run.scene import Push
+from sim.run.runner import Simulation
+from sim.run.scene import Push, load_scene
 
 from ..partner.floating import box_skin
 
@@ -46,6 +48,18 @@ def test_a_push_may_come_anywhere_in_a_stride_and_in_any_direction() -> None:
     assert push.when() == pytest.approx(0.5 * (support(2)[0] + support(4)[0]))
     np.testing.assert_allclose(push.impulse, 20.0 * np.array([-0.5, -np.sqrt(0.75)]))
     assert set(push.shares()) == {"front", "left"}
+
+
+@pytest.mark.parametrize("robot", ["h1", "hrp2kai"])
+@pytest.mark.parametrize("place", ["com", "hip", "shoulder"])
+def test_a_named_place_is_one_on_the_skin_however_high_the_robot_stands(robot: str, place: str) -> None:
+    simulation = Simulation(load_scene("push-height", [f"push.place={place}", "push.direction=left"], robot), 0)
+    world, touched = simulation.world, simulation.touch
+    assert touched is not None
+    for base in np.random.default_rng(0).uniform(0.3, 3.0, 50):  # the last bits of sums differ from one to the next
+        world.data.qpos[2] = base
+        mujoco.mj_forward(world.model, world.data)
+        touched.place()
 
 
 @pytest.mark.parametrize(("direction", "side"), [("left", "left"), ("right", "right")])
