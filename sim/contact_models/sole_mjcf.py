@@ -12,11 +12,12 @@ from plantar.errors import InputError
 from plantar.layouts.layout import SoleLayout
 from sim.contact_models.candidate import Candidate
 
-__all__ = ["SoleMjcf", "sole_mjcf"]
+__all__ = ["SPHERE_RADIUS", "SoleMjcf", "sole_mjcf", "support_points"]
 
 SOLE_THICKNESS = 0.02  # m
 _PRISM_DEPTH = 0.01  # m
-_SPHERE_RADIUS = 0.004  # m
+SPHERE_RADIUS = 0.004
+"""Radius in m of the spheres of a sole that stands on spheres."""
 
 
 class SoleMjcf(NamedTuple):
@@ -68,11 +69,11 @@ def _box_with_tactile_sensor(candidate: Candidate, layout: SoleLayout, attribute
 
 def _spheres(candidate: Candidate, layout: SoleLayout, attributes: str) -> SoleMjcf:
     """Spheres that support each cell."""
-    r = _SPHERE_RADIUS
+    r = SPHERE_RADIUS
     parts = [
         f'<geom name="taxel{i}_{j}" type="sphere" size="{r}" pos="{x} {y} {r}" {attributes}/>'
         for i in range(len(layout))
-        for j, (x, y) in enumerate(_support_points(layout.cell_polygon(i), candidate.count))
+        for j, (x, y) in enumerate(support_points(layout.cell_polygon(i), candidate.count))
     ]
     return SoleMjcf("", "".join(parts))
 
@@ -102,8 +103,16 @@ _MAKERS: dict[tuple[str, str], Callable[[Candidate, SoleLayout, str], SoleMjcf]]
 """What makes the MJCF of a candidate, by its kind and reading."""
 
 
-def _support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Points (count, 2) that support a cell: its middle, or points evenly along its edge moved inwards."""
+def support_points(ring: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Points that support a cell: its middle, or points evenly along its edge moved inwards.
+
+    Args:
+        ring: Corners (k, 2) of the cell in m.
+        count: How many points, 1 or more.
+
+    Returns:
+        Points (count, 2) in m.
+    """
     edge = np.roll(ring, -1, axis=0) - ring
     length = np.hypot(edge[:, 0], edge[:, 1])
     cross = ring[:, 0] * np.roll(ring[:, 1], -1) - np.roll(ring[:, 0], -1) * ring[:, 1]

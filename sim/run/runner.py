@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -38,7 +38,7 @@ from sim.judging.walk_goal import WalkGoal
 from sim.judging.zmp_comparison import ZmpComparison
 from sim.model.ankle_limits import ankle_limits
 from sim.model.body import body_of
-from sim.model.world import World, build_leg_model, build_world, check_stable
+from sim.model.world import Visitor, World, build_leg_model, build_world, check_stable
 from sim.plant.draw import drawn_plant
 from sim.robots.robot import Robot
 from sim.robots.robot_file import load_robot
@@ -120,7 +120,7 @@ class Simulation:
             plan = (lambda: self.controller.schedule, self.feet, self.steps)
             self.touched = Touched(scene, skin, self.body, *plan, seed, reach, self.worn)
         others = (*worn, *([] if self.touched is None else self.touched.partners))
-        self.world: World = build_world(robot, ground, scene.control.physics_period, self.plant, others)
+        self.world: World = self.build_world(others)
         self.touch = None if self.touched is None else self.touched.enter(self.world)
         self.sensors = SensorSuite(
             self.world,
@@ -155,6 +155,14 @@ class Simulation:
             self.speeds = VelocityTruth(self.world, self.velocities, self.settings.timing)
         goal = WalkGoal(self.feet, self.steps, self.body.leg, scene.guide.way)
         self.judge = Judge(self.world, self.settings.com_height, goal)
+
+    def build_world(self, others: Sequence[Visitor]) -> World:
+        """The world of this run, with the robot, its ground and who else is in it.
+
+        Args:
+            others: Who else is in it.
+        """
+        return build_world(self.robot, self.ground, self.scene.control.physics_period, self.plant, others)
 
     def _arm(self, skin: BodySkin | None) -> CompliantArm | None:
         """The arm that moves, with its sensors; None for a robot without."""
