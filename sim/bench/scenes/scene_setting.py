@@ -1,0 +1,139 @@
+"""What `plantar bench scenes` changes of a scene: one thing at a time, each beside its reference."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["OWN", "REFERENCE", "SETTINGS", "SceneSetting", "setting_named"]
+
+CONTACT_TIME = 0.005
+"""Time constant in s of contacts at the scenes' own physics step of 1 ms."""
+
+
+@dataclass(frozen=True)
+class SceneSetting:
+    """One way to run a scene.
+
+    Attributes:
+        knob: What is changed.
+        value: What it is set to, in words.
+        settings: Settings of the scene, as `key=value`.
+        contact_time: Time constant in s that contacts keep; None for the five physics steps that they take.
+        iterations: Most iterations of MuJoCo's solver; None for the simulator's own.
+        points: Spheres a taxel that each sole stands on; 0 for its box.
+        cell_ratio: Area of the taxels over that of the robot's own.
+        against: Name of the setting that it is compared with.
+        machine: Whether it is another robot (its skin, its clock), not another way to compute the same one.
+        quick: Whether it is part of a quick run.
+        costly: Whether it is run with the first seed only.
+    """
+
+    knob: str
+    value: str
+    settings: tuple[str, ...] = ()
+    contact_time: float | None = None
+    iterations: int | None = None
+    points: int = 0
+    cell_ratio: float = 1.0
+    against: str = "reference"
+    machine: bool = False
+    quick: bool = False
+    costly: bool = False
+
+    @property
+    def name(self) -> str:
+        """Knob and value: what a row is called."""
+        return f"{self.knob}: {self.value}" if self.value else self.knob
+
+
+def _step(period: float, *, held: bool, quick: bool = False) -> SceneSetting:
+    knob = "physics step" if held else "physics step and contact"
+    kept = CONTACT_TIME if held else None
+    value = f"{1e3 * period:.3g} ms"
+    return SceneSetting(knob, value, (f"control.physics_period={period!r}",), contact_time=kept, quick=quick)
+
+
+def _skin(rate: int, *, quick: bool = False) -> SceneSetting:
+    return SceneSetting(
+        "skin rate",
+        f"{rate} Hz",
+        (f"sensing.skin_rate={rate}",),
+        against="skin rate: 1000 Hz",
+        machine=True,
+        quick=quick,
+    )
+
+
+def _control(rate: int, *, quick: bool = False) -> SceneSetting:
+    return SceneSetting(
+        *("control rate", f"{rate} Hz", (f"control.period={1 / rate}",)),
+        against="control rate: 1000 Hz",
+        machine=True,
+        quick=quick,
+    )
+
+
+def _cells(ratio: float, value: str, *, quick: bool = False) -> SceneSetting:
+    return SceneSetting(
+        "taxel area", value, cell_ratio=ratio, against="taxel area: a quarter", machine=True, quick=quick
+    )
+
+
+OWN = SceneSetting("scene's own", "", quick=True)
+"""The scene as it is."""
+
+REFERENCE = SceneSetting(
+    "reference", "", ("control.physics_period=0.0001",), contact_time=CONTACT_TIME, iterations=100, quick=True
+)
+"""The same robot on the same contact, in steps of 0.1 ms whose contact forces are solved to the end."""
+
+SETTINGS: tuple[SceneSetting, ...] = (
+    OWN,
+    REFERENCE,
+    _step(0.005 / 3, held=True, quick=True),
+    _step(0.0005, held=True, quick=True),
+    _step(0.00025, held=True),
+    _step(0.005 / 3, held=False, quick=True),
+    _step(0.0005, held=False),
+    SceneSetting("contact time", "2.5 ms", contact_time=0.0025),
+    SceneSetting("contact time", "10 ms", contact_time=0.01),
+    SceneSetting("contact time", "20 ms", contact_time=0.02, quick=True),
+    SceneSetting("solver iterations", "1", iterations=1, quick=True),
+    SceneSetting("solver iterations", "2", iterations=2),
+    SceneSetting("solver iterations", "5", iterations=5),
+    SceneSetting("contact points", "1 a taxel", points=1, quick=True),
+    SceneSetting("contact points", "3 a taxel", points=3, costly=True),
+    SceneSetting("coarse", "1.67 ms, 2 iterations", _step(0.005 / 3, held=True).settings, CONTACT_TIME, 2, quick=True),
+    _skin(1000, quick=True),
+    _skin(500),
+    _skin(125, quick=True),
+    _skin(50),
+    _control(1000, quick=True),
+    _control(500),
+    _control(100, quick=True),
+    _cells(0.25, "a quarter", quick=True),
+    _cells(2.0, "twice"),
+    _cells(4.0, "four times", quick=True),
+    SceneSetting(
+        *("taxel model", "elastic layer", ("sensing.taxels=elastic",)),
+        against="taxel model: elastic layer",
+        machine=True,
+    ),
+)
+"""All of them, the scene's own first. Knobs of the machine are compared with their own finest value."""
+
+
+def setting_named(name: str) -> SceneSetting:
+    """The setting of a name.
+
+    Args:
+        name: As `SceneSetting.name` tells it.
+
+    Raises:
+        KeyError: If there is none.
+
+    Example:
+        >>> setting_named("skin rate: 125 Hz").against
+        'skin rate: 1000 Hz'
+    """
+    return {setting.name: setting for setting in SETTINGS}[name]
