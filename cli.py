@@ -509,7 +509,7 @@ def list_(
 
 @app.command()
 def bench(
-    what: Annotated[str, Argument(help="kernels, contact, skip, stress or all.")] = "all",
+    what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress or all.")] = "all",
     layout: Annotated[
         Path | None, Option(help="contact: layout file of the sole. Default: 250 x 155 mm with taxels of 691 mm^2.")
     ] = None,
@@ -520,6 +520,9 @@ def bench(
     seed: Annotated[int, Option(help="--stress: seed of what is left to chance.")] = 0,
     scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
+    scene: Annotated[list[str] | None, Option(help="scenes: a walk to run (again for more). Default: all.")] = None,
+    robot: Annotated[list[str] | None, Option(help="scenes: a robot to run them with, likewise.")] = None,
+    quick: Annotated[bool, Option("--quick", help="scenes: what tells most, once.")] = False,
     output: Output = Path("out/bench"),
     as_json: Json = False,
 ) -> None:
@@ -531,6 +534,10 @@ def bench(
 
     contact: ways to simulate a sole's contact and its taxels, against MuJoCo's exact contact wrench. Exit code 1 if the
     chosen model is not as right as it must be (centre of pressure within 2 mm, tip-over edge within 1 mm).
+
+    scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
+    control rate, taxel size), beside a fine reference of the same walk: half an hour; --quick 3 minutes. scene_runs.csv
+    goes on where it was left. Part of all as --scene flat --quick.
 
     skip: short walks with what a scene needs and with everything, to the same last bit: what was skipped, the time it
     saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion
@@ -544,8 +551,10 @@ def bench(
 
     Example: plantar bench kernels --stress --readings 20000 --json
     """
-    if what not in ("kernels", "contact", "skip", "stress", "all"):
-        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, skip, stress, all")
+    if what not in ("kernels", "contact", "scenes", "skip", "stress", "all"):
+        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, scenes, skip, stress, all")
+    if (scene or robot or quick) and what != "scenes":
+        raise InputError(f"--scene, --robot and --quick are for scenes, not '{what}': plantar bench scenes --quick")
     if stress:
         if what != "kernels":
             raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
@@ -561,6 +570,16 @@ def bench(
             told = measure_stress(output, scenarios, first, tell)
         faults = [f"{len(told['failures'])} of {scenarios} scenarios failed"] if told["failures"] else []
         end_command(told, as_json, stress_loop_text(told), faults, bool(faults))
+        return
+    if what == "scenes":
+        need_libraries("sim", *_SIM)
+        from sim.bench.scenes.measure_scenes import measure_scenes
+        from sim.bench.scenes.scenes_page import scenes_text
+
+        with progress_bar() as tell:
+            told = measure_scenes(output, tell, scene or (), robot or (), quick)
+        told["files"] = [str(output / name) for name in told["files"]]
+        end_command(told, as_json, scenes_text(told) + "\n" + file_lines(told["files"]))
         return
     from plantar.atomic import output_folder, write_text
 

@@ -1,0 +1,102 @@
+"""Rows, verdicts, page and figure from made-up runs."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from plantar.errors import InputError
+from sim.bench.scenes.measure_scenes import measure_scenes, write_scenes
+from sim.bench.scenes.scene_row import NOISE, scene_rows
+from sim.bench.scenes.scene_runs import COLUMNS, SceneRuns
+from sim.bench.scenes.scenes_page import scenes_text
+from sim.bench.scenes.verdict import knob_verdicts
+
+OWN, FINE, COARSE = "scene's own", "reference", "physics step: 1.67 ms"
+
+
+def run(setting: str, kind: str, cpu: float, com: float = 0.0, seed: int = 1, **named: Any) -> dict[str, str]:
+    against = {"seeded": "", "noise": OWN}.get(kind, FINE)
+    row = {"scene": "flat", "robot": "h1", "walk": "steps=4", "setting": setting, "against": against, "kind": kind}
+    row |= {"seed": seed, "sim_s": 10.0, "cpu_s": cpu, "completed": "yes", "impact_N": 300.0, "margin_mm": 20.0}
+    if kind != "seeded":
+        row |= {"com_mm": com, "zmp_mm": com, "force": 0.01 * com, "impact": 0.1, "together_s": 10.0}
+    return {name: str(value) for name, value in {**dict.fromkeys(COLUMNS, ""), **row, **named}.items()}
+
+
+def runs(coarse_error: float, coarse_cpu: float = 1.0, own_error: float = 0.5) -> list[dict[str, str]]:
+    return [
+        run(OWN, "traced", 2.0, own_error),
+        run(FINE, "traced", 9.0),
+        run(COARSE, "traced", coarse_cpu, coarse_error),
+        run(OWN, "noise", 2.0, 1.0),
+        run(OWN, "seeded", 4.0),
+        run(COARSE, "seeded", 2.0 * coarse_cpu),
+        run(OWN, "seeded", 2.0, seed=2),
+        run(COARSE, "seeded", coarse_cpu, seed=2),
+    ]
+
+
+def test_costs_are_ratios_of_the_same_seed_and_kind() -> None:
+    rows = {r.setting: r for r in scene_rows(runs(0.7))}
+    assert list(rows) == [OWN, FINE, COARSE, NOISE]
+    assert (rows[COARSE].ratio, rows[COARSE].cpu) == (0.5, 0.1)
+    assert rows[FINE].ratio == 4.5
+    assert (rows[COARSE].completed, rows[COARSE].seeds, rows[COARSE].com_mm) == (2, 2, 0.7)
+    assert (rows[OWN].ratio, rows[FINE].seeds) == (1.0, 0)
+
+
+@pytest.mark.parametrize(
+    ("coarse", "cpu", "own", "stays", "words"),
+    [
+        (0.7, 1.0, 0.5, False, "would do: 50 % less time"),
+        (1.2, 1.0, 0.5, True, "saves 50 % but: CoM 1.20 mm"),
+        (0.7, 1.95, 0.5, True, "nothing else saves"),
+        (0.7, 3.0, 1.5, False, "at 1.50 x"),
+        (1.2, 3.0, 1.5, True, "so does all else"),
+    ],
+)
+def test_verdicts_go_by_noise_and_time(coarse: float, cpu: float, own: float, stays: bool, words: str) -> None:
+    (verdict,) = knob_verdicts(scene_rows(runs(coarse, cpu, own)))
+    assert (verdict.knob, verdict.stays) == ("physics step", stays)
+    assert words in verdict.reason
+
+
+def test_a_cheaper_setting_that_falls_or_parts_will_not_do() -> None:
+    for change in ({"completed": "no: fall"}, {"together_s": "3.0"}):
+        rows = [{**r, **change} if r["setting"] == COARSE and r["kind"] == "traced" else r for r in runs(0.7)]
+        (verdict,) = knob_verdicts(scene_rows(rows))
+        assert verdict.stays
+    rows = [{**r, "completed": "no: fall"} if r["setting"] == COARSE and r["seed"] == "2" else r for r in runs(0.7)]
+    assert knob_verdicts(scene_rows(rows))[0].stays
+
+
+def test_files_tell_what_was_run(tmp_path: Path) -> None:
+    told = write_scenes(tmp_path, runs(0.7))
+    assert {"scenes.md", "scenes.csv", "scenes.png"} == {p.name for p in tmp_path.iterdir()}
+    page = (tmp_path / "scenes.md").read_text()
+    assert "| flat | h1 | physics step | **better there is** |" in page
+    assert "nan" not in page
+    with (tmp_path / "scenes.csv").open() as table:
+        assert [r["setting"] for r in csv.DictReader(table)] == [OWN, FINE, COARSE, NOISE]
+    assert "BETTER THERE IS" in scenes_text(told)
+
+
+def test_a_stopped_table_goes_on_and_a_foreign_one_is_refused(tmp_path: Path) -> None:
+    table = tmp_path / "scene_runs.csv"
+    table.write_text(",".join(COLUMNS) + "\n" + ",".join(run(OWN, "seeded", 2.0).values()) + "\nflat,h1,st")
+    assert len(SceneRuns(tmp_path).rows) == 1
+    assert table.read_text().endswith("\n")
+    table.write_text("time,force\n")
+    with pytest.raises(InputError, match="no table of scene runs"):
+        SceneRuns(tmp_path)
+
+
+@pytest.mark.parametrize(("scene", "robot"), [("beem", "h1"), ("flat", "h2")])
+def test_an_unknown_walk_is_refused_before_anything_is_written(tmp_path: Path, scene: str, robot: str) -> None:
+    with pytest.raises(InputError, match="allowed: "):
+        measure_scenes(tmp_path / "out", lambda *_: None, [scene], [robot])
+    assert not (tmp_path / "out").exists()
