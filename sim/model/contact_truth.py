@@ -9,21 +9,20 @@ robot.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.contact_rows import contact_rows
-from plantar.kernels.contact_sums import ground_sums
 from plantar.kernels.few_points import small_hull, small_margin
+from plantar.kernels.foot_contacts import FootContacts
 
 __all__ = [
     "REACH",
     "ContactReader",
     "ContactSet",
+    "FootContacts",
     "GroundTruth",
     "contact_wrench_in_frame",
     "contact_wrench_in_world",
@@ -65,6 +64,32 @@ class ContactSet(NamedTuple):
         """Number of contacts k."""
         return len(self.distances)
 
+    def gathered(self) -> FootContacts:
+        """The same as kernels take it."""
+        foot = FootContacts(np.zeros(1, dtype=np.uint8))
+        foot.take(
+            np.column_stack([self.own_geoms, self.other_geoms]).astype(np.int32).reshape(-1, 2),
+            np.hstack([self.positions, self.forces, self.torques]).reshape(-1, 3),
+            self.distances,
+            self.carries.astype(np.uint8),
+        )
+        return foot
+
+
+def _set_of(foot: FootContacts) -> ContactSet:
+    """A foot's contacts as arrays of their own."""
+    k = foot.size
+    ids, vectors = np.array(foot.ids[:k]), np.array(foot.vectors[: 3 * k])
+    return ContactSet(
+        own_geoms=ids[:, 0],
+        other_geoms=ids[:, 1],
+        positions=vectors[::3],
+        forces=vectors[1::3],
+        torques=vectors[2::3],
+        distances=np.array(foot.gaps[:k]),
+        carries=np.array(foot.carries[:k]).view(np.bool_),
+    )
+
 
 class GroundTruth(NamedTuple):
     """What the ground does to all feet together, in the world frame.
@@ -87,19 +112,6 @@ class GroundTruth(NamedTuple):
     def polygon(self) -> NDArray[np.float64]:
         """True support polygon (m, 2) in m."""
         return np.array(self.ring).reshape(-1, 2)
-
-
-_NO_CONTACTS = ContactSet(
-    np.empty(0, dtype=np.int32),
-    np.empty(0, dtype=np.int32),
-    np.empty((0, 3)),
-    np.empty((0, 3)),
-    np.empty((0, 3)),
-    np.empty(0),
-    np.empty(0, dtype=np.bool_),
-)
-for _array in _NO_CONTACTS:
-    _array.flags.writeable = False
 
 
 def foot_contacts(model: Any, data: Any, geom_ids: Collection[int]) -> ContactSet:
@@ -130,11 +142,11 @@ def feet_contacts(model: Any, data: Any, feet: Sequence[Collection[int]]) -> tup
     Returns:
         The contacts of each foot. A contact between two of the feet belongs to both.
     """
-    return ContactReader(model, data, feet).read()
+    return tuple(_set_of(foot) for foot in ContactReader(model, data, feet).read())
 
 
 class ContactReader:
-    """`feet_contacts` of one simulation again and again, in a third of the time.
+    """Gathers the contacts of several feet of one simulation again and again.
 
     MuJoCo keeps all contacts at the head of one block of memory, which stays where it is as long as the data lives. So
     the arrays that show it are made once for each number of contacts, not at each reading.
@@ -147,50 +159,49 @@ class ContactReader:
 
     def __init__(self, model: Any, data: Any, feet: Sequence[Collection[int]]) -> None:
         self._model, self._data = model, data
-        self._own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
-        for mask, geom_ids in zip(self._own, feet, strict=True):
+        own = np.zeros((len(feet), model.ngeom), dtype=np.uint8)
+        for mask, geom_ids in zip(own, feet, strict=True):
             mask[list(geom_ids)] = 1
+        self._feet = tuple(FootContacts(mask) for mask in own)
         self._elliptic = model.opt.cone == _ELLIPTIC
-        self._shown: dict[int, tuple[NDArray[Any], ...]] = {}
-        self._nothing = (_NO_CONTACTS,) * len(feet)
+        self._lists: dict[int, tuple[NDArray[Any], ...]] = {}
+        self._shown = 0
 
-    def read(self) -> tuple[ContactSet, ...]:
-        """The contacts of each foot as the last `mj_step` or `mj_forward` left them."""
+    def read(self) -> tuple[FootContacts, ...]:
+        """The contacts of each foot as the last `mj_step` or `mj_forward` left them; the same objects each time, which
+        the next reading changes."""
         data, n = self._data, self._data.ncon
         if not n:
-            return self._nothing
-        shown = self._shown.get(n)
-        if shown is None:
-            c = data.contact
-            shown = self._shown[n] = (c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
-        geoms, positions, frames, gaps, address, dim = shown
-        forces = data.efc_force
-        if not self._elliptic:  # there the solver's numbers are along a pyramid's edges
-            local = np.zeros((n, 6))
-            for i in range(n):
-                mujoco.mj_contactForce(self._model, data, i, local[i])
-            address = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
-            dim, forces = np.full(n, 6, dtype=np.int32), local.ravel()
-        room = n * len(self._own)
-        ids, rows, carries = np.empty((room, 2), dtype=np.int32), np.empty((room, 10)), np.empty(room, dtype=np.bool_)
-        ends = contact_rows(
-            *(geoms, positions, frames, gaps, address, dim, forces),
-            *(self._own, ids, rows, carries.view(np.uint8)),
-        )
-        return tuple(
-            _NO_CONTACTS
-            if i == j
-            else ContactSet(
-                ids[i:j, 0],
-                ids[i:j, 1],
-                rows[i:j, :3],
-                rows[i:j, 3:6],
-                rows[i:j, 6:9],
-                rows[i:j, 9],
-                carries[i:j],
-            )
-            for i, j in pairwise(ends)
-        )
+            for foot in self._feet:
+                foot.clear()
+            return self._feet
+        if n != self._shown:
+            self._show(n)
+        forces = data.efc_force if self._elliptic else self._along_frames(n)
+        for foot in self._feet:
+            foot.gather(forces)
+        return self._feet
+
+    def _show(self, n: int) -> None:
+        """Show the feet where MuJoCo lists so many contacts."""
+        if n not in self._lists:
+            c = self._data.contact
+            self._lists[n] = (c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
+        for foot in self._feet:
+            foot.show(*self._lists[n])
+        self._shown = n
+
+    def _along_frames(self, n: int) -> NDArray[np.float64]:
+        """Force and torque of each contact in its frame, one after the other (6 n,), where the solver's own numbers are
+        along a pyramid's edges."""
+        local = np.zeros((n, 6))
+        for i in range(n):
+            mujoco.mj_contactForce(self._model, self._data, i, local[i])
+        geoms, positions, frames, gaps, address, _ = self._lists[n]
+        starts = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
+        for foot in self._feet:
+            foot.show(geoms, positions, frames, gaps, starts, np.full(n, 6, dtype=np.int32))
+        return local.ravel()
 
 
 _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)
@@ -275,7 +286,7 @@ def support_polygon_of_contacts(feet: Sequence[ContactSet], reach: float = REACH
 
 
 def ground_truth(
-    feet: Sequence[ContactSet], plane_height: float | None = None, minimum_force: float = 1.0, reach: float = REACH
+    feet: Sequence[FootContacts], plane_height: float | None = None, minimum_force: float = 1.0, reach: float = REACH
 ) -> GroundTruth:
     """Wrench, ZMP, support polygon and the margin between the last two, of all feet together.
 
@@ -290,9 +301,8 @@ def ground_truth(
     """
     sums = np.zeros(7)
     points: tuple[list[tuple[float, float]], ...] = tuple([] for _ in feet)
-    for c, own in zip(feet, points, strict=True):
-        if c.size:
-            ground_sums(c.positions, c.forces, c.torques, c.distances, c.carries.view(np.uint8), reach, sums, own)
+    for foot, own in zip(feet, points, strict=True):
+        foot.add_to_ground(reach, sums, own)
     fx, fy, fz, tx, ty, _, height = sums.tolist()
     wrench = sums[:6]
     ring = small_hull([p for own in points for p in own])

@@ -15,7 +15,7 @@ from gait.estimate.ankle_sensor import AnkleSensor
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
-from sim.model.contact_truth import ContactReader, ContactSet
+from sim.model.contact_truth import ContactReader, FootContacts
 from sim.model.world import World
 from sim.plant.colours import GroundColours
 from sim.plant.delay import Delay
@@ -90,7 +90,7 @@ class SensorSuite:
         self.body_skin: Callable[[], SkinReading] | None = None
         self.body_links: Callable[[], Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]] | None = None
 
-    def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[ContactSet, ...]:
+    def read_skins(self, near: Collection[Side] = SIDES, everything: bool = False) -> tuple[FootContacts, ...]:
         """Read the soles, which is due every `skin_every` physics steps.
 
         Args:
@@ -98,7 +98,7 @@ class SensorSuite:
             everything: Measure proximity that nobody asks for too; readings stay the same.
 
         Returns:
-            The contacts of both soles from which the skins were read.
+            The contacts of both soles from which the skins were read, until they are read anew.
         """
         data = self._world.data
         feet = self._contacts.read()

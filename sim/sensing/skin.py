@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import repeat
 from typing import Any
 
 import mujoco
@@ -17,17 +18,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.contact_sums import pair_loads
+from plantar.kernels.taxel_sample import taxel_sample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.sensing.reading import Reading
-from sim.model.contact_truth import REACH, ContactSet, foot_contacts
+from sim.model.contact_truth import REACH, ContactSet, FootContacts, foot_contacts
 from sim.plant.taxels import TaxelErrors
 from sim.sensing.blind_rim import BlindRim
 from sim.sensing.elastic_pressure import ElasticPressure
 from sim.sensing.proximity import ProximitySensor
 from sim.sensing.sole_pressure import SolePressure
+from sim.sensing.white_noise import white_noise
 
 __all__ = ["SkinElectronics", "SkinSensor", "SoleSkin"]
 
@@ -79,6 +81,9 @@ class SoleSkin:
         )
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
         self._reach = reach
+        self._data: Any = None  # whose arrays the next two show
+        self._origin = self._rotation = np.empty(0)
+        self._shifted = self._turned = np.empty((0, 3))
         self.pressed = self.in_air = 0
 
     def __len__(self) -> int:
@@ -88,7 +93,7 @@ class SoleSkin:
         """The sole's contacts with the world, see `foot_contacts`."""
         return foot_contacts(self.model, data, self.geom_ids)
 
-    def taxel_forces(self, data: Any, contacts: ContactSet | None = None) -> NDArray[np.float64]:
+    def taxel_forces(self, data: Any, contacts: FootContacts | None = None) -> NDArray[np.float64]:
         """Normal force on each taxel, free of noise.
 
         Args:
@@ -99,29 +104,34 @@ class SoleSkin:
             Forces (n,) in N, none negative; zeros for a sole in the air.
         """
         if contacts is None:
-            contacts = foot_contacts(self.model, data, self.geom_ids)
+            contacts = foot_contacts(self.model, data, self.geom_ids).gathered()
         if not contacts.size:
             self.in_air += 1
             return np.zeros(len(self.layout))
         self.pressed += 1
-        rotation = data.site_xmat[self.site_id].reshape(3, 3)
-        pairs = pair_loads(
-            contacts.own_geoms,
-            contacts.other_geoms,
-            (contacts.positions - data.site_xpos[self.site_id]).dot(rotation),
-            contacts.forces.dot(rotation),
-            contacts.torques.dot(rotation),
-            contacts.distances,
-            self._reach,
-        )
         out: NDArray[np.float64] | None = None
-        for fz, tx, ty, patch in pairs:
+        for fz, tx, ty, patch in contacts.pair_loads(self._in_sole(data, contacts), self._reach):
             if fz > 0.0:
                 part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
                 if self._rim is not None:
                     part = part * self._rim.share(patch)
                 out = part if out is None else out + part
         return np.zeros(len(self.layout)) if out is None else out
+
+    def _in_sole(self, data: Any, contacts: FootContacts) -> NDArray[np.float64]:
+        """Position, force and torque of each contact in turn, in the sole frame."""
+        if data is not self._data:
+            self._data = data
+            self._origin = data.site_xpos[self.site_id]
+            self._rotation = data.site_xmat[self.site_id].reshape(3, 3)
+        rows = 3 * contacts.size
+        if rows > len(self._turned):
+            self._shifted, self._turned = np.zeros((2 * rows, 3)), np.zeros((2 * rows, 3))
+        contacts.from_origin(self._origin, self._shifted)
+        together = 1 if rows == 3 else rows  # BLAS adds up in another order for a single contact
+        for k in range(0, rows, together):
+            np.dot(self._shifted[k : k + together], self._rotation, out=self._turned[k : k + together])
+        return self._turned
 
 
 @dataclass(frozen=True)
@@ -192,7 +202,10 @@ class SkinSensor:
         self.dead = np.array(sorted({int(i) for i in electronics.dead}), dtype=np.int64)
         self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
         self.proximity = proximity
-        self._rng = rng
+        count = len(skin)
+        self._noise: Iterator[NDArray[np.float64]] = repeat(np.zeros(count))
+        if rng is not None and self.noise_std > 0.0:
+            self._noise = white_noise(rng, 0.0, self.noise_std, count)
         self._errors = errors
         self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
         self._start = 0.0
@@ -204,7 +217,7 @@ class SkinSensor:
         self._taken = 0
 
     def read(
-        self, data: Any, contacts: ContactSet | None = None, *, near: bool = True, everything: bool = False
+        self, data: Any, contacts: FootContacts | None = None, *, near: bool = True, everything: bool = False
     ) -> Reading:
         """What the electronics deliver at this instant; call it at every physics step.
 
@@ -231,17 +244,13 @@ class SkinSensor:
             self._queue.append(Reading(time=now, force=force, proximity=distance))
         return self._queue[0]
 
-    def _forces(self, data: Any, contacts: ContactSet | None) -> NDArray[np.float64]:
+    def _forces(self, data: Any, contacts: FootContacts | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
             force = self._errors.felt(force, float(data.time))
-        if self._rng is not None and self.noise_std > 0.0:
-            force = force + self._rng.normal(0.0, self.noise_std, len(force))
-        force = np.minimum(np.maximum(force, self.range[0]), self.range[1])
-        if self.dead.size:
-            force[self.dead] = np.nan
-        return force
+        sample: NDArray[np.float64] = taxel_sample(force, next(self._noise), *self.range, self.dead)
+        return sample
 
 
 def _id_of(model: Any, kind: Any, word: str, name: str) -> int:

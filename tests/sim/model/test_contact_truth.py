@@ -109,7 +109,7 @@ def test_foot_in_the_air_has_no_contact_and_no_zmp() -> None:
     mujoco.mj_forward(model, data)
     contacts = sole_contacts(model, data)
     assert contacts.size == 0
-    truth = ground_truth([contacts, contacts])
+    truth = ground_truth([contacts.gathered()] * 2)
     assert truth.zmp is None
     assert truth.margin is None
     assert truth.polygon.shape == (0, 2)
@@ -127,7 +127,7 @@ def test_truth_of_a_standing_foot() -> None:
     """Polygon is the sole, the ZMP is under the weight, the margin is its distance to the nearest edge."""
     model = foot_model(PLANE, com="0.03 -0.05 0.2")
     data = settled(model)
-    truth = ground_truth([sole_contacts(model, data)])
+    truth = ground_truth([sole_contacts(model, data).gathered()])
     assert area(truth.polygon) == pytest.approx(0.25 * 0.155, rel=1e-3)
     assert truth.zmp == pytest.approx([0.03, -0.05], abs=2e-4)
     assert truth.margin == pytest.approx(0.0775 - 0.05, abs=2e-4)
@@ -188,7 +188,7 @@ def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
     left = sole_contacts(model, settled(model, push=(20.0, -10.0, -30.0, 2.0, 3.0, 1.0)))
     right = left._replace(positions=left.positions + np.array([0.05, -0.3, 0.02]))
     feet = [left, right]
-    truth = ground_truth(feet)
+    truth = ground_truth([contacts.gathered() for contacts in feet])
     parts = [contact_wrench_in_world(c, np.zeros(3)) for c in feet]
     assert truth.wrench == pytest.approx(parts[0] + parts[1], abs=1e-9)
     assert truth.zmp == pytest.approx(zmp_of_contacts(feet), abs=1e-12)

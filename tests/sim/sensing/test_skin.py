@@ -251,7 +251,7 @@ def test_corner_lifted_by_micrometres_stays_in_the_patch(gap: float, whole: bool
         distances=np.array([gap, 0.0, 0.0, 0.0]),
         carries=np.array([False, True, True, True]),
     )
-    force = skin.taxel_forces(data, contacts)
+    force = skin.taxel_forces(data, contacts.gathered())
     assert force.sum() == pytest.approx(300.0)
     beyond = LAYOUT.positions[:, :2] @ (1.0 / HALF) < -0.3  # on the hovering corner's side of the diagonal
     assert (force[beyond].max() > 1.0) == whole

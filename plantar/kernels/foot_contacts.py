@@ -1,0 +1,181 @@
+"""Kernel of one foot's contacts, as a simulator lists them: gathered, summed up, and seen from the sole."""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["FootContacts"]
+
+
+class FootContacts:
+    """The contacts of one foot with everything that is not this foot, gathered anew at each instant.
+
+    Args:
+        own: Whether a geom belongs to the foot (geoms,), 0 or 1.
+
+    Attributes:
+        size: Number of contacts k.
+        ids: The foot's geom and the other one (room, 2), of which the first k rows count; -1 for what is no geom.
+        vectors: Position in m, force in N and torque in N m on the foot of each contact in turn (3 room, 3), in the
+            world frame.
+        gaps: Gaps (room,) in m.
+        carries: Whether a contact carries (room,).
+    """
+
+    def __init__(self, own):
+        self.own = own
+        self.size = 0
+        self.room = 0
+        self._make_room(8)
+
+    def _make_room(self, room):
+        """Room for so many contacts; those that are there are forgotten."""
+        self.room = room
+        self.ids = np.empty((room, 2), dtype=np.int32)
+        self.vectors = np.empty((3 * room, 3))
+        self.gaps = np.empty(room)
+        self.carries = np.empty(room, dtype=np.uint8)
+
+    def show(self, geoms, positions, frames, gaps, addresses, sizes):
+        """Say where the simulator lists the contacts of all bodies.
+
+        Args:
+            geoms: Ids (n, 2) of the geoms that touch, -1 for what is no geom.
+            positions: Contact points (n, 3) in the world in m.
+            frames: Contact frames (n, 9), axis by axis.
+            gaps: Gaps (n,) in m.
+            addresses: Where each contact's numbers begin among the forces (n,); negative for one that carries nothing.
+            sizes: How many numbers each contact has (n,), up to 6: force and torque along its axes.
+        """
+        self.all_geoms = geoms
+        self.all_positions = positions
+        self.all_frames = frames
+        self.all_gaps = gaps
+        self.all_addresses = addresses
+        self.all_sizes = sizes
+        if geoms.shape[0] > self.room:
+            self._make_room(2 * geoms.shape[0])
+
+    def clear(self):
+        """No contacts at all."""
+        self.size = 0
+
+    def take(self, ids, vectors, gaps, carries):
+        """Take contacts that are known already.
+
+        Args:
+            ids: As the attribute, without more room (k, 2).
+            vectors: Likewise (3 k, 3).
+            gaps: Likewise (k,).
+            carries: Likewise (k,).
+        """
+        count = ids.shape[0]
+        if count > self.room:
+            self._make_room(count)
+        for k in range(count):
+            self.ids[k, 0], self.ids[k, 1] = ids[k, 0], ids[k, 1]
+            self.gaps[k], self.carries[k] = gaps[k], carries[k]
+        for k in range(3 * count):
+            for j in range(3):
+                self.vectors[k, j] = vectors[k, j]
+        self.size = count
+
+    def gather(self, forces):
+        """Gather the contacts between the foot's geoms and others, with forces turned into the world frame.
+
+        A contact's force is given in its own frame, whose rows are its axes, as the force on the second geom: it
+        changes sign where the foot is the first. Sums run in the order of the axes.
+
+        Args:
+            forces: Forces in N and torques in N m of all contacts that carry.
+        """
+        k = 0
+        for i in range(self.all_geoms.shape[0]):
+            first, second = self.all_geoms[i, 0], self.all_geoms[i, 1]
+            a = self.own[first] if first >= 0 else 0
+            b = self.own[second] if second >= 0 else 0
+            if a == b:
+                continue
+            self.ids[k, 0] = second if b else first
+            self.ids[k, 1] = first if b else second
+            sign = 1.0 if b else -1.0
+            row = 3 * k
+            for j in range(3):
+                self.vectors[row, j] = self.all_positions[i, j]
+                self.vectors[row + 1, j] = self.vectors[row + 2, j] = 0.0
+            start = self.all_addresses[i]
+            if start >= 0:
+                for m in range(self.all_sizes[i]):
+                    value = sign * forces[start + m]
+                    half, axis = row + 1 if m < 3 else row + 2, 3 * (m % 3)
+                    for j in range(3):
+                        self.vectors[half, j] += value * self.all_frames[i, axis + j]
+            self.gaps[k] = self.all_gaps[i]
+            self.carries[k] = start >= 0
+            k += 1
+        self.size = k
+
+    def from_origin(self, origin, out):
+        """What `vectors` holds, with positions seen from a point.
+
+        Args:
+            origin: The point (3,) in the world in m.
+            out: Receives 3 k rows of (at least 3 k, 3).
+        """
+        for k in range(self.size):
+            row = 3 * k
+            for j in range(3):
+                out[row, j] = self.vectors[row, j] - origin[j]
+                out[row + 1, j] = self.vectors[row + 1, j]
+                out[row + 2, j] = self.vectors[row + 2, j]
+
+    def add_to_ground(self, reach, sums, points):
+        """Add the contacts to the ground's wrench about the world's origin, one after the other.
+
+        Args:
+            reach: Gap in m up to which a contact counts as a point of support, whether it carries or not.
+            sums: Receives, added to what is there (7,): force, torque, and the contacts' height times vertical force.
+            points: List that receives the points of support (x, y) in m.
+        """
+        fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
+        for k in range(self.size):
+            row = 3 * k
+            x, y, z = self.vectors[row, 0], self.vectors[row, 1], self.vectors[row, 2]
+            a, b, f = self.vectors[row + 1, 0], self.vectors[row + 1, 1], self.vectors[row + 1, 2]
+            fx, fy, fz = fx + a, fy + b, fz + f
+            tx = tx + self.vectors[row + 2, 0] + y * f - z * b
+            ty = ty + self.vectors[row + 2, 1] + z * a - x * f
+            tz = tz + self.vectors[row + 2, 2] + x * b - y * a
+            height += z * f
+            if self.carries[k] or self.gaps[k] <= reach:
+                points.append((float(x), float(y)))
+        sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = fx, fy, fz, tx, ty, tz, height
+
+    def pair_loads(self, vectors, reach):
+        """Sum up what each pair of geoms carries, along the normal of a plane and about its axes.
+
+        Args:
+            vectors: Position, force and torque of each contact in turn, as in `vectors`, in a frame with the plane as
+                its z = 0.
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+
+        Returns:
+            For each pair, in the order of its first contact: normal force in N, torques about x and y at the frame's
+            origin in N m, and its points (x, y) in m.
+        """
+        pairs = {}
+        for k in range(self.size):
+            row = 3 * k
+            x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+            fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+            if self.gaps[k] > reach and fz == 0.0:
+                continue
+            key = (int(self.ids[k, 0]), int(self.ids[k, 1]))
+            pair = pairs.get(key)
+            if pair is None:
+                pair = pairs[key] = [0.0, 0.0, 0.0, []]
+            pair[0] += float(fz)
+            pair[1] += float(vectors[row + 2, 0] + y * fz - z * fy)
+            pair[2] += float(vectors[row + 2, 1] + z * fx - x * fz)
+            pair[3].append((float(x), float(y)))
+        return list(pairs.values())

@@ -1,0 +1,35 @@
+"""White noise of a sensor, drawn many samples at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["white_noise"]
+
+_TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs twice as much alone
+
+
+def white_noise(rng: np.random.Generator, mean: float, std: float, count: int) -> Iterator[NDArray[np.float64]]:
+    """Samples of noise without end: the same numbers as `rng.normal(mean, std, count)` gives again and again, as long
+    as nobody else draws from the source.
+
+    Args:
+        rng: The source.
+        mean: Mean of each number.
+        std: Standard deviation of each.
+        count: Numbers of a sample.
+
+    Yields:
+        Samples (count,).
+
+    Example:
+        >>> samples = white_noise(np.random.default_rng(1), 0.0, 2.0, 3)
+        >>> rng = np.random.default_rng(1)
+        >>> all(bool((next(samples) == rng.normal(0.0, 2.0, 3)).all()) for _ in range(200))
+        True
+    """
+    while True:
+        yield from rng.normal(mean, std, (_TOGETHER, count))

@@ -1,0 +1,128 @@
+"""The kernel of a foot's contacts: compiled against interpreted, and against numpy's sums."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar.kernels import few_points, foot_contacts, is_compiled, python_form
+
+REACH = 5e-4
+OWN = np.array([1, 0, 1, 0, 0], dtype=np.uint8)  # geoms 0 and 2 are the foot's
+seeds = st.integers(0, 2**32 - 1)
+
+
+def listed(seed: int):
+    """Contacts as a simulator lists them, up to 40, and the numbers of those that carry."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(1, 40))
+    geoms = rng.integers(-1, len(OWN), (n, 2)).astype(np.int32)
+    frames = np.array([np.linalg.qr(rng.normal(size=(3, 3)))[0].ravel() for _ in range(n)])
+    sizes = rng.choice([1, 3, 4, 6], n).astype(np.int32)
+    carries = rng.random(n) < 0.7
+    ends = np.cumsum(np.where(carries, sizes, 0))
+    addresses = np.where(carries, ends - sizes, -1).astype(np.int32)
+    gaps = rng.uniform(-REACH, 3.0 * REACH, n)
+    return (geoms, rng.normal(size=(n, 3)), frames, gaps, addresses, sizes), rng.normal(size=int(ends[-1]))
+
+
+def gathered(module, seed: int):
+    shown, forces = listed(seed)
+    foot = module.FootContacts(OWN)
+    foot.show(*shown)
+    foot.gather(forces)
+    return foot
+
+
+def parts(foot):
+    """Ids (k, 2), positions, forces, torques (k, 3), gaps and whether it carries (k,)."""
+    k = foot.size
+    vectors = np.asarray(foot.vectors)[: 3 * k]
+    ids, gaps, carries = (np.asarray(a)[:k] for a in (foot.ids, foot.gaps, foot.carries))
+    return ids, vectors[::3], vectors[1::3], vectors[2::3], gaps, carries.astype(bool)
+
+
+def ground(foot):
+    sums, points = np.zeros(7), []
+    for _ in range(2):  # of two feet
+        foot.add_to_ground(REACH, sums, points)
+    return sums, points
+
+
+def seen(foot, origin):
+    out = np.zeros((3 * foot.size + 2, 3))
+    foot.from_origin(origin, out)
+    return out
+
+
+@pytest.mark.skipif(not is_compiled("foot_contacts"), reason="without a compiler there is one form only")
+@settings(max_examples=60)
+@given(seeds)
+def test_the_two_forms_agree_to_the_last_bit(seed):
+    one, other = (gathered(m, seed) for m in (foot_contacts, python_form("foot_contacts")))
+    assert all(np.array_equal(a, b) for a, b in zip(parts(one), parts(other), strict=True))
+    (sums, points), (same, equal) = ground(one), ground(other)
+    assert sums.tolist() == same.tolist()
+    assert points == equal
+    origin = np.array([0.1, 0.2, 0.3])
+    assert np.array_equal(seen(one, origin), seen(other, origin))
+    assert one.pair_loads(seen(one, origin), REACH) == other.pair_loads(seen(other, origin), REACH)
+    source = python_form("few_points")
+    ring = few_points.small_hull(points)
+    assert ring == source.small_hull(points)
+    x, y = np.random.default_rng(seed).uniform(-0.3, 0.3, 2).tolist()
+    assert few_points.small_margin(ring, x, y) == source.small_margin(ring, x, y)
+
+
+@settings(max_examples=60)
+@given(seeds)
+def test_those_of_the_foot_are_gathered_with_forces_in_the_world(seed):
+    (geoms, positions, frames, gaps, addresses, sizes), numbers = listed(seed)
+    own = np.append(OWN, 0)[geoms]  # -1 is no geom, and nobody's
+    mine = np.flatnonzero(own[:, 0] != own[:, 1])
+    ids, at, forces, torques, found, carries = parts(gathered(foot_contacts, seed))
+    assert len(ids) == len(mine)
+    assert np.array_equal(at, positions[mine])
+    assert np.array_equal(found, gaps[mine])
+    assert np.array_equal(carries, addresses[mine] >= 0)
+    for row, i in enumerate(mine):
+        second = bool(own[i, 1])
+        local = np.zeros(6)
+        if addresses[i] >= 0:
+            local[: sizes[i]] = numbers[addresses[i] : addresses[i] + sizes[i]]
+        local *= 1.0 if second else -1.0
+        axes = frames[i].reshape(3, 3)
+        assert ids[row].tolist() == geoms[i].tolist()[:: -1 if second else 1]
+        assert forces[row] == pytest.approx(local[:3] @ axes, abs=1e-12)
+        assert torques[row] == pytest.approx(local[3:] @ axes, abs=1e-12)
+
+
+@settings(max_examples=60)
+@given(seeds)
+def test_the_ground_s_sums_are_numpy_s(seed):
+    foot = gathered(foot_contacts, seed)
+    sums, points = ground(foot)
+    _, positions, forces, torques, gaps, carries = parts(foot)
+    assert sums[:3] == pytest.approx(2.0 * forces.sum(axis=0), abs=1e-12)
+    assert sums[3:6] == pytest.approx(2.0 * (np.cross(positions, forces) + torques).sum(axis=0), abs=1e-11)
+    assert sums[6] == pytest.approx(2.0 * positions[:, 2] @ forces[:, 2], abs=1e-12)
+    assert points == 2 * [(x, y) for x, y, _ in positions[carries | (gaps <= REACH)].tolist()]
+
+
+@settings(max_examples=60)
+@given(seeds)
+def test_each_pair_has_its_contacts_wrench_and_points(seed):
+    foot, origin = gathered(foot_contacts, seed), np.array([0.5, -0.2, 0.1])
+    ids, positions, forces, torques, gaps, _ = parts(foot)
+    positions = positions - origin
+    counts = ~((gaps > REACH) & (forces[:, 2] == 0.0))
+    pairs = list(dict.fromkeys(map(tuple, ids[counts].tolist())))
+    loads = foot.pair_loads(seen(foot, origin), REACH)
+    assert len(loads) == len(pairs)
+    for pair, (force, about_x, about_y, points) in zip(pairs, loads, strict=True):
+        mine = counts & (ids == pair).all(axis=1)
+        moment = (np.cross(positions, forces) + torques)[mine].sum(axis=0)
+        assert [force, about_x, about_y] == pytest.approx([forces[mine, 2].sum(), *moment[:2]], abs=1e-12)
+        assert points == [(x, y) for x, y, _ in positions[mine].tolist()]
