@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from plantar.geometry.polygon import inner_offset
 from plantar.kernels.few_points import small_hull
+from plantar.kernels.pressed_patch import patch_key
 
 __all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
 
@@ -40,12 +41,11 @@ class Patches(Generic[T]):
         Returns:
             It.
         """
-        grid = self._grid
-        key = tuple(sorted({(round(x / grid), round(y / grid)) for x, y in points}))
+        key = patch_key(points, self._grid)
         if key not in self._made:
             if len(self._made) >= self._most:
                 self._made.pop(next(iter(self._made)))
-            self._made[key] = self._make(np.array(key) * grid)
+            self._made[key] = self._make(np.array(key) * self._grid)
         return self._made[key]
 
 

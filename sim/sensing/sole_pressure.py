@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +26,8 @@ from numpy.typing import NDArray
 from plantar.errors import InputError, LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
-from plantar.geometry.polygon import closest_point, convex_hull
-from plantar.kernels.foundation import spread_part, spread_whole
+from plantar.geometry.polygon import convex_hull
+from plantar.kernels.pressed_patch import PressedPatch
 from plantar.layouts.layout import SoleLayout
 from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon, reach_of
 
@@ -37,19 +36,6 @@ __all__ = ["SolePressure"]
 _GRID = 1e-4  # m: patches that agree within this are the same patch
 _MOST_PATCHES = 256
 _LEAST_SHARE = 0.01  # of a cell: less cover than this carries nothing
-
-
-class _Patch(NamedTuple):
-    """What does not depend on the load: m covered cells, coordinates u = (1, (x - cx)/h, (y - cy)/h)."""
-
-    cells: NDArray[np.int64]  # (m,)
-    centre: tuple[float, float]
-    scale: float
-    area: NDArray[np.float64]  # (m,): shares of the covered area
-    u: NDArray[np.float64]  # (m, 3)
-    inverse: NDArray[np.float64]  # (3, 3): load to (a, b, c) where every covered cell carries
-    reach: NDArray[np.float64]  # (k, 2): polygon of the resultants that the cells can carry, in scaled coordinates
-    carried: NDArray[np.uint8]  # (m,): whether a cell carried last, where the search starts; none at first
 
 
 class SolePressure:
@@ -105,12 +91,8 @@ class SolePressure:
         if not (0.0 < force < math.inf) or not len(patch):
             return out
         shape = self._patches.of(patch)
-        x = (center_of_pressure[0] - shape.centre[0]) / shape.scale
-        y = (center_of_pressure[1] - shape.centre[1]) / shape.scale
-        if not spread_whole(shape.u, shape.area, shape.inverse, x, y, force, shape.cells, out):
-            inside = closest_point(shape.reach, (x, y))
-            assert inside is not None
-            _spread_part(shape, inside, force, out)
+        if not shape.spread(force, *center_of_pressure, out):
+            _spread_slowly(shape, force, out)
         return self.along_taxels(out)
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -124,7 +106,7 @@ class SolePressure:
         """
         return force if self._gain is None else np.asarray(force * self._gain)
 
-    def _make_patch(self, points: NDArray[np.float64]) -> _Patch:
+    def _make_patch(self, points: NDArray[np.float64]) -> PressedPatch:
         import shapely
 
         polygon = patch_polygon(points, self.rubber)
@@ -145,7 +127,7 @@ class SolePressure:
         centre = area @ points
         scale = max(float(np.abs(points - centre).max()), 1e-3)
         u = np.column_stack([np.ones(len(points)), (points - centre) / scale])
-        return _Patch(
+        return PressedPatch(
             cells,
             (float(centre[0]), float(centre[1])),
             scale,
@@ -153,36 +135,39 @@ class SolePressure:
             u,
             # One cell, or cells in a row, have no stiffness in some direction: what the load asks there is dropped.
             _pseudo_inverse((area * u.T) @ u, 1e-9),
-            reach_of(convex_hull(u[:, 1:])),
-            np.zeros(len(cells), dtype=np.uint8),
+            np.ascontiguousarray(reach_of(convex_hull(u[:, 1:]))),
         )
 
 
-def _spread_part(shape: _Patch, point: NDArray[np.float64], force: float, out: NDArray[np.float64]) -> None:
-    """Spread a load at a point (2,), from which a part of the patch lifts off, over `out` (n,). Where the kernel's
-    rounds do not settle, `_damped` tells it where to start."""
-    x, y = point.tolist()
-    if not shape.carried.any():
-        shape.carried[:] = shape.u @ (shape.inverse @ (1.0, x, y)) > 0.0
-    if not spread_part(shape.u, shape.area, x, y, force, shape.carried, shape.cells, out):
-        pressure = _damped(shape, np.array([1.0, x, y]))
-        shape.carried[:] = pressure > 0.0
-        if not spread_part(shape.u, shape.area, x, y, force, shape.carried, shape.cells, out):
-            load = pressure * shape.area
-            out[shape.cells] = force * load / load.sum()
+def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
+    """Spread the load that a patch could not spread from the cells that carried it last over `out` (n,): first from
+    those that would carry it if all were held, then from those that `_damped` finds."""
+    u, area, carried = np.asarray(shape.u), np.asarray(shape.area), np.asarray(shape.carried)
+    inverse, load = np.asarray(shape.inverse), np.array([1.0, shape.x, shape.y])
+    if not carried.any():
+        carried[:] = u @ (inverse @ load) > 0.0
+        if shape.part(force, out):
+            return
+    pressure = _damped(u, area, inverse, load)
+    carried[:] = pressure > 0.0
+    if not shape.part(force, out):
+        share = pressure * area
+        out[np.asarray(shape.cells)] = force * share / share.sum()
 
 
-def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
+def _damped(
+    u: NDArray[np.float64], area: NDArray[np.float64], inverse: NDArray[np.float64], load: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Pressures (m,) of a unit load by Newton's method with a line search on the convex problem
 
         minimise  1/2 sum_i A_i max(0, u_i . field)^2 - load . field
 
     whose gradient is the pressure's wrench minus the load.
     """
-    weighted = shape.area[:, None] * shape.u
-    products = np.column_stack([weighted, weighted[:, 1:2] * shape.u[:, 1:], weighted[:, 2] * shape.u[:, 2]])
-    field = shape.inverse @ load
-    pressure = np.maximum(shape.u @ field, 0.0)
+    weighted = area[:, None] * u
+    products = np.column_stack([weighted, weighted[:, 1:2] * u[:, 1:], weighted[:, 2] * u[:, 2]])
+    field = inverse @ load
+    pressure = np.maximum(u @ field, 0.0)
     residual = pressure @ weighted - load
     error = _largest(residual)
     ridge = 1e-9
@@ -193,15 +178,15 @@ def _damped(shape: _Patch, load: NDArray[np.float64]) -> NDArray[np.float64]:
         start, value, slope, rate = field, math.nan, float(residual @ step), 1.0
         for _ in range(12):
             field = start - rate * step
-            previous, pressure = pressure, np.maximum(shape.u @ field, 0.0)
+            previous, pressure = pressure, np.maximum(u @ field, 0.0)
             residual = pressure @ weighted - load
             largest = _largest(residual)
             if largest < 0.9 * error:
                 break
             # A full step may overshoot where cells come on or off: then the objective itself must go down enough.
             if math.isnan(value):
-                value = 0.5 * float(previous**2 @ shape.area) - float(load @ start)
-            if 0.5 * float(pressure**2 @ shape.area) - float(load @ field) <= value - 1e-4 * rate * slope:
+                value = 0.5 * float(previous**2 @ area) - float(load @ start)
+            if 0.5 * float(pressure**2 @ area) - float(load @ field) <= value - 1e-4 * rate * slope:
                 break
             rate *= 0.5
         else:

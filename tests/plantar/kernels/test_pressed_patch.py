@@ -1,0 +1,70 @@
+"""The kernel of a pressed patch: compiled against interpreted, and against the load that it spreads."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar.geometry.polygon import convex_hull, inner_offset
+from plantar.kernels import is_compiled, pressed_patch, python_form
+
+seeds = st.integers(0, 2**32 - 1)
+FORMS = (pressed_patch, python_form("pressed_patch"))
+
+
+def pressed(module, seed: int):
+    """A patch of a lattice of cells after three loads: whether each was spread, with which forces, and where."""
+    rng = np.random.default_rng(seed)
+    points = np.array([(x, y) for x in range(int(rng.integers(2, 8))) for y in range(int(rng.integers(2, 5)))], float)
+    area = rng.uniform(0.2, 1.0, len(points))
+    area /= area.sum()
+    centre = area @ points
+    u = np.column_stack([np.ones(len(points)), points - centre])
+    reach = inner_offset(convex_hull(u[:, 1:]), 0.01)
+    patch = module.PressedPatch(
+        np.arange(len(points)), tuple(centre.tolist()), 1.0, area, u, np.linalg.inv((area * u.T) @ u), reach
+    )
+    np.asarray(patch.carried)[:] = 1
+    found = []
+    for _ in range(3):
+        out, force = np.zeros(len(points)), float(rng.uniform(1.0, 500.0))
+        x, y = (centre + rng.normal(size=2) * np.ptp(points, axis=0) * 0.4).tolist()
+        done = patch.spread(force, x, y, out)
+        found.append((done, out.tolist(), force, (patch.x, patch.y), (u, reach)))
+    return found
+
+
+@pytest.mark.skipif(not is_compiled("pressed_patch"), reason="without a compiler there is one form only")
+@settings(max_examples=60)
+@given(seeds)
+def test_the_two_forms_agree_to_the_last_bit(seed):
+    for one, other in zip(*(pressed(module, seed) for module in FORMS), strict=True):
+        assert one[:4] == other[:4]
+    points = np.random.default_rng(seed).uniform(-0.2, 0.2, (5, 2)).tolist()
+    keys = {module.patch_key(some, 1e-4) for module in FORMS for some in (points, points[::-1], points * 2)}
+    assert keys == {tuple(sorted({(round(x / 1e-4), round(y / 1e-4)) for x, y in points}))}
+
+
+@settings(max_examples=60)
+@given(seeds)
+def test_forces_have_the_load_s_wrench_where_cells_can_carry_it(seed):
+    for done, out, force, point, (u, _) in pressed(pressed_patch, seed):
+        if done:
+            assert min(out) >= 0.0
+            assert np.array(out) @ u == pytest.approx(force * np.array([1.0, *point]), abs=1e-7 * force)
+
+
+def test_a_patch_of_which_nothing_carried_yet_says_so():
+    u = np.array([[1.0, -1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
+    area, reach = np.full(3, 1.0 / 3.0), np.array([[-0.9, 0.0], [0.9, 0.0]])
+    for module in FORMS:
+        patch = module.PressedPatch(np.arange(3), (0.0, 0.0), 1.0, area, u, np.diag([1.0, 1.5, 0.0]), reach)
+        out = np.zeros(3)
+        assert not patch.spread(5.0, 0.95, 0.0, out)
+        assert (patch.x, patch.y) == (0.9, 0.0)
+        assert not out.any()
+        np.asarray(patch.carried)[1:] = 1
+        assert patch.part(5.0, out)
+        assert out == pytest.approx([0.0, 0.5, 4.5])
