@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.joint_extremes import JointExtremes
 from sim.model.world import World
 
 __all__ = ["JointLimits"]
@@ -25,6 +26,8 @@ class JointLimits:
 
     Attributes:
         longest: For how long in s without a break each joint (k,) was faster than its limit, at most.
+        speeds: Speeds of the joints, and of others between them, where MuJoCo writes them.
+        slow: Sum of the squares of `speeds` up to which no joint is faster than its limit.
     """
 
     def __init__(self, world: World) -> None:
@@ -34,19 +37,19 @@ class JointLimits:
         k = len(self.names)
         self.longest = np.zeros(k)
         self._period = world.period
-        self._over, self._high, self._low = np.zeros(k), np.zeros(k), np.zeros(k)
+        self._over = np.zeros(k)
         limits = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
         self._per_speed = 1.0 / limits
-        self._least_limit = float(limits.min()) ** 2  # squared
+        self.slow = float(limits.min()) ** 2
         dofs = world.joint_qvel
         first, end = int(dofs.min()), int(dofs.max()) + 1
-        self._span = world.data.qvel[first:end]  # a view, without a copy at each step; may hold other joints, too
-        self._places = None if np.array_equal(dofs, np.arange(first, end)) else dofs - first
+        self.speeds = world.data.qvel[first:end]  # a view, without a copy at each step; may hold other joints, too
+        self._places = dofs - first
         self._fast = False
-        self._force, self._servos = world.data.actuator_force, world.servos
         limited = model.actuator_forcelimited[world.servos] > 0
         torques = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
-        self._per_torque = 1.0 / (_AT_LIMIT * torques)
+        per_torque = 1.0 / (_AT_LIMIT * torques)
+        self._extremes = JointExtremes(self.speeds, self._places, world.data.actuator_force, world.servos, per_torque)
         self._at_limit = np.zeros(k)
         self._held: list[tuple[int, NDArray[np.bool_]]] = []
         self._any_at_limit = self._ticks = 0
@@ -54,44 +57,31 @@ class JointLimits:
     @property
     def fastest(self) -> NDArray[np.float64]:
         """Largest speed of each joint (k,) as a share of its limit; 0 without limits."""
-        return np.asarray(np.maximum(self._high, -self._low) * self._per_speed)
+        high, low = np.asarray(self._extremes.high), np.asarray(self._extremes.low)
+        return np.asarray(np.maximum(high, -low) * self._per_speed)
 
-    def _velocity(self) -> NDArray[np.float64]:
-        return self._span if self._places is None else np.asarray(self._span.take(self._places))
+    @property
+    def was_fast(self) -> bool:
+        """Whether a joint was faster than its limit at the last step."""
+        return self._fast
 
     def step(self) -> None:
-        """After each physics step: speeds."""
-        if float(self._span.dot(self._span)) <= self._least_limit:  # no square is above the sum of them
-            if self._fast:
-                self._over[:] = 0.0
-                self._fast = False
-            return
-        velocity = self._velocity()
-        shares = np.abs(velocity) * self._per_speed
-        if float(_most(shares)) <= 1.0:
-            if self._fast:
-                self._over[:] = 0.0
-                self._fast = False
+        """After each physics step in which the squares of `speeds` add up to more than `slow`, and after one in which a
+        joint was faster than its limit: speeds."""
+        shares = np.abs(self.speeds[self._places]) * self._per_speed
+        self._fast = float(_most(shares)) > 1.0
+        if not self._fast:
+            self._over[:] = 0.0
             return
         self._over = np.where(shares > 1.0, self._over + self._period, 0.0)
-        self._fast = True
         np.maximum(self.longest, self._over, out=self.longest)
-        self._extend(velocity)
-
-    def _extend(self, velocity: NDArray[np.float64]) -> None:
-        np.maximum(self._high, velocity, out=self._high)
-        np.minimum(self._low, velocity, out=self._low)
+        self._extremes.extend()
 
     def tick(self) -> None:
         """At each control tick: torques."""
         self._ticks += 1
-        self._extend(self._velocity())
-        shares = self._force.take(self._servos)
-        shares *= self._per_torque
-        if float(shares.dot(shares)) < 1.0:
-            return
-        held = np.abs(shares) >= 1.0
-        if held.any():
+        if self._extremes.tick():
+            held = np.abs(np.asarray(self._extremes.shares)) >= 1.0
             self._any_at_limit += 1
             self._at_limit += held
             self._held.append((self._ticks, held))

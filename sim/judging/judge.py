@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.plan.plan_change import MovedStep
-from plantar.kernels.convex import area
 from plantar.kernels.few_points import small_hull
+from plantar.kernels.step_watch import FAST, LEGS, StepWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from sim.judging.joint_limits import JointLimits
@@ -21,7 +21,7 @@ from sim.judging.step_count import StepCount
 from sim.judging.walk_goal import WalkGoal
 from sim.model.contact_truth import (
     ContactReader,
-    ContactSet,
+    FootContacts,
     GroundTruth,
     foot_contacts,
     ground_truth,
@@ -88,16 +88,23 @@ class Judge:
         self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
         self._touched = data.sensordata[self.world.touch["left"] : self.world.touch["right"] + 1]
         self._soles = [(data.site_xpos[i], data.site_xmat[i]) for i in (self.world.sole_sites[s] for s in SIDES)]
-        self._physics_steps = 0
-        self._last_touch = [0, 0]  # physics step, of each foot
         self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         body = self.world.body
         self._touch, self._least = _TOUCH * body.weight, _LEAST * body.weight
-        self._airborne_steps = round(_AIRBORNE * body.beat / self.world.period)
+        self._settled = _SETTLED * body.beat
         self.steps = StepCount(self.goal, body.weight)
         self.legs = LegContact(self.world)
         self.joints = JointLimits(self.world)
+        leg = self.world.leg_contact
+        self._watch = StepWatch(
+            self._touched,
+            data.sensordata[leg : leg + 1],
+            self.joints.speeds,
+            self._touch,
+            round(_AIRBORNE * body.beat / self.world.period),
+            self.joints.slow,
+        )
 
     @property
     def fell(self) -> bool:
@@ -106,21 +113,21 @@ class Judge:
 
     def update_physics(self) -> None:
         """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
-        self.legs.step()
-        self.joints.step()
-        left, right = self._touched.tolist()
-        now = self._physics_steps = self._physics_steps + 1
-        last = self._last_touch
-        if left >= self._touch:
-            if now - last[0] > self._airborne_steps:
-                self._land("left")
-            last[0] = now
-        if right >= self._touch:
-            if now - last[1] > self._airborne_steps:
-                self._land("right")
-            last[1] = now
+        seen = self._watch.step()
+        if seen or self._fresh or self.joints.was_fast:
+            self._look(seen)
+
+    def _look(self, seen: int) -> None:
+        """After a physics step in which something happened, or lately did."""
+        if seen & LEGS:
+            self.legs.step()
+        if seen & FAST or self.joints.was_fast:
+            self.joints.step()
+        for bit, side in enumerate(SIDES):
+            if seen & 1 << bit:
+                self._land(side)
         if self._fresh:
-            self._follow_impacts({"left": left, "right": right})
+            self._follow_impacts(dict(zip(SIDES, self._touched.tolist(), strict=True)))
 
     def _land(self, side: Side) -> None:
         """A foot touches the ground after it was in the air."""
@@ -155,7 +162,7 @@ class Judge:
         self,
         com: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
-        feet: Sequence[ContactSet] | None = None,
+        feet: Sequence[FootContacts] | None = None,
         moved: Sequence[MovedStep] = (),
     ) -> GroundTruth:
         """At each control tick: tilt, ZMP margin, contact areas, places of the feet and the controller's errors.
@@ -186,8 +193,8 @@ class Judge:
             self.zmp_error.append(math.dist(zmp, truth.zmp))
         for side, points in zip(SIDES, truth.points, strict=True):
             last = self._landing[side]
-            if last is not None and data.time - last.time <= _SETTLED * self.world.body.beat and len(points) > 2:
-                last.area = max(last.area, area(np.array(small_hull(points))))
+            if last is not None and len(points) > 2 and data.time - last.time <= self._settled:
+                last.area = max(last.area, _area(small_hull(points)))
         if moved:
             self.goal.hear(float(data.time), moved)
         for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=True):
@@ -208,3 +215,15 @@ class Judge:
         """Height in m of the CoM above the lower sole."""
         (left, _), (right, _) = self._soles
         return float(self._center.item(2) - min(left.item(2), right.item(2)))
+
+
+def _area(ring: Sequence[tuple[float, float]]) -> float:
+    """Area in m^2 of a few points' hull: `plantar.kernels.convex.area` on plain floats."""
+    total = 0.0
+    if len(ring) > 2:
+        (x, y), (ax, ay) = ring[0], ring[1]
+        ax, ay = ax - x, ay - y
+        for bx, by in ring[2:]:
+            total += ax * (by - y) - (bx - x) * ay
+            ax, ay = bx - x, by - y
+    return 0.5 * total
