@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command
+from plantar.kernels.setpoints import Setpoints
 from plantar.sides import SIDES
 from sim.model.leg_model import LegModel
 from sim.model.world import World
@@ -42,17 +43,19 @@ class LegServos:
     def __init__(self, world: World, legs: LegModel, period: float, plant: TruePlant | None = None) -> None:
         self._world = world
         self._legs = legs
-        self._period = period
-        self._last: NDArray[np.float64] | None = None
-        self._controls = world.data.ctrl
-        self._setpoint = np.zeros(len(world.servos))
-        self._rate = np.zeros(len(world.servos))
-        self._velocity_gain = world.damping + world.joint_damping
         self._friction = world.joint_friction
         self._rubs = bool(world.joint_friction.any())
         self._slow = _SLOW / world.body.beat
         limits = np.array([*world.robot.velocity_limits] * 2)
-        self._per_limit = 1.0 / (_SPEED_SHARE * limits * period) if len(limits) else None
+        self._setpoints = Setpoints(
+            world.data.ctrl,
+            world.servos,
+            world.stiffness,
+            world.damping + world.joint_damping,
+            1.0 / (_SPEED_SHARE * limits * period),
+            period,
+            world.period,
+        )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
         self.out_of_reach_since: float | None = None
 
@@ -63,9 +66,7 @@ class LegServos:
             joints: Joint angles (k,) in rad.
             torques: Feed-forward torques (k,) in N m.
         """
-        self._last = joints.copy()
-        self._setpoint = joints + torques / self._world.stiffness
-        self._rate = np.zeros_like(joints)
+        self._setpoints.hold(joints, torques)
         self._write()
 
     def command(self, command: Command) -> NDArray[np.float64]:
@@ -85,35 +86,31 @@ class LegServos:
             {side: feet[side].force for side in SIDES},
             {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in SIDES},
         )
-        last = joints if self._last is None else self._last
-        if self._per_limit is not None:
-            shares = (joints - last) * self._per_limit
-            # No square is above the sum of them, and the sum costs a third of the largest.
-            if float(shares.dot(shares)) > 1.0 and (fastest := float(np.abs(shares).max())) > 1.0:
-                joints = last + (joints - last) / fastest
-        velocity = (joints - last) / self._period
-        w = self._world
+        setpoints = self._setpoints
+        setpoints.go_to(joints)
         if self._rubs:
             # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
-            torques = torques + self._friction * np.tanh(velocity / self._slow)
-        self._setpoint = joints + (self._velocity_gain * velocity + torques) / w.stiffness
+            torques = torques + self._friction * np.tanh(np.asarray(setpoints.velocity) / self._slow)
+        setpoints.load(torques)
         if command.joint_offsets is not None:
-            self._setpoint += command.joint_offsets
-        self._rate = velocity * w.period
-        self._last = joints
-        return joints
+            setpoints.offset(command.joint_offsets)
+        return np.array(setpoints.reference)
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""
-        self._write()
-        self._setpoint = self._setpoint + self._rate
+        if self._drives is None:
+            self._setpoints.drive()
+        else:
+            self._write()
+            self._setpoints.advance()
 
     def _write(self) -> None:
         """Hand the set-points to the servos, as far as these get them."""
-        setpoint = self._setpoint
-        if self._drives is not None:
-            data, w = self._world.data, self._world
-            setpoint = self._drives.followed(
-                float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
-            )
-        self._controls[self._world.servos] = setpoint
+        if self._drives is None:
+            self._setpoints.write()
+            return
+        data, w = self._world.data, self._world
+        setpoint = np.array(self._setpoints.setpoint)
+        data.ctrl[w.servos] = self._drives.followed(
+            float(data.time), setpoint, data.qpos[w.joint_qpos], data.qvel[w.joint_qvel]
+        )

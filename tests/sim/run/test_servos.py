@@ -21,10 +21,12 @@ def test_a_held_posture_carries_its_feed_forward_torque(standing: Simulation) ->
     world = standing.world
     data = world.data
     mujoco.mj_step(world.model, data, 300)
-    error = data.qpos[world.joint_qpos] - standing.servos._last
+    error = data.qpos[world.joint_qpos] - np.asarray(standing.servos._setpoints.reference)
     # With the expected torque fed forward, the spring of the servo is left with next to nothing to do.
     assert np.abs(np.degrees(error)).max() < 0.02
-    expected = world.stiffness * (standing.servos._setpoint - standing.servos._last)
+    expected = world.stiffness * (
+        np.asarray(standing.servos._setpoints.setpoint) - np.asarray(standing.servos._setpoints.reference)
+    )
     assert data.actuator_force[world.servos] == pytest.approx(expected, abs=2.0)
 
 
@@ -60,7 +62,7 @@ def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulati
         for k in range(12):
             joints = servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -1e-3 * k])))
         standing.legs.set_configuration(stand[:3], stand[3:7], stand[7:])
-        asked.append(world.stiffness * (servos._setpoint - joints))
+        asked.append(world.stiffness * (np.asarray(servos._setpoints.setpoint) - joints))
     more = asked[1] - asked[0]
     assert more[knees] == pytest.approx(6.0, rel=0.01)
     assert np.delete(more, knees) == pytest.approx(0.0, abs=1e-9)

@@ -1,0 +1,38 @@
+# C types of setpoints.py. Without a compiler this file is not read.
+cimport cython
+
+
+@cython.final
+cdef class Setpoints:
+    cdef double[:] controls
+    cdef const Py_ssize_t[::1] servos
+    cdef const double[::1] stiffness
+    cdef const double[::1] damping
+    cdef const double[::1] per_way
+    cdef double period
+    cdef double step
+    cdef readonly double[::1] reference
+    cdef readonly double[::1] velocity
+    cdef readonly double[::1] setpoint
+    cdef double[::1] rate
+
+    @cython.locals(i=Py_ssize_t)
+    cpdef void hold(self, const double[:] joints, const double[:] torques) noexcept
+
+    @cython.locals(
+        count=Py_ssize_t, i=Py_ssize_t, fastest=double, total=double, share=double, late=bint, last=double, goal=double
+    )
+    cpdef void go_to(self, const double[:] joints) noexcept
+
+    @cython.locals(i=Py_ssize_t, lead=double)
+    cpdef void load(self, const double[:] torques) noexcept
+
+    @cython.locals(i=Py_ssize_t)
+    cpdef void offset(self, const double[:] offsets) noexcept
+
+    @cython.locals(i=Py_ssize_t)
+    cpdef void write(self) noexcept
+
+    @cython.locals(i=Py_ssize_t)
+    cpdef void advance(self) noexcept
+    cpdef void drive(self) noexcept

@@ -1,0 +1,55 @@
+"""The kernel of set-points in both forms against the same in numpy, tick after tick."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar.kernels import python_form, setpoints
+
+PERIOD, STEP = 0.005, 0.001
+FORMS = (setpoints, python_form("setpoints"))
+
+
+@pytest.mark.parametrize("limited", [True, False])
+@settings(max_examples=30)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_it_writes_what_numpy_would(limited, seed):
+    rng = np.random.default_rng(seed)
+    k = int(rng.integers(1, 14))
+    servos, stiffness, damping = rng.permutation(k + 3)[:k], rng.uniform(50.0, 300.0, k), rng.uniform(0.1, 9.0, k)
+    per_way = rng.uniform(2.0, 20.0, k) if limited else np.empty(0)
+    controls = [np.zeros(k + 3) for _ in FORMS]
+    kernels = [
+        module.Setpoints(written, servos, stiffness, damping, per_way, PERIOD, STEP)
+        for module, written in zip(FORMS, controls, strict=True)
+    ]
+    last = None
+    for tick in range(6):
+        joints, torques, offsets = rng.normal(0.0, 0.1, k), rng.normal(0.0, 40.0, k), rng.normal(0.0, 0.01, k)
+        held = tick == 2
+        last = joints if last is None or held else last
+        shares = np.abs(joints - last) * per_way if limited else np.zeros(k)
+        goal = last + (joints - last) / shares.max() if shares.max() > 1.0 else joints
+        velocity = np.zeros(k) if held else (goal - last) / PERIOD
+        wanted = goal + (damping * velocity + torques) / stiffness
+        for kernel in kernels:
+            if held:
+                kernel.hold(joints, torques)
+            else:
+                kernel.go_to(joints)
+                kernel.load(torques)
+                kernel.offset(offsets)
+        wanted = wanted if held else wanted + offsets
+        for _ in range(5):
+            for kernel, written in zip(kernels, controls, strict=True):
+                kernel.drive()
+                assert np.array_equal(written[servos], wanted)
+                assert np.count_nonzero(written) <= k
+            wanted = wanted + velocity * STEP
+        for kernel in kernels:
+            assert np.array_equal(kernel.reference, goal)
+            assert np.array_equal(kernel.velocity, velocity)
+        last = goal
