@@ -67,7 +67,7 @@ PLACE_OF_LIBRARY = {
     "cadquery": "shoes",
     "OCP": "shoes",
     "trimesh": "shoes",
-    "mujoco": ("sim", "shoes.foot.model_mass"),
+    "mujoco": ("sim", "shoes.foot.model_source"),
     "matplotlib": "plantar.plotting",
     "mpl_toolkits": "plantar.plotting",
     "mink": None,  # a reference in tests and benchmarks only

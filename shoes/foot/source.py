@@ -11,7 +11,6 @@ from plantar.files.structured_text import packaged_files, read_toml
 from plantar.sides import SIDES
 from shoes.foot.foot import Foot, foot_from_dimensions
 from shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
-from shoes.foot.model_mass import model_mass
 from shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
 from shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
 from shoes.order import FootSource
@@ -78,8 +77,7 @@ def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
         side = cast(Any, source.mesh_side or found.side or "left")
         where = f"{path}, body '{source.body}'"
         foot = foot_from_triangles(path.stem, found.triangles, where=where, file_unit="m", mesh_side=side, **options)
-        mass, note = model_mass(path, cast(str, source.body))
-        return replace(foot, mass=mass, notes=(found.note, note, *foot.notes))
+        return replace(foot, mass=found.mass, notes=(*found.notes, *foot.notes))
     if source.body is not None:
         raise InputError(f"--body is for a robot's model ({', '.join(MODEL_FORMATS)}); {path} is none")
     return foot_from_mesh(path, mesh_side=side, **options)

@@ -1,0 +1,58 @@
+"""A URDF as MuJoCo reads it: link by link with what is drawn, meshes under names of their own."""
+
+from __future__ import annotations
+
+from xml.etree import ElementTree
+
+__all__ = ["urdf_for_mujoco"]
+
+_COMPILER = {"discardvisual": "false", "fusestatic": "false", "strippath": "true"}
+_WORLD, _BELOW = "world", "plantar_world"
+
+
+def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
+    """The text of a URDF for MuJoCo's reader, which follows no mesh's name and keeps every link.
+
+    MuJoCo makes the root link a part of the world, its mass with it; a joint to a link above keeps it a body. It takes
+    meshes of the same file name in two folders for one, and knows no packages: each mesh gets a name.
+
+    Args:
+        root: The outermost element, <robot>; it is changed.
+
+    Returns:
+        The text, None where every link hangs on another; and of each mesh's name in it the name that the URDF has.
+
+    Example:
+        >>> link = '<link name="a"><visual><geometry><mesh filename="package://b/c.dae"/></geometry></visual></link>'
+        >>> urdf_for_mujoco(ElementTree.fromstring(f"<robot>{link}</robot>"))[1]
+        {'mesh_0.stl': 'package://b/c.dae'}
+    """
+    names: dict[str, str] = {}
+    for mesh in root.iterfind("link/*/geometry/mesh"):
+        name = f"mesh_{len(names)}.stl"
+        names[name] = mesh.get("filename", "")
+        mesh.set("filename", name)
+    for own in root.findall("mujoco"):
+        root.remove(own)
+    children = {c.get("link", "") for c in root.iterfind("joint/child")}
+    tops = [link.get("name", "") for link in root.findall("link") if link.get("name", "") not in children]
+    if not tops:
+        return None, {}
+    if tops != [_WORLD]:
+        _rename_world(root)
+        root.insert(0, ElementTree.Element("link", {"name": _BELOW}))
+        for i, top in enumerate(_WORLD + "_link" if t == _WORLD else t for t in tops):
+            joint = ElementTree.SubElement(root, "joint", {"name": f"{_BELOW}_{i}", "type": "fixed"})
+            ElementTree.SubElement(joint, "parent", {"link": _BELOW})
+            ElementTree.SubElement(joint, "child", {"link": top})
+    ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _COMPILER)
+    return ElementTree.tostring(root, encoding="unicode"), names
+
+
+def _rename_world(root: ElementTree.Element) -> None:
+    """Give a link called "world", which MuJoCo keeps for its own, another name."""
+    places = [(e, "name") for e in root.findall("link")]
+    places += [(e, "link") for tag in ("parent", "child") for e in root.iterfind(f"joint/{tag}")]
+    for element, key in places:
+        if element.get(key) == _WORLD:
+            element.set(key, f"{_WORLD}_link")
