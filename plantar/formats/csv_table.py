@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
 from typing import TextIO
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import cells_of_foot, halves, unit_of_values
 from plantar.formats.format import Format, ReadOptions
+from plantar.formats.number_rows import number_rows
 from plantar.formats.side import side_of
 from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides, with_numbers
 from plantar.formats.text import blocks_of_lines, encoding_of, number, number_in, open_text, row_of_numbers
@@ -189,16 +189,9 @@ def _table(
 
 def _rows(block: list[str], delimiter: str | None, width: int) -> tuple[NDArray[np.float64], int, int]:
     """Numbers of some lines, how many cells are none, and how many lines have another width."""
-    commas = [line.count(delimiter) if delimiter else width - 1 for line in block]
-    if delimiter and commas == [width - 1] * len(block) and (delimiter == "," or not any("," in x for x in block)):
-        try:  # all at once where nothing looks odd
-            with catch_warnings():
-                simplefilter("error")
-                flat = np.fromstring(delimiter.join(block), sep=delimiter)
-        except (ValueError, DeprecationWarning):
-            flat = np.empty(0)
-        if flat.size == len(block) * width and np.isfinite(flat).all():
-            return flat.reshape(-1, width), 0, 0
+    rows = number_rows(block, delimiter, width)
+    if rows is not None:
+        return rows, 0, 0
     out = np.full((len(block), width), np.nan)
     bad = short = 0
     for i, line in enumerate(block):

@@ -130,7 +130,7 @@ def _take_frames(
         values = np.full(shape, np.nan)
         last_is_odd = len(body) != shape[0]
         for r, line in enumerate(() if last_is_odd else body):
-            row, wrong = _row(_cells(line, delimiter)[: shape[1]])
+            row, wrong = row_of_numbers(_cells(line, delimiter)[: shape[1]])
             last_is_odd |= wrong > 0 or len(row) != shape[1]
             values[r, : len(row)] = row
         table.add(values[::-1].reshape(1, -1))
@@ -170,15 +170,6 @@ def _bodies(path: Path, lines: Iterator[str]) -> Iterator[tuple[float, list[str]
                 if len(body) > _MOST_ROWS:
                     raise FormatError(f"{path}: a frame has more than {_MOST_ROWS} rows")
         yield stated, body
-
-
-def _row(cells: list[str]) -> tuple[NDArray[np.float64], int]:
-    """The numbers of a row, and how many of its cells hold none."""
-    try:
-        values = np.array(cells, dtype=np.float64)
-    except ValueError:
-        return row_of_numbers(cells)
-    return (values, 0) if np.isfinite(values).all() else row_of_numbers(cells)
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.moticon_insole import LENGTH, WIDTH, moticon_insole
+from plantar.formats.number_rows import number_rows
 from plantar.formats.text import blocks_of_lines, number, open_text
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
@@ -159,6 +160,11 @@ def _cells(line: str, delimiter: str, columns: int) -> list[str] | None:
 
 def _block(block: list[str], delimiter: str, columns: int, wanted: list[int]) -> tuple[NDArray[np.float64], int, int]:
     """Numbers (rows, wanted) of some lines, how many cells are none, and how many lines have another width."""
+    goes = np.full(columns, -1)
+    goes[wanted] = np.arange(len(wanted))
+    rows = number_rows(block, delimiter, goes.tolist())
+    if rows is not None:
+        return rows, 0, 0
     out = np.full((len(block), len(wanted)), np.nan)
     bad = short = 0
     for k, line in enumerate(block):

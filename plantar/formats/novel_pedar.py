@@ -12,21 +12,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
 from pathlib import Path
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_insole
+from plantar.formats.number_rows import number_rows
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
 from plantar.formats.text import blocks_of_lines, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
@@ -42,6 +42,8 @@ _LARGEST_HEADER, _LONGEST_FACT = 400, 10_000
 _WRITTEN = ("kpa", "n/cm2", "psi", "mmhg", "kg/cm2", "mpa")
 """Units that the exporting programs write."""
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
+_LATEST = 1e9
+"""Time in s from which a line is damaged."""
 
 
 def _recognises(head: bytes) -> bool:
@@ -74,8 +76,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         sole = _layout(
             path, side, columns[span.start : span.stop], layout, geometry, text, warnings, options.insole_size
         )
-        if unit.kind == "pressure":
-            scale_frames(values, unit.factor * sole.areas)
+        scale_to_force(values, unit, sole.areas)
         feet[side] = FootRecording(side, values, sole)
     if len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
@@ -137,7 +138,8 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
     for block in blocks_of_lines(frames(), max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1)))):
         rows = _frames(block, cells)
         if not len(times):
-            expected = path.stat().st_size // max(len(line) for line in block)
+            usual = sum(map(len, block)) // len(block)  # lines may be shorter; what is not written takes no memory
+            expected = len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * cells)
             times, values = FrameTable(1, expected), [FrameTable(len(span), expected) for span in spans]
         times.add(rows[:, :1])
         for table, span in zip(values, spans, strict=True):
@@ -166,82 +168,15 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
 
 def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
     """Numbers (lines, 1 + cells) of lines; NaN in each line that is not made of as many finite numbers."""
-    width = 1 + cells
-    rows = _fixed_width(block, cells)
-    if rows is not None:
+    rows = number_rows(block, None, 1 + cells)
+    if rows is not None and (np.abs(rows[:, 0]) < _LATEST).all():
         return rows
-    tabs = block[0].count("\t")
-    if tabs and all(line.count("\t") == tabs for line in block):  # all at once where nothing looks odd
-        try:
-            with catch_warnings():
-                simplefilter("error")
-                flat = np.fromstring("".join(block), sep=" ")
-        except (ValueError, DeprecationWarning):
-            flat = np.empty(0)
-        if flat.size == len(block) * width:
-            rows = flat.reshape(len(block), width)
-            if np.isfinite(rows).all() and (np.diff(rows[:, 0]) > 0.0).all():
-                return rows
-    out = np.full((len(block), width), np.nan)
+    out = np.full((len(block), 1 + cells), np.nan)
     for i, line in enumerate(block):
         row = _numbers(line.split(), cells)
         if row is not None:
             out[i] = row
     return out
-
-
-def _fixed_width(block: list[str], cells: int) -> NDArray[np.float64] | None:
-    """Numbers (lines, 1 + cells) of lines that are alike to the column, as the exporting program writes them.
-
-    Digits are weighted where they stand, four times as fast as parsing one number after the other. None where any byte
-    is not what it is in the first line: a digit or blank, a point, a tab.
-    """
-    length = len(block[0])
-    if any(len(line) != length for line in block) or not block[0].endswith("\n"):
-        return None
-    try:
-        raw = np.frombuffer("".join(block).encode("ascii"), dtype=np.uint8).reshape(len(block), length)
-    except UnicodeEncodeError:
-        return None
-    tabs = np.flatnonzero(raw[0] == 9)
-    if len(tabs) not in (cells, cells + 1):
-        return None
-    ends = tabs if len(tabs) == cells + 1 else np.append(tabs, length - 1)
-    wide = np.diff(ends)
-    if not (wide == wide[0]).all() or ends[-1] < length - 2:
-        return None
-    body = raw[:, ends[0] + 1 : ends[-1] + 1].reshape(len(block), cells, wide[0])
-    point = np.flatnonzero(body[0, 0] == 46)
-    if len(point) != 1 or wide[0] > 12 or not (body[:, :, point[0]] == 46).all():
-        return None
-    last = body[:, :, -1]
-    if not ((last == 9) | (last == 10)).all():
-        return None
-    decimals = int(wide[0]) - 2 - int(point[0])
-    total = np.zeros((len(block), cells), dtype=np.int32 if wide[0] < 12 else np.int64)  # nine digits at the most
-    begun = np.zeros((len(block), cells), dtype=bool)
-    for at in range(wide[0] - 1):
-        if at == point[0]:
-            continue
-        byte = body[:, :, at]
-        value = byte - np.uint8(48)  # what is less than "0" becomes large
-        digit = value < 10
-        if not digit.all():
-            if at > point[0] or not (digit | ((byte == 32) & ~begun)).all():
-                return None
-            value *= digit
-        begun |= digit
-        total *= 10
-        total += value
-    if not begun.all():
-        return None
-    try:
-        time = np.array([line[: ends[0]] for line in block], dtype=float)
-    except ValueError:
-        return None
-    if not (np.isfinite(time).all() and (np.diff(time) > 0.0).all()):
-        return None
-    return np.column_stack([time, total / 10.0**decimals])
 
 
 def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
@@ -255,7 +190,7 @@ def _numbers(parts: list[str], cells: int) -> NDArray[np.float64] | None:
             row = np.array([p.replace(",", ".") for p in parts], dtype=float)
         except ValueError:
             return None
-    return row if np.isfinite(row).all() and abs(row[0]) < 1e9 else None
+    return row if np.isfinite(row).all() and abs(row[0]) < _LATEST else None
 
 
 def _field(text: str, pattern: str) -> str | None:

@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterator
 from itertools import chain, islice
 from pathlib import Path
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from plantar.errors import FormatError
 from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
+from plantar.formats.number_rows import number_rows
 from plantar.formats.side import side_of
 from plantar.formats.text import number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
@@ -37,6 +37,8 @@ __all__ = ["FORMAT"]
 
 _KEY = re.compile(r"\s*\"?([A-Z][A-Z0-9_]+)\"?[\s,;:]*(.*)$")
 _FRAME = re.compile(r"\s*\"?frame\s*[,;:]?\s*(\d+)", re.IGNORECASE)
+_NO_CELL_ALONE = re.compile(r"[^\s,;]B|B[^\s,;]")
+"""The sign of a place without a cell where it is a part of something else."""
 _LARGEST_HEADER = 500
 _LARGEST = 200_000
 """Most cells of a matrix."""
@@ -240,18 +242,12 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 
 def _fast(body: list[str], delimiter: str | None, rows: int, columns: int) -> NDArray[np.float64] | None:
     """A whole matrix at once; None where anything looks odd."""
-    if delimiter is None or (delimiter != "," and "," in body[0]):
+    if delimiter is None or len(body) != rows:
         return None
-    text = delimiter.join(line.rstrip(f"{delimiter} ") for line in body).replace("B", "nan")
-    try:
-        with catch_warnings():
-            simplefilter("error")
-            values = np.fromstring(text, sep=delimiter)
-    except (ValueError, DeprecationWarning):
+    text = "\n".join(body)
+    if _NO_CELL_ALONE.search(text):
         return None
-    if len(values) != rows * columns or np.isinf(values).any() or (values < -1e9).any():
-        return None
-    return values.reshape(rows, columns)
+    return number_rows(text.replace("B", "").split("\n"), delimiter, columns)
 
 
 def _stated(header: dict[str, str], key: str) -> int | None:

@@ -140,6 +140,12 @@ def row_of_numbers(cells: Sequence[str]) -> tuple[NDArray[np.float64], int]:
     Returns:
         The numbers, and how many cells hold something that is not a number; empty ones do not count.
     """
+    try:
+        values = np.array(cells, dtype=np.float64)
+        if np.isfinite(values).all() and not any("_" in cell for cell in cells):  # which Python lets stand in numbers
+            return values, 0
+    except ValueError:
+        pass
     out = np.full(len(cells), np.nan)
     bad = 0
     for i, cell in enumerate(cells):

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FormatError
+from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
@@ -23,7 +24,6 @@ from plantar.formats.text import number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
-from plantar.recordings.let_go import scale_frames
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, sampling
 from plantar.sides import SIDES
 
@@ -132,7 +132,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         layout = layout or grid_cells(present, *size, side=side, name=sensor.name, threshold=_THRESHOLD)
         if unit.kind == "pressure":
             _check_load(sensor, values, unit.factor * size[0] * size[1], frames, side, warnings)
-            scale_frames(values, unit.factor * layout.areas)
+        scale_to_force(values, unit, layout.areas)
         feet[side] = FootRecording(side, values, layout)
         grid = shape
     warnings.append("the first row of each matrix is taken as the toes, its columns as seen from above")
