@@ -2,5 +2,6 @@
 document$.subscribe(() => {
   document.querySelectorAll("[data-md-component=search]").forEach((e) => e.setAttribute("aria-label", "Search"));
   document.querySelectorAll(".md-code__nav").forEach((e, i) => e.setAttribute("aria-label", `Code ${i + 1}`));
+  document.querySelectorAll("th:empty").forEach((e) => e.replaceWith(document.createElement("td")));
   document.querySelectorAll("pre > code, .md-typeset__scrollwrap").forEach((e) => e.setAttribute("tabindex", "0"));
 });
