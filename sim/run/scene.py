@@ -136,6 +136,8 @@ class Walk(Settings):
             return None
         table = table_of(rows, self.begin)
         if table.commands[-1] is not STOP:
+            if self.until <= rows[-1][0]:  # type: ignore[operator]
+                raise InputError(f"until is {self.until:g} s; allowed: after the last velocity, at {rows[-1][0]:g} s")
             table = table_of([*rows, [self.until, "stop"]], self.begin)
         return table
 
