@@ -6,8 +6,10 @@ import importlib.util
 import os
 import re
 import shlex
+import socket
 import subprocess
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 from types import ModuleType
 
@@ -21,21 +23,39 @@ BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def follow(page: Path, folder: Path) -> None:
-    """Do what a page says, in a folder, in its order."""
+    """Do what a page says, in a folder, in its order. Two machines are this one, with one worker and one seed."""
     scripts = Path(sys.executable).parent
     env = os.environ | {"PATH": f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}"}
     names: dict[str, object] = {"__name__": "page"}
-    for language, text in BLOCK.findall(page.read_text(encoding="utf-8")):
-        if language == "python":
-            exec(compile(text, str(page), "exec"), names)
-            continue
-        for line in text.splitlines():
-            if line.startswith("plantar "):
-                done = subprocess.run(
-                    shlex.split(line, comments=True), cwd=folder, env=env, capture_output=True, text=True
-                )
-                expected = 1 if "# exit code 1" in line else 0
-                assert done.returncode == expected, f"{line}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+    content = page.read_text(encoding="utf-8").replace("tcp://192.0.2.1:8786", f"tcp://127.0.0.1:{free_port()}")
+    content = content.replace("--nworkers 8", "--nworkers 1").replace("--seeds 20", "--seeds 1")
+    [port] = set(re.findall(r"tcp://127.0.0.1:(\d+)", content)) or {"0"}
+    with ExitStack() as servers:
+        for language, text in BLOCK.findall(content):
+            if language == "python":
+                exec(compile(text, str(page), "exec"), names)
+                continue
+            for line in text.splitlines():
+                words = shlex.split(line, comments=True)
+                if words[:1] == ["dask"]:
+                    at = ["--host", "127.0.0.1", "--port", port] if words[1] == "scheduler" else []
+                    log = servers.enter_context((folder / f"{words[1]}.log").open("w"))
+                    server = subprocess.Popen(
+                        [*words, *at, "--no-dashboard"], cwd=folder, env=env, stdout=log, stderr=log
+                    )
+                    servers.callback(server.wait)
+                    servers.callback(server.terminate)
+                elif words[:1] == ["plantar"]:
+                    done = subprocess.run(words, cwd=folder, env=env, capture_output=True, text=True)
+                    expected = 1 if "# exit code 1" in line else 0
+                    assert done.returncode == expected, f"{line}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+
+
+def free_port() -> int:
+    """A port of this machine that nobody listens on."""
+    with socket.socket() as asked:
+        asked.bind(("127.0.0.1", 0))
+        return int(asked.getsockname()[1])
 
 
 @pytest.mark.parametrize(
