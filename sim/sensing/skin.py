@@ -80,6 +80,7 @@ class SoleSkin:
             else ElasticPressure(layout, thickness=layer, rubber=rubber)
         )
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
+        self._springs = self.pressure if isinstance(self.pressure, SolePressure) and self._rim is None else None
         self._reach = reach
         self._data: Any = None  # whose arrays the next two show
         self._origin = self._rotation = np.empty(0)
@@ -109,14 +110,15 @@ class SoleSkin:
             self.in_air += 1
             return np.zeros(len(self.layout))
         self.pressed += 1
-        out: NDArray[np.float64] | None = None
-        for fz, tx, ty, patch in contacts.pair_loads(self._in_sole(data, contacts), self._reach):
+        vectors = self._in_sole(data, contacts)
+        if self._springs is not None:
+            return self._springs.press(contacts, vectors, self._reach)
+        out = np.zeros(len(self.layout))
+        for fz, tx, ty, patch in contacts.pair_loads(vectors, self._reach):
             if fz > 0.0:
                 part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
-                if self._rim is not None:
-                    part = part * self._rim.share(patch)
-                out = part if out is None else out + part
-        return np.zeros(len(self.layout)) if out is None else out
+                out += part if self._rim is None else part * self._rim.share(patch)
+        return out
 
     def _in_sole(self, data: Any, contacts: FootContacts) -> NDArray[np.float64]:
         """Position, force and torque of each contact in turn, in the sole frame."""

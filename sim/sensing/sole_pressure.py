@@ -27,9 +27,11 @@ from plantar.errors import InputError, LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import convex_hull
+from plantar.kernels.foot_contacts import FootContacts
 from plantar.kernels.pressed_patch import PressedPatch
+from plantar.kernels.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon, reach_of
+from sim.sensing.contact_patch import half_planes_of, patch_polygon, reach_of
 
 __all__ = ["SolePressure"]
 
@@ -72,7 +74,8 @@ class SolePressure:
         self._area = shapely.area(self._cells)
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
-        self._patches = Patches(self._make_patch, _GRID, _MOST_PATCHES)
+        gains = np.ones(len(layout)) if self._gain is None else self._gain
+        self._sole = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch, _spread_slowly)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
@@ -87,13 +90,24 @@ class SolePressure:
         Returns:
             Forces (n,) in N, none negative, whose vertical parts add up to `force`.
         """
-        out = np.zeros(len(self.layout))
         if not (0.0 < force < math.inf) or not len(patch):
-            return out
-        shape = self._patches.of(patch)
-        if not shape.spread(force, *center_of_pressure, out):
-            _spread_slowly(shape, force, out)
-        return self.along_taxels(out)
+            return np.zeros(len(self.layout))
+        out: NDArray[np.float64] = self._sole.spread(patch, force, *center_of_pressure)
+        return out
+
+    def press(self, contacts: FootContacts, vectors: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
+        """Taxel forces of all contacts of a foot; those of the same pair of geoms span a patch together.
+
+        Args:
+            contacts: The contacts.
+            vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+
+        Returns:
+            Forces (n,) in N, none negative.
+        """
+        out: NDArray[np.float64] = self._sole.press(contacts, vectors, reach)
+        return out
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:
         """Forces along the taxels' own axes of vertical ones.

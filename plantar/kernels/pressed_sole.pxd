@@ -1,0 +1,45 @@
+# C types of pressed_sole.py. Without a compiler this file is not read.
+cimport cython
+from . cimport pressed_patch
+from .foot_contacts cimport FootContacts
+from .pressed_patch cimport PressedPatch
+
+
+@cython.final
+cdef class PressedSole:
+    cdef const double[::1] gains
+    cdef double grid
+    cdef Py_ssize_t most
+    cdef object make
+    cdef object settle
+    cdef readonly dict made
+    cdef double[::1] part
+    cdef PressedPatch recent
+    cdef Py_ssize_t recent_count
+    cdef Py_ssize_t room
+    cdef double[:, ::1] points
+    cdef double[:, ::1] places
+
+    cdef _make_room(self, Py_ssize_t room)
+
+    @cython.locals(
+        k=Py_ssize_t, j=Py_ssize_t, row=Py_ssize_t, count=Py_ssize_t, known=bint, force=double, about_x=double,
+        about_y=double, x=double, y=double, z=double, fx=double, fy=double, fz=double
+    )
+    cpdef press(self, FootContacts contacts, const double[:, ::1] vectors, double reach)
+
+    @cython.locals(count=Py_ssize_t, px=double, py=double)
+    cpdef spread(self, points, double force, double x, double y)
+
+    @cython.locals(patch=PressedPatch, i=Py_ssize_t)
+    cdef _spread(self, Py_ssize_t count, double force, double x, double y, double[::1] out)
+
+    @cython.locals(same=bint, i=Py_ssize_t, x=double, y=double, key=tuple)
+    cdef PressedPatch _patch(self, Py_ssize_t count)
+
+
+cdef bint _counts(
+    FootContacts contacts, const double[:, ::1] vectors, double reach, Py_ssize_t k
+) noexcept
+
+cdef bint _is_pair(FootContacts contacts, Py_ssize_t j, Py_ssize_t k) noexcept

@@ -1,0 +1,145 @@
+"""Kernel of an elastic sole: what its taxels carry of the contacts that press on it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import pressed_patch
+
+__all__ = ["PressedSole"]
+
+
+class PressedSole:
+    """Spreads loads over the cells of a sole; what it takes to do so is made once a patch.
+
+    Args:
+        gains: What a cell's taxel (n,) reads of a vertical force on it.
+        grid: Distance in m within which contact points that agree span the same patch.
+        most: How many patches are kept.
+        make: Makes the patch of contact points (k, 2) in m.
+        settle: Spreads a load in N that a patch does not settle by itself over an array (n,).
+    """
+
+    def __init__(self, gains, grid, most, make, settle):
+        self.gains = gains
+        self.grid = grid
+        self.most = most
+        self.make = make
+        self.settle = settle
+        self.made = {}
+        self.part = np.zeros(len(gains))
+        self.recent = None  # the patch that was pressed last
+        self.recent_count = 0
+        self._make_room(8)
+
+    def _make_room(self, room):
+        """Room for so many points."""
+        self.room = room
+        self.points = np.zeros((room, 2))
+        self.places = np.zeros((room, 2))
+        self.recent_count = 0
+
+    def press(self, contacts, vectors, reach):
+        """What the taxels carry of a foot's contacts, pair of geoms by pair.
+
+        Args:
+            contacts: The foot's contacts.
+            vectors: Position, force and torque of each in turn in the sole frame (at least 3 k, 3).
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+
+        Returns:
+            Forces (n,) in N.
+        """
+        out = np.zeros(self.gains.shape[0])
+        if contacts.size > self.room:
+            self._make_room(2 * contacts.size)
+        for k in range(contacts.size):
+            if not _counts(contacts, vectors, reach, k):
+                continue
+            known = False
+            for j in range(k):
+                if _is_pair(contacts, j, k) and _counts(contacts, vectors, reach, j):
+                    known = True
+            if known:
+                continue
+            force = about_x = about_y = 0.0
+            count = 0
+            for j in range(k, contacts.size):
+                if not (_is_pair(contacts, j, k) and _counts(contacts, vectors, reach, j)):
+                    continue
+                row = 3 * j
+                x, y, z = vectors[row, 0], vectors[row, 1], vectors[row, 2]
+                fx, fy, fz = vectors[row + 1, 0], vectors[row + 1, 1], vectors[row + 1, 2]
+                force += fz
+                about_x += vectors[row + 2, 0] + y * fz - z * fy
+                about_y += vectors[row + 2, 1] + z * fx - x * fz
+                self.points[count, 0], self.points[count, 1] = x, y
+                count += 1
+            if force > 0.0:
+                self._spread(count, force, -about_y / force, about_x / force, out)
+        return out
+
+    def spread(self, points, force, x, y):
+        """What the taxels carry of one load.
+
+        Args:
+            points: Contact points (x, y) in m as tuples; the patch is their convex hull.
+            force: Load in N, above 0.
+            x: Where it acts in m.
+            y: The same.
+
+        Returns:
+            Forces (n,) in N.
+        """
+        out = np.zeros(self.gains.shape[0])
+        if len(points) > self.room:
+            self._make_room(2 * len(points))
+        count = 0
+        for px, py in points:
+            self.points[count, 0], self.points[count, 1] = px, py
+            count += 1
+        self._spread(count, force, x, y, out)
+        return out
+
+    def _spread(self, count, force, x, y, out):
+        """Add what the taxels carry of a load on the first points."""
+        patch = self._patch(count)
+        for i in range(self.part.shape[0]):
+            self.part[i] = 0.0
+        if not patch.spread(force, x, y, self.part):
+            self.settle(patch, force, np.asarray(self.part))
+        for i in range(self.part.shape[0]):
+            out[i] = out[i] + self.part[i] * self.gains[i]
+
+    def _patch(self, count):
+        """The patch of the first points: mostly the one that was pressed last."""
+        same = count == self.recent_count
+        for i in range(count if same else 0):
+            x = self.points[i, 0] / self.grid - self.places[i, 0]
+            y = self.points[i, 1] / self.grid - self.places[i, 1]
+            if not (-0.5 < x < 0.5 and -0.5 < y < 0.5):
+                same = False
+        if same:
+            return self.recent
+        key = pressed_patch.patch_key(np.asarray(self.points)[:count].tolist(), self.grid)
+        patch = self.made.get(key)
+        if patch is None:
+            if len(self.made) >= self.most:
+                self.made.pop(next(iter(self.made)))
+            patch = self.made[key] = self.make(np.array(key) * self.grid)
+        self.recent = patch
+        self.recent_count = count
+        for i in range(count):
+            self.places[i, 0] = round(self.points[i, 0] / self.grid)
+            self.places[i, 1] = round(self.points[i, 1] / self.grid)
+        return patch
+
+
+def _counts(contacts, vectors, reach, k):
+    """Whether a contact carries something or is near."""
+    return not (contacts.gaps[k] > reach and vectors[3 * k + 1, 2] == 0.0)
+
+
+def _is_pair(contacts, j, k):
+    """Whether two contacts are between the same geoms."""
+    return contacts.ids[j, 0] == contacts.ids[k, 0] and contacts.ids[j, 1] == contacts.ids[k, 1]
