@@ -19,6 +19,7 @@ from plantar.errors import InputError, RobotError
 from plantar.kernels.ground_rays import cast_rays
 from plantar.layouts.layout import SoleLayout
 from sim.plant.colours import GroundColours
+from sim.sensing.white_noise import white_noise
 from sim.terrain import GROUND_GROUP
 
 __all__ = ["ProximitySensor", "SoleProximity"]
@@ -140,7 +141,7 @@ class ProximitySensor:
         self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
         self.cast = 0
         self.skipped = 0
-        self._rng = rng
+        self._noise = white_noise(rng, bias, noise_std, len(proximity.layout))
 
     def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
         """One sample.
@@ -154,7 +155,7 @@ class ProximitySensor:
             Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
         """
         count = len(self.proximity.layout)
-        noise = self._rng.normal(self.bias, self.noise_std, count)
+        noise = next(self._noise)
         if not (wanted or everything):
             self.skipped += count
             return None

@@ -25,6 +25,7 @@ from sim.robots.robot import Robot
 from sim.sensing.proximity import ProximitySensor, SoleProximity
 from sim.sensing.settings import Sensing
 from sim.sensing.skin import SkinElectronics, SkinSensor, SoleSkin
+from sim.sensing.white_noise import white_noise
 
 __all__ = ["SensorSuite", "ankle_sensors"]
 
@@ -61,7 +62,13 @@ class SensorSuite:
         self._sensing = sensing
         streams = np.random.SeedSequence([seed, 0x5E]).spawn(7)
         self._imu_to_base = _imu_to_base(world)
-        self._body_noise = np.random.default_rng(streams[2])
+        k = len(world.joint_qpos)
+        noise = np.repeat([sensing.encoder_noise, sensing.gyro_noise, sensing.accelerometer_noise], [k, 3, 3])
+        self._body_noise = white_noise(np.random.default_rng(streams[2]), 0.0, noise, k + 6)
+        sensed = world.data.sensordata  # views of MuJoCo's own arrays: to ask for them costs more than to read them
+        self._gyro = sensed[world.gyro : world.gyro + 3]
+        self._accelerometer = sensed[world.accelerometer : world.accelerometer + 3]
+        self._positions = world.data.qpos
         self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
         chance = np.random.default_rng(streams[5])
         dead = {side: _dead_taxels(len(world.robot.layouts[side]), sensing.dead_taxels, chance) for side in SIDES}
@@ -115,20 +122,17 @@ class SensorSuite:
 
     def _read_now(self) -> Sensors:
         """What encoders and IMU read at this instant, with the soles' latest readings."""
-        w, s, rng = self._world, self._sensing, self._body_noise
-        k = len(w.joint_qpos)
-        noise = rng.standard_normal(k + 6)
-        data = w.data
-        gyro = data.sensordata[w.gyro : w.gyro + 3] + s.gyro_noise * noise[k : k + 3]
-        specific = data.sensordata[w.accelerometer : w.accelerometer + 3] + s.accelerometer_noise * noise[k + 3 :]
-        joints = data.qpos[w.joint_qpos] + s.encoder_noise * noise[:k]
+        world, noise = self._world, next(self._body_noise)
+        gyro = self._gyro + noise[-6:-3]
+        specific = self._accelerometer + noise[-3:]
+        joints = self._positions[world.joint_qpos] + noise[:-6]
         if self._plant is not None:
             gyro = gyro + self._plant.gyro_bias
             joints = joints + self._plant.encoder_offsets
         if self._imu_to_base is not None:
             gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
         return Sensors(
-            time=float(data.time),
+            time=float(world.data.time),
             joint_positions=joints,
             gyro=gyro,
             accelerometer=specific,

@@ -12,14 +12,16 @@ __all__ = ["white_noise"]
 _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs twice as much alone
 
 
-def white_noise(rng: np.random.Generator, mean: float, std: float, count: int) -> Iterator[NDArray[np.float64]]:
+def white_noise(
+    rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int
+) -> Iterator[NDArray[np.float64]]:
     """Samples of noise without end: the same numbers as `rng.normal(mean, std, count)` gives again and again, as long
     as nobody else draws from the source.
 
     Args:
         rng: The source.
         mean: Mean of each number.
-        std: Standard deviation of each.
+        std: Standard deviation of each, or of all.
         count: Numbers of a sample.
 
     Yields:
