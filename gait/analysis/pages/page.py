@@ -38,7 +38,7 @@ class Section(NamedTuple):
     content: str
 
 
-def page(title: str, about: str, sections: Sequence[Section], script: str = "") -> str:
+def page(title: str, about: str, sections: Sequence[Section], script: str = "", style: str = "") -> str:
     """A whole page that refers to no other file and no network.
 
     Args:
@@ -46,6 +46,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "") 
         about: HTML of what stands under the title: a line, or a list of facts.
         sections: Its parts, which the menu lists.
         script: HTML put at the end.
+        style: What its style sheet has beside that of all pages.
 
     Returns:
         HTML.
@@ -59,7 +60,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "") 
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<link rel="icon" href="data:,"><title>{html.escape(title)}</title>'
-        f"<style>{asset('report.css')}</style></head>\n"
+        f"<style>{asset('report.css')}{style}</style></head>\n"
         '<body><a class="skip" href="#content">Skip to content</a>\n'
         f"<header><h1>{html.escape(title)}</h1>{about}"
         f'<nav aria-label="Sections"><ul>{menu}</ul></nav></header>\n'
