@@ -522,7 +522,7 @@ def bench(
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
     scene: Annotated[list[str] | None, Option(help="scenes: a walk to run (again for more). Default: all.")] = None,
     robot: Annotated[list[str] | None, Option(help="scenes: a robot to run them with, likewise.")] = None,
-    quick: Annotated[bool, Option("--quick", help="scenes: what tells most, once.")] = False,
+    quick: Annotated[bool, Option("--quick", help="scenes, all: what tells most, once.")] = False,
     output: Output = Path("out/bench"),
     as_json: Json = False,
 ) -> None:
@@ -537,7 +537,7 @@ def bench(
 
     scenes: short walks over the settings that trade run time against error (physics step, contact, solver, skin and
     control rate, taxel size), beside a fine reference of the same walk: half an hour; --quick 3 minutes. scene_runs.csv
-    goes on where it was left. Part of all as --scene flat --quick.
+    goes on where it was left.
 
     skip: short walks with what a scene needs and with everything, to the same last bit: what was skipped, the time it
     saves, the time by room, and everything but the physics over the physics alone; 5 minutes. Exit code 1 if a motion
@@ -547,14 +547,21 @@ def bench(
     sensors, saturation, edges, masses and gains anywhere in their ranges, 1 km from the origin, float32): exit code 1
     if one raises or commands nonsense. A second or two each; stress.csv goes on where it was left. Not part of all.
 
+    all: kernels, contact, skip, quick scenes on flat ground and the papers' experiments, and bench.html, one page that
+    shows them; about 12 minutes of one core, --quick 4.
+
+    Example: plantar bench all -o out/bench
+
     Example: plantar bench kernels -o out/bench
 
     Example: plantar bench kernels --stress --readings 20000 --json
     """
     if what not in ("kernels", "contact", "scenes", "skip", "stress", "all"):
         raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, scenes, skip, stress, all")
-    if (scene or robot or quick) and what != "scenes":
-        raise InputError(f"--scene, --robot and --quick are for scenes, not '{what}': plantar bench scenes --quick")
+    if (scene or robot) and what != "scenes":
+        raise InputError(f"--scene and --robot are for scenes, not '{what}': plantar bench scenes --scene flat")
+    if quick and what not in ("scenes", "all"):
+        raise InputError(f"--quick is for scenes and all, not '{what}': plantar bench all --quick")
     if stress:
         if what != "kernels":
             raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
@@ -586,28 +593,34 @@ def bench(
     result: dict[str, Any] = {}
     texts = []
     with output_folder(output) as folder, progress_bar() as tell:
-        share = 1 / 3 if what == "all" else 1.0
-        if what in ("kernels", "all"):
+        parts = ("kernels", "contact", "skip", "scenes", "papers") if what == "all" else (what,)
+        told_of = {part: part_of(tell, i / len(parts), 1 / len(parts)) for i, part in enumerate(parts)}
+        if "kernels" in parts:
             from plantar.bench.kernel_text import kernel_text
             from plantar.bench.report import measure_kernels
 
             need_libraries("sim", "scipy", "cv2")
-            result["kernels"] = measure_kernels(folder, part_of(tell, 0.0, share))
+            result["kernels"] = measure_kernels(folder, told_of["kernels"], rounds=3 if quick else 9)
             texts.append(kernel_text(result["kernels"]))
-        if what in ("contact", "all"):
+        if "contact" in parts:
             need_libraries("sim", *_SIM)
             from sim.contact_models import measure_contact
             from sim.contact_models.contact_text import contact_text
 
-            result["contact"] = measure_contact(folder, layout, part_of(tell, 0.5 - 0.5 * share, share))
+            result["contact"] = measure_contact(folder, layout, told_of["contact"])
             texts.append(contact_text(result["contact"]))
-        if what in ("skip", "all"):
+        if "skip" in parts:
             need_libraries("sim", *_SIM)
             from sim.bench.skip_page import skip_text
-            from sim.bench.skipping import measure_skipping
+            from sim.bench.skipping import SCENES, measure_skipping
 
-            result["skip"] = measure_skipping(folder, part_of(tell, 1.0 - share, share))
+            few = SCENES[:1] if quick else SCENES
+            result["skip"] = measure_skipping(folder, told_of["skip"], few, 1 if quick else 3)
             texts.append(skip_text(result["skip"]))
+        if "papers" in parts:
+            from sim.bench.page.measure_page import measure_page
+
+            result |= measure_page(folder, output, (told_of["scenes"], told_of["papers"]), result, quick)
         result["files"] = [str(output / name) for part in list(result.values()) for name in part.pop("files")]
         result["files"].append(str(output / "bench.json"))
         write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")

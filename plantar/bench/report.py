@@ -88,17 +88,18 @@ def compare_kernels(
     return results
 
 
-def measure_kernels(folder: Path, progress: Callable[[float, str], None]) -> dict[str, Any]:
+def measure_kernels(folder: Path, progress: Callable[[float, str], None], rounds: int = 9) -> dict[str, Any]:
     """Run the whole comparison and write its report.
 
     Args:
         folder: Where to write; must exist.
         progress: Called with the fraction done and a text.
+        rounds: Rounds to take the medians over.
 
     Returns:
         Results and targets as plain JSON values, and the names of the files.
     """
-    results = compare_kernels(progress=progress)
+    results = compare_kernels(rounds, progress)
     return {
         "results": [r.as_dict() for r in results],
         "targets": [t.as_dict() for t in targets(results)],
