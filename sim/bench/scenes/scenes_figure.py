@@ -60,6 +60,7 @@ def draw_scenes(path: Path, rows: Sequence[SceneRow]) -> None:
             axis.xaxis.set_minor_formatter("")
             axis.set_xticks([0.5, 1, 2, 4, 8])
             axis.yaxis.set_major_formatter("{x:g}")
+            axis.yaxis.set_minor_formatter("{x:g}" if _narrow(axis) else "")
             axis.grid(True, which="major", color="#e5e5e5", linewidth=0.6)
     handles, names = _legend(axes[0, 0], paint, rows)
     figure.legend(handles, names, loc="outside lower center", ncols=min(5, len(names)), fontsize=9)
@@ -93,6 +94,12 @@ def _draw(axis: Any, rows: Sequence[SceneRow], name: str, factor: float, paint: 
     )
     if front:
         axis.step(*zip(*front, strict=True), where="post", color=COLOURS["truth"], linewidth=0.8, zorder=1)
+
+
+def _narrow(axis: Any) -> bool:
+    """Whether an axis has fewer than two decades, so that its ticks between them are named."""
+    low, high = axis.get_ylim()
+    return bool(high < 30.0 * low)
 
 
 def _legend(axis: Any, paint: dict[str, str], rows: Sequence[SceneRow]) -> tuple[list[Any], list[str]]:
