@@ -197,7 +197,7 @@ def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]
     return row(name, cells).replace("</tr>", f'<td class="bars">{drawn}</td></tr>')
 
 
-_UNITS = {"steps": "", "largest difference": " mm"}
+_UNITS = {"steps": "", "largest difference": "\u00a0mm"}
 
 
 def _papers(told: Mapping[str, Any]) -> str:
@@ -207,15 +207,20 @@ def _papers(told: Mapping[str, Any]) -> str:
     lines = []
     for one in rows:
         for name, printed in one["printed"].items():
-            ours, unit = one["ours"][name], _UNITS.get(name, " N")
+            ours, unit = one["ours"][name], _UNITS.get(name, "\u00a0N")
             most = max(printed, ours or 0.0) or 1.0
             lost = "fell" if one["fell"] else "" if one["completed"] else "not completed"
             ends = ["fell" if one["printed_fell"] else "", lost]
             figures = [
-                f"{'–' if value is None else f'{value:g}{unit}'}{f', {end}' if end else ''}"
+                f"{'–' if value is None else number(value) + unit}{f', {end}' if end else ''}"
                 for value, end in zip((printed, ours), ends, strict=True)
             ]
-            cells = [html.escape(one["robot"]), html.escape(name), *figures, html.escape(one["source"])]
+            cells = [
+                html.escape(one["robot"]),
+                html.escape(name),
+                *figures,
+                html.escape(one["source"].replace(" ", "\u00a0")),
+            ]
             bars = [(printed / most, "other"), ((ours or 0.0) / most, "ours")]
             lines.append(_bars_row(html.escape(one["what"]), cells, bars))
     head = ("experiment", "robot", "figure", "paper", "here", "where", "paper, here")

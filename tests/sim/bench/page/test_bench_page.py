@@ -116,7 +116,7 @@ def test_what_is_not_good_is_told() -> None:
         "<b>no</b>",
     ):
         assert words in text
-    assert "1100 N, fell" in text
+    assert "1100\u00a0N, fell" in text
     assert "–, fell" in text
     assert "1 of 2" in text
     assert "<b>guess" not in text
