@@ -1,0 +1,149 @@
+"""Where the outcome of runs turns over along a setting: how sure their outcomes make of it.
+
+The share of runs that are completed is taken for a logistic curve of the setting, between a lapse and one less the
+lapse: some runs fail, or are completed, for reasons that have nothing to do with the setting. The limit is where half
+of the runs are completed. What is known of limit, width and lapse is a probability over a grid of them. Before the
+first run it is flat in the limit, in the logarithm of the width and over three lapses. The limit is in its interval
+with a probability of 95 %, whatever width and lapse are. (Kontsevich and Tyler, Bayesian adaptive estimation of
+psychometric slope and threshold, Vision Research 39, 1999.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["LimitCurve", "limit_curve"]
+
+_LAPSES = (0.0, 0.02, 0.1)
+_WIDTHS = 12
+_NARROWEST, _WIDEST = 1e-3, 0.5  # widths of the logistic curve, in shares of the range
+_BEYOND = 0.5  # how far limits are looked for outside of the range, in shares of it: whether it is in it is to be found
+_LIMITS = 161
+_NEGLIGIBLE = 1e-6  # probability that is left out when the grid is drawn around the rest
+_LEAST = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class LimitCurve:
+    """What outcomes say of a limit.
+
+    Attributes:
+        rising: Whether more runs are completed at larger values.
+        limits: Limits (n,) that are possible, in the unit of the setting, ascending.
+        probability: Probability (n,) of each; they add up to 1.
+        widths: Widths (k,) of the curve that are possible, in that unit.
+        joint: Probability (k, n, lapses) of width, limit and lapse together.
+
+    Example:
+        >>> curve = limit_curve([1.0, 2.0, 3.0, 4.0] * 5, [True, True, False, False] * 5, 0.0, 5.0)
+        >>> curve.rising, bool(2.0 < curve.limit < 3.0)
+        (False, True)
+    """
+
+    rising: bool
+    limits: NDArray[np.float64]
+    probability: NDArray[np.float64]
+    widths: NDArray[np.float64]
+    joint: NDArray[np.float64]
+
+    @property
+    def limit(self) -> float:
+        """The value that is as likely above the limit as below it."""
+        return self.quantile(0.5)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Between which values the limit is with a probability of 95 %."""
+        return self.quantile(0.025), self.quantile(0.975)
+
+    def quantile(self, probability: float) -> float:
+        """The value below which the limit is with a probability, 0 to 1."""
+        step = self.limits[1] - self.limits[0]
+        ends = np.concatenate([[self.limits[0] - step / 2.0], self.limits + step / 2.0])
+        return float(np.interp(probability, np.concatenate([[0.0], np.cumsum(self.probability)]), ends))
+
+    def inside(self, low: float, high: float) -> float:
+        """Probability that the limit is between two values.
+
+        Args:
+            low: The smaller value.
+            high: The larger one.
+
+        Returns:
+            The probability, 0 to 1.
+        """
+        return float(self.probability[(low <= self.limits) & (self.limits <= high)].sum())
+
+    def share(self, value: float) -> float:
+        """Expected share of runs that are completed at a value, 0 to 1."""
+        rising = float((self.joint * _shares(value, self.limits, self.widths)).sum())
+        return rising if self.rising else 1.0 - rising
+
+
+def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:
+    """Find what the outcomes of runs say of a limit.
+
+    Args:
+        values: The setting's value in each run.
+        completed: Whether it was completed.
+        low: Smallest value that is tried, in the setting's unit.
+        high: Largest one.
+
+    Returns:
+        What they say. Where they do not tell whether more runs are completed at larger values or at smaller ones, the
+        likelier of the two.
+
+    Raises:
+        ValueError: If `low` is not below `high`.
+    """
+    if not low < high:
+        raise ValueError(f"range {low} to {high} is empty")
+    span = high - low
+    tried, which = np.unique(np.asarray(values, dtype=float), return_inverse=True)
+    good, bad = np.zeros(len(tried)), np.zeros(len(tried))
+    np.add.at(good, which, np.asarray(completed, dtype=float))
+    np.add.at(bad, which, 1.0 - np.asarray(completed, dtype=float))
+    widths = np.geomspace(_NARROWEST, _WIDEST, _WIDTHS) * span
+    limits = np.linspace(low - _BEYOND * span, high + _BEYOND * span, _LIMITS)
+    up, down = _log_likelihoods(tried, good, bad, limits, widths)
+    rising = bool(np.logaddexp.reduce(up, axis=None) >= np.logaddexp.reduce(down, axis=None))
+    mass = np.cumsum(_normalised(up if rising else down).sum((0, 2)))
+    # Once more where the limit is, with steps as fine as what is to be told.
+    first = int(np.searchsorted(mass, _NEGLIGIBLE)) - 1
+    last = int(np.searchsorted(mass, 1.0 - _NEGLIGIBLE)) + 1
+    fine = np.linspace(limits[max(first, 0)], limits[min(last, _LIMITS - 1)], _LIMITS)
+    found = _normalised(_log_likelihoods(tried, good, bad, fine, widths)[0 if rising else 1])
+    return LimitCurve(rising, fine, found.sum((0, 2)), widths, found)
+
+
+def _log_likelihoods(
+    tried: NDArray[np.float64],
+    good: NDArray[np.float64],
+    bad: NDArray[np.float64],
+    limits: NDArray[np.float64],
+    widths: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Logarithm (widths, limits, lapses) of how likely the runs are, of a rising curve and of a falling one."""
+    up = np.zeros((len(widths), len(limits), len(_LAPSES)))
+    down = np.zeros_like(up)
+    for value, completed, failed in zip(tried, good, bad, strict=True):
+        share = _shares(float(value), limits, widths)
+        yes, no = np.log(np.maximum(share, _LEAST)), np.log(np.maximum(1.0 - share, _LEAST))
+        up += completed * yes + failed * no
+        down += completed * no + failed * yes
+    return up, down
+
+
+def _normalised(log_likelihood: NDArray[np.float64]) -> NDArray[np.float64]:
+    likelihood = np.exp(log_likelihood - log_likelihood.max())
+    return np.asarray(likelihood / likelihood.sum())
+
+
+def _shares(value: float, limits: NDArray[np.float64], widths: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Share (widths, limits, lapses) of runs that a rising curve completes at a value."""
+    turn = np.tanh((value - limits) / (2.0 * widths[:, None]))  # the logistic curve, between -1 and 1
+    return np.asarray((1.0 + turn[..., None] * (1.0 - 2.0 * np.array(_LAPSES))) / 2.0)

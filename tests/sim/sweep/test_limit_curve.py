@@ -1,0 +1,78 @@
+"""Limits of curves that are known, from runs drawn of them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from sim.sweep.limit_curve import limit_curve
+
+
+def test_the_limit_of_a_step_is_between_the_last_run_that_held_and_the_first_that_did_not() -> None:
+    values = np.linspace(0.0, 10.0, 21)
+    curve = limit_curve(values, values < 6.2, 0.0, 10.0)
+    low, high = curve.interval
+    assert not curve.rising
+    assert low < 6.25 < high
+    assert high - low < 1.5
+    assert curve.share(2.0) > 0.9 > 0.1 > curve.share(9.0)
+
+
+def test_a_curve_read_from_the_other_side_has_the_mirrored_limit() -> None:
+    generator = np.random.default_rng(3)
+    values = generator.uniform(2.0, 8.0, 60)
+    completed = generator.random(60) < 1.0 / (1.0 + np.exp(-(values - 4.0) / 0.7))
+    here = limit_curve(values, completed, 2.0, 8.0)
+    there = limit_curve(10.0 - values, completed, 2.0, 8.0)
+    assert (here.rising, there.rising) == (True, False)
+    np.testing.assert_allclose(there.interval, [10.0 - end for end in reversed(here.interval)], atol=1e-9)
+    np.testing.assert_allclose(there.share(7.0), here.share(3.0), atol=1e-9)
+
+
+def test_units_and_the_order_of_runs_do_not_matter() -> None:
+    generator = np.random.default_rng(4)
+    values = generator.uniform(0.0, 1.0, 40)
+    completed = values + 0.1 * generator.standard_normal(40) > 0.4
+    meters = limit_curve(values, completed, 0.0, 1.0)
+    order = generator.permutation(40)
+    millimeters = limit_curve(1e3 * values[order], completed[order], 0.0, 1e3)
+    assert millimeters.limit == pytest.approx(1e3 * meters.limit, rel=1e-9)
+
+
+def test_no_run_says_nothing_and_equal_ends_put_the_limit_outside() -> None:
+    nothing = limit_curve([], [], 0.0, 1.0)
+    assert nothing.limit == pytest.approx(0.5)
+    assert nothing.interval[0] < 0.0
+    assert nothing.interval[1] > 1.0
+    always = limit_curve([0.0, 1.0] * 6, [True] * 12, 0.0, 1.0)
+    assert always.inside(0.0, 1.0) < 0.05
+
+
+def test_one_run_that_lapses_does_not_move_a_limit_that_many_tell() -> None:
+    values = np.linspace(0.0, 1.0, 41)
+    completed = values > 0.5
+    completed[-2] = False
+    low, high = limit_curve(values, completed, 0.0, 1.0).interval
+    assert low < 0.5 < high
+    assert high - low < 0.2
+
+
+@pytest.mark.parametrize(("width", "lapse"), [(1e-4, 0.0), (0.03, 0.05), (0.08, 0.0)])
+def test_intervals_of_95_percent_hold_the_limit_that_often(width: float, lapse: float) -> None:
+    """Of 30 draws 28.5 are expected; less than 25 come by chance once in 300."""
+    generator = np.random.default_rng(round(1e4 * width))
+    held = 0
+    for _ in range(30):
+        limit = generator.uniform(0.3, 0.7)
+        values = generator.uniform(0.0, 1.0, 50)
+        share = [0.5 * (1.0 + (1.0 - 2.0 * lapse) * math.tanh((v - limit) / (2.0 * width))) for v in values]
+        low, high = limit_curve(values, generator.random(50) < share, 0.0, 1.0).interval
+        held += low <= limit <= high
+    assert held >= 25
+
+
+def test_an_empty_range_is_refused() -> None:
+    with pytest.raises(ValueError, match="empty"):
+        limit_curve([], [], 1.0, 1.0)
