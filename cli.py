@@ -389,7 +389,17 @@ def sweep(
     grid: Annotated[
         list[str] | None, Option(metavar="KEY=A,B,C", help="Values to try of one setting; repeatable.")
     ] = None,
-    seeds: Annotated[int, Option(help="Seeds of each grid point.")] = 1,
+    limit: Annotated[
+        str | None,
+        Option(metavar="KEY=FROM:TO", help="Search the value of a setting at which half of the runs are completed."),
+    ] = None,
+    within: Annotated[float, Option(help="Share of the limit at which its 95 % interval is narrow enough.")] = 0.1,
+    random: Annotated[
+        list[str] | None, Option(metavar="KEY=FROM:TO", help="Draw a setting from a range, anew a seed; repeatable.")
+    ] = None,
+    seeds: Annotated[
+        int | None, Option(help="Seeds of each grid point; the most, with --limit.", show_default="1; 400 with --limit")
+    ] = None,
     first_seed: Annotated[int, Option(help="The first of them; for figures on seeds that nothing was tuned on.")] = 0,
     robot: Annotated[str | None, Option(help="Robot to use instead of the scene's.")] = None,
     settings: Annotated[
@@ -400,29 +410,36 @@ def sweep(
     output: Output = Path("out/sweep"),
     as_json: Json = False,
 ) -> None:
-    """Run a scene over a grid of settings and seeds, and count what was completed.
+    """Run a scene over a grid of settings and seeds, at random or towards a limit, and count what was completed.
 
-    Writes results.csv (a row a run, as it ends) and a figure. A sweep that was stopped, by Ctrl-C or because its
+    Writes results.csv (a row a run, as it ends) and figures. A sweep that was stopped, by Ctrl-C or because its
     workers went away (exit code 1), goes on where it was when the same command is given again; seeds and values of the
-    grid may be added.
+    grid may be added. A limit that is not in its range, or not known well enough, is exit code 1.
 
     Example: plantar sweep push --grid impulse=20,30 --grid feedback=true,false --seeds 20 -o out/push
 
     Example: plantar sweep stones --seeds 10 --first-seed 1000 -o out/stones
+
+    Example: plantar sweep beam --limit width=0.02:0.2 -o out/width
+
+    Example: plantar sweep push --random impulse=10:50 --random friction=0.3:1 --seeds 100 -o out/map
     """
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
     need_libraries("sim", *_SIM)
-    from sim.sweep import Sweep, SweepStopped, run_sweep
+    from sim.sweep import SweepStopped, plan_from_texts, run_sweep
     from sim.sweep.sweep_text import sweep_errors, sweep_text
 
-    wanted = Sweep.from_texts(scene, grid or [], seeds, robot, settings or [], first_seed)
+    wanted = plan_from_texts(
+        scene, grid or [], seeds, robot, settings or [], first_seed, limit=limit, within=within, random=random or []
+    )
     try:
         with progress_bar() as tell, ignore_further_interrupts():
             count = workers or os.cpu_count() or 1
             result = run_sweep(wanted, output, workers=count, scheduler=scheduler, progress=tell)
     except SweepStopped as stop:
         raise Terminated(stop.number, str(stop)) from None
-    end_command(result, as_json, sweep_text(result, scene), () if as_json else sweep_errors(result, scene))
+    failed = not all(told["reached"] for told in result.get("limits", ()))
+    end_command(result, as_json, sweep_text(result, scene), () if as_json else sweep_errors(result, scene), failed)
 
 
 @app.command()

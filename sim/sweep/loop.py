@@ -6,32 +6,33 @@ Every finished run is a row that is appended to results.csv at once, so a sweep 
 from __future__ import annotations
 
 import signal
-from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError, WorkerError
-from plantar.plotting import COLOURS, new_figure, save_figure
+from plantar.plotting import save_figure
 from sim.sweep.cluster import ClusterWorkers
+from sim.sweep.figures import figures_of
 from sim.sweep.inputs import inputs_of
-from sim.sweep.plan import Sweep
-from sim.sweep.results import Key, Results, open_results
+from sim.sweep.plan import Plan
+from sim.sweep.results import open_results
+from sim.sweep.runs import Key, key_of
 from sim.sweep.stopping import StopNote, SweepStopped, stop_noted
-from sim.sweep.task import Row, Task, columns_of, criteria_of
+from sim.sweep.task import Row, Task, columns_of
 from sim.sweep.workers import LocalWorkers, Workers
 
-__all__ = ["figures_of", "run_sweep"]
+__all__ = ["run_sweep"]
 
 Progress = Callable[[float, str], None]
 
-_WIDEST = 40.0  # inches of a figure
 _PAUSE = 0.2  # s: how soon a signal is seen where no row comes
+_END = "end"
 
 
 def run_sweep(
-    sweep: Sweep,
+    plan: Plan,
     folder: Path,
     *,
     workers: int = 1,
@@ -41,15 +42,14 @@ def run_sweep(
     """Run what is not in results.csv yet, append each run as it ends, and draw the figures.
 
     Args:
-        sweep: What to run.
+        plan: What to run: a `Sweep` over a grid, a `LimitSearch` or a `RandomSearch`.
         folder: Folder of results.csv; made if needed. A folder of another sweep is refused.
         workers: Processes on this machine.
         scheduler: Address of a Dask scheduler that runs them instead.
         progress: Called with the fraction done and a text.
 
     Returns:
-        "points": for each grid point its settings, runs, completed, how many runs failed each criterion ("reasons"),
-        and the errors of runs that could not be; "runs", "resumed", "files".
+        What the plan's `found` says of all rows, and "runs", "resumed", "files".
 
     Raises:
         InputError: If the folder cannot be written, holds the results of another sweep, or another process writes to
@@ -60,50 +60,61 @@ def run_sweep(
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")
-    axes = [name for name, _ in sweep.grid]
-    columns = columns_of(sweep.opened(sweep.points()[0]))
-    robots = {point: sweep.robot_of(point) for point in sweep.points()}
-    inputs = {robot: inputs_of(sweep.scene, robot) for robot in dict.fromkeys(robots.values())}
+    checked = plan.checked
+    axes, points = checked.axes, checked.points()
+    columns = columns_of(checked.opened(points[0]))
+    inputs = {robot: inputs_of(checked.scene, robot) for robot in dict.fromkeys(map(checked.robot_of, points))}
     with (
         stop_noted() as note,
         _workers(workers, scheduler) as pool,
-        open_results(folder, sweep.identity(), inputs, axes, columns) as results,
+        open_results(folder, plan.identity(), inputs, axes, columns) as results,
     ):
-        keys = {_key(point, seed): (point, seed) for point, seed in sweep.tasks()}
-        tasks = {
-            Task(
-                scene=_anywhere(sweep.scene),
-                robot=_anywhere(robots[point]),
-                settings=(*sweep.settings, *point),
-                seed=seed,
-                inputs=tuple(inputs[robots[point]].items()),
-            ): key
-            for key, (point, seed) in keys.items()
-            if key not in results.rows
-        }
-        resumed = done = len(keys) - len(tasks)
+        before = len(results.rows)
+        wanted: dict[Task, Key] = {}
+        count = 0
+
+        def tasks() -> Iterator[Task | None]:
+            """What is to be run of the plan; a run that has its row already is passed over."""
+            nonlocal count
+            for run in plan.runs(results.rows):
+                if run is None:
+                    yield None
+                    continue
+                count += 1
+                if key_of(*run) in results.rows:
+                    continue
+                point, seed = run
+                robot = checked.robot_of(point)
+                task = Task(
+                    scene=_anywhere(checked.scene),
+                    robot=_anywhere(robot),
+                    settings=(*checked.settings, *point),
+                    seed=seed,
+                    inputs=tuple(inputs[robot].items()),
+                )
+                wanted[task] = key_of(*run)
+                yield task
+
         try:
             with note.held():
-                for task, row in _rows_of(tasks, pool, note):
-                    values, seed = tasks[task]
+                for task, row in _rows_of(tasks(), pool, note):
+                    values, seed = wanted[task]
                     empty = dict.fromkeys(columns, "")
                     results.append({**empty, **dict(zip(axes, values, strict=True)), "seed": seed, **row})
-                    done += 1
                     if progress is not None:
-                        progress(done / len(keys), f"{done} of {len(keys)} runs")
-            points = [_point(sweep, point, results) for point in sweep.points()]
-            figure = save_figure(figures_of(points, sweep.scene), folder / "completed.png")
+                        progress(*plan.progress(results.rows))
+            found = plan.found(results.rows)
+            figures = [
+                str(save_figure(figure, folder / f"{name}.png"))
+                for name, figure in figures_of(plan, found, results.rows).items()
+            ]
         except (KeyboardInterrupt, InputError, WorkerError) as error:
-            kept = f"kept {done} of {len(keys)} rows in {results.path}; the same command goes on from there"
+            kept = f"kept {plan.progress(results.rows)[1]} in {results.path}; the same command goes on from there"
             if isinstance(error, KeyboardInterrupt):
                 raise SweepStopped(note.number or signal.SIGINT, kept) from None
             raise type(error)(f"{error}: {kept}") from None
-    return {
-        "points": points,
-        "runs": len(tasks),
-        "resumed": resumed,
-        "files": [str(results.path), str(figure)],
-    }
+        ran = len(results.rows) - before
+    return {**found, "runs": ran, "resumed": count - ran, "files": [str(results.path), *figures]}
 
 
 @contextmanager
@@ -115,14 +126,26 @@ def _workers(count: int, scheduler: str | None) -> Iterator[Workers]:
         pool.close()
 
 
-def _rows_of(tasks: Iterable[Task], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
-    """Run tasks, as many at a time as there is room for, until all have given their rows or a signal comes."""
-    waiting = deque(tasks)
-    running = 0
-    while (waiting or running) and not note.number:
-        while waiting and pool.room > 0:
-            pool.submit(waiting.popleft())
-            running += 1
+def _rows_of(tasks: Iterator[Task | None], pool: Workers, note: StopNote) -> Iterator[tuple[Task, Row]]:
+    """Run tasks, as many at a time as there is room for, until all have given their rows or a signal comes.
+
+    Args:
+        tasks: The tasks; None where the next one depends on rows that are still to come.
+        pool: The workers.
+        note: Whether a signal came.
+    """
+    running, more = 0, True
+    while not note.number:
+        while more and pool.room > 0:
+            task = next(tasks, _END)
+            if isinstance(task, Task):
+                pool.submit(task)
+                running += 1
+            else:
+                more = task is None
+                break
+        if not running:
+            return
         for task, row in pool.finished(_PAUSE):
             running -= 1
             yield task, row
@@ -131,49 +154,3 @@ def _rows_of(tasks: Iterable[Task], pool: Workers, note: StopNote) -> Iterator[t
 def _anywhere(name: str) -> str:
     """A scene's or robot's name or file as a worker in another folder finds it."""
     return str(Path(name).absolute()) if Path(name).suffix == ".toml" else name
-
-
-def _values(point: Sequence[str]) -> dict[str, str]:
-    """Values of a grid point by their settings."""
-    return {name: value for name, _, value in (setting.partition("=") for setting in point)}
-
-
-def _key(point: Sequence[str], seed: int) -> Key:
-    return tuple(_values(point).values()), seed
-
-
-def _point(sweep: Sweep, point: Sequence[str], results: Results) -> dict[str, Any]:
-    """What a grid point came to over its seeds."""
-    rows = [results.rows[_key(point, seed)] for seed in sweep.seed_range]
-    return {
-        "settings": _values(point),
-        "runs": len(rows),
-        "completed": sum(r["completed"] == "True" for r in rows),
-        "reasons": dict(Counter(criterion for r in rows for criterion in criteria_of(r)).most_common()),
-        "errors": [r["error"] for r in rows if r["error"]],
-    }
-
-
-def figures_of(points: Sequence[dict[str, Any]], scene: str) -> Any:
-    """Bars of completed runs for every grid point.
-
-    Args:
-        points: "points" of `run_sweep`'s result.
-        scene: Name for the title.
-
-    Returns:
-        The figure.
-    """
-    figure, axis = new_figure(min(max(5.0, 1.2 + 1.05 * len(points)), _WIDEST), 4.0)
-    names = ["\n".join(f"{k}={v}" for k, v in p["settings"].items()) or scene for p in points]
-    shares = [100.0 * p["completed"] / p["runs"] if p["runs"] else 0.0 for p in points]
-    bars = axis.bar(range(len(points)), shares, color=COLOURS["polygon"])
-    if 1.05 * len(points) < _WIDEST:
-        axis.bar_label(bars, [f"{p['completed']}/{p['runs']}" for p in points], fontsize=8)
-        axis.set_xticks(range(len(points)), names, fontsize=7)
-    else:  # no room for words
-        axis.set_xlabel("grid point, counted from 0 in the order of the settings")
-    axis.set_ylim(0.0, 110.0)
-    axis.set_ylabel("completed runs [%]")
-    axis.set_title(f"scene '{scene}'")
-    return figure

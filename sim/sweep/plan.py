@@ -3,20 +3,49 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
-from plantar.errors import InputError
+from plantar.errors import InputError, SceneError
 from sim.run.scene import Scene
 from sim.run.scene_kind import full_setting_name, open_scene, robot_file_of
 from sim.sweep.grid import canonical, is_word, split_values
+from sim.sweep.intervals import wilson_interval
+from sim.sweep.runs import Rows, Run, key_of, settings_of
+from sim.sweep.task import criteria_of
+from sim.sweep.value_range import ValueRange
 
 if TYPE_CHECKING:
     from sim.companion.scene import CompanionScene
 
-__all__ = ["Sweep"]
+__all__ = ["Plan", "Sweep", "point_told"]
+
+
+class Plan(Protocol):
+    """Which runs a table is to have: all points of a grid, points at random, or points that follow from outcomes."""
+
+    @property
+    def checked(self) -> Sweep:
+        """A sweep with the same axes, whose points were checked."""
+
+    def identity(self) -> dict[str, Any]:
+        """What all rows of one table must share, beside the content of files: JSON values by name."""
+
+    def runs(self, rows: Rows) -> Iterator[Run | None]:
+        """The runs in an order that depends on outcomes alone; None while outcomes have to be waited for.
+
+        Args:
+            rows: Rows of the runs that ended, which grow.
+        """
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What the rows come to."""
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the runs are, 0 to 1, and in words."""
 
 
 @dataclass(frozen=True)
@@ -107,11 +136,67 @@ class Sweep:
         axes = [[f"{name}={value}" for value in values] for name, values in self.grid]
         return list(itertools.product(*axes))
 
-    def tasks(self) -> Iterator[tuple[tuple[str, ...], int]]:
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Settings of the grid."""
+        return tuple(name for name, _ in self.grid)
+
+    @property
+    def checked(self) -> Sweep:
+        """This sweep itself: all its points were checked when it was made."""
+        return self
+
+    def runs(self, rows: Rows) -> Iterator[Run]:
         """Settings and seed of every run: all points for one seed before the next, so that a part shows the whole."""
         for seed in self.seed_range:
             for point in self.points():
                 yield point, seed
+
+    def found(self, rows: Rows) -> dict[str, Any]:
+        """What each grid point came to over its seeds.
+
+        Args:
+            rows: Rows of all runs.
+
+        Returns:
+            "points": for each what `point_told` says.
+        """
+        return {
+            "points": [
+                point_told(point, [rows[key_of(point, seed)] for seed in self.seed_range]) for point in self.points()
+            ]
+        }
+
+    def progress(self, rows: Rows) -> tuple[float, str]:
+        """How far the runs are, 0 to 1, and in words."""
+        wanted = [key_of(*run) for run in self.runs(rows)]
+        done = sum(key in rows for key in wanted)
+        return done / len(wanted), f"{done} of {len(wanted)} rows"
+
+    def with_axes(self, axes: Sequence[tuple[str, tuple[str, ...]]]) -> Sweep:
+        """This sweep with more settings in its grid, after those that it has."""
+        return replace(self, grid=(*self.grid, *axes))
+
+    def fitted(self, wanted: ValueRange) -> ValueRange:
+        """A range of whole numbers, if the setting takes no others and its ends are such.
+
+        Args:
+            wanted: The range of a setting.
+
+        Raises:
+            SceneError: If the setting does not take numbers, or not those.
+        """
+        between = wanted.text(wanted.low + (wanted.high - wanted.low) * 0.3819)
+        point = self.points()[0]
+        try:
+            self.opened((*point, f"{wanted.name}={between}"))
+        except SceneError:
+            whole = replace(wanted, whole=True)
+            if wanted.unit or not wanted.low.is_integer() or not wanted.high.is_integer():
+                raise
+            self.opened((*point, f"{whole.name}={whole.text(wanted.low)}"))
+            return whole
+        return wanted
 
     def opened(self, point: Sequence[str]) -> Scene | CompanionScene:
         """The scene of a grid point."""
@@ -135,7 +220,7 @@ class Sweep:
             "scene": Path(self.scene).name,
             "robot": None if self.robot is None else Path(self.robot).name,
             "settings": settings,
-            "axes": [name for name, _ in self.grid],
+            "axes": list(self.axes),
         }
 
     def _check_points(self) -> None:
@@ -160,3 +245,25 @@ class Sweep:
             if key in seen:
                 raise InputError(f"grid points '{seen[key]}' and '{text}' are the same run; leave one out")
             seen[key] = text
+
+
+def point_told(point: Sequence[str], ran: Sequence[Mapping[str, str]]) -> dict[str, Any]:
+    """What a point came to.
+
+    Args:
+        point: Its settings.
+        ran: The rows of its runs.
+
+    Returns:
+        Its settings, runs, completed, the 95 % Wilson interval of their share, how many runs failed each criterion
+        ("reasons"), and the errors of runs that could not be.
+    """
+    completed = sum(row["completed"] == "True" for row in ran)
+    return {
+        "settings": settings_of(point),
+        "runs": len(ran),
+        "completed": completed,
+        "interval": list(wilson_interval(completed, len(ran))),
+        "reasons": dict(Counter(criterion for row in ran for criterion in criteria_of(row)).most_common()),
+        "errors": [row["error"] for row in ran if row["error"]],
+    }

@@ -18,13 +18,11 @@ from plantar.files.structured_text import read_json
 from sim.sweep.grid import canonical, is_word
 from sim.sweep.inputs import changes
 from sim.sweep.lock import locked
+from sim.sweep.runs import Key
 
 __all__ = ["Results", "open_results"]
 
 _BREAKS = re.compile("[\\r\\n\\0]+")
-
-Key = tuple[tuple[str, ...], int]
-"""Values of the axes, and the seed."""
 
 
 class Results:

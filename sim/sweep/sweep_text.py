@@ -9,7 +9,7 @@ __all__ = ["sweep_errors", "sweep_text"]
 
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:
-    """How many runs of each grid point were completed, why the others were not, and the files.
+    """How many runs of each grid point were completed and why the others were not, or its limit; and the files.
 
     Args:
         result: What `run_sweep` gave.
@@ -18,8 +18,8 @@ def sweep_text(result: Mapping[str, Any], scene: str) -> str:
     Returns:
         Lines.
     """
-    lines = []
-    for point in result["points"]:
+    lines = [_limit_text(told, scene) for told in result.get("limits", ())]
+    for point in result.get("points", ()):
         why = ", ".join(f"{criterion.replace('_', ' ')} {count}" for criterion, count in point["reasons"].items())
         told = f"{point['completed']} of {point['runs']} completed{f'; failed by: {why}' if why else ''}"
         lines.append(f"{_name(point, scene)}: {told}")
@@ -38,9 +38,24 @@ def sweep_errors(result: Mapping[str, Any], scene: str) -> list[str]:
     """
     return [
         f"{_name(point, scene)}: {point['errors'].count(error)} run(s) could not be: {error}"
-        for point in result["points"]
+        for point in (*result.get("points", ()), *result.get("limits", ()))
         for error in dict.fromkeys(point["errors"])
     ]
+
+
+def _limit_text(told: Mapping[str, Any], scene: str) -> str:
+    low, high = told["range"]
+    unit = f" {told['unit']}" if told["unit"] else ""
+    counted = f"{told['completed']} of {told['runs']} runs completed"
+    if told["limit"] is None:
+        return f"{_name(told, scene)}: no limit of {told['setting']} from {low:g} to {high:g}{unit}; {counted}"
+    begin, end = told["interval"]
+    enough = "" if told["reached"] else "; more seeds are needed to know it as well as was asked for"
+    holds = "larger" if told["rising"] else "smaller"
+    return (
+        f"{_name(told, scene)}: half of the runs are completed at {told['setting']} {told['limit']:.3g}{unit}, "
+        f"95 % interval {begin:.3g} to {end:.3g}{unit}; {holds} values hold; {counted}{enough}"
+    )
 
 
 def _name(point: Mapping[str, Any], scene: str) -> str:

@@ -9,7 +9,8 @@ import pytest
 
 from plantar.errors import InputError
 from plantar.plotting import save_figure
-from sim.sweep import Sweep, figures_of, run_sweep
+from sim.sweep import Sweep, run_sweep
+from sim.sweep.figures import bars_of
 
 TIMINGS = ("real_time_factor", "control_p99_us")  # the only columns of a run that differ from one to the next
 STANDING = ("steps=0", "settle=0.0", "end=0.2", "start=0.2")
@@ -69,7 +70,7 @@ def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path: Path) -> None:
 
 def test_more_points_than_there_is_room_for_words_are_drawn(tmp_path: Path) -> None:
     points = [{"settings": {"impulse": str(i)}, "runs": 4, "completed": i % 5} for i in range(500)]
-    path = save_figure(figures_of(points, "push"), tmp_path / "completed.png")
+    path = save_figure(bars_of(points, "push"), tmp_path / "completed.png")
     assert int.from_bytes(path.read_bytes()[16:20], "big") < 6000
 
 
