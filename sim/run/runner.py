@@ -277,11 +277,9 @@ class Simulation:
         longest = _LONGEST * last
         tick_every = round(self.settings.period / world.period)
         frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
-        skin_every, step_physics, update_physics = sensors.skin_every, self.step_physics, judge.update_physics
-        drive, moving_ground = servos.drive, bool(world.moving_ground)
-        while k < last and k < longest:
+        while k < min(last, longest):
             feet = None
-            if k % skin_every == 0:
+            if k % sensors.skin_every == 0:
                 feet = sensors.read_skins(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)
@@ -329,13 +327,13 @@ class Simulation:
                     film.add(sensors.readings)
                 else:
                     skipped["rendered_frames"] += 1
-            drive()
+            servos.drive()
             if pushes:
                 self.pusher.apply(world)
-            if moving_ground:
+            if world.moving_ground:
                 world.move_ground()
-            step_physics()
-            update_physics()
+            self.step_physics()
+            judge.update_physics()
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())

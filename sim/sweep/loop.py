@@ -5,6 +5,7 @@ Every finished run is a row that is appended to results.csv at once, so a sweep 
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -33,7 +34,7 @@ _END = "end"
 
 def run_sweep(
     plan: Plan,
-    folder: Path,
+    folder: str | os.PathLike[str],
     *,
     workers: int = 1,
     scheduler: str | None = None,
@@ -60,6 +61,7 @@ def run_sweep(
     """
     if workers < 1:
         raise InputError(f"number of workers is {workers}; allowed: 1 or more")
+    folder = Path(folder)
     checked = plan.checked
     axes, points = checked.axes, checked.points()
     columns = columns_of(checked.opened(points[0]))
