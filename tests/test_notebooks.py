@@ -13,8 +13,9 @@ import pytest
 NOTEBOOKS = sorted((Path(__file__).resolve().parent.parent / "examples" / "notebooks").glob("*.ipynb"))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path", [pytest.param(p, id=p.stem, marks=[] if p.stem == "sole" else [pytest.mark.long]) for p in NOTEBOOKS]
+)
 def test_a_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {"__name__": "notebook"}
@@ -39,5 +40,7 @@ def test_a_notebook_is_a_whole_one_without_output(path: Path) -> None:
             assert cell["execution_count"] is None
 
 
-def test_there_is_one() -> None:
-    assert [path.stem for path in NOTEBOOKS] == ["study"]
+def test_the_page_of_examples_names_each() -> None:
+    page = (NOTEBOOKS[0].parents[1] / "README.md").read_text(encoding="utf-8")
+    assert [path.stem for path in NOTEBOOKS] == ["push", "sole", "study", "walk"]
+    assert all(f"(notebooks/{path.name})" in page for path in NOTEBOOKS)
