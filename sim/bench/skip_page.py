@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from sim.bench.markdown_table import markdown_table
 from sim.bench.room_times import ROOMS
 from sim.bench.skip_row import SkipRow
 
@@ -67,7 +68,7 @@ because somebody asked for it.
 
 
 def _times(rows: Sequence[SkipRow]) -> str:
-    return _table(
+    return markdown_table(
         ("scene", "robot", "settings", "real-time factor", "run [s]", "with everything [s]", "physics alone [s]",
          "rest / physics", "saved", "same motion"),
         [
@@ -84,7 +85,7 @@ def _times(rows: Sequence[SkipRow]) -> str:
 
 def _rooms(rows: Sequence[SkipRow]) -> str:
     lines = [(row.scene, row.robot, *(f"{100.0 * row.shares.get(room, 0.0):.0f}" for room in ROOMS)) for row in rows]
-    return _table(("scene", "robot", *ROOMS), lines)
+    return markdown_table(("scene", "robot", *ROOMS), lines)
 
 
 def _counts(rows: Sequence[SkipRow]) -> str:
@@ -92,9 +93,4 @@ def _counts(rows: Sequence[SkipRow]) -> str:
     for row in rows:
         cells = [f"{row.skipped[name]} of {row.skipped[name] + row.computed[name]}" for name in row.skipped]
         lines.append((row.scene, row.robot, *cells))
-    return _table(("scene", "robot", *rows[0].skipped), lines)
-
-
-def _table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
-    rows = [head, ["---"] * len(head), *lines]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in rows)
+    return markdown_table(("scene", "robot", *rows[0].skipped), lines)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
-from plantar.errors import InputError, PlantarError
+from plantar.errors import PlantarError
+from sim.bench.growing_table import GrowingTable
 from sim.bench.scenes.changed_run import ChangedRun, Trace, TracedRun
 from sim.bench.scenes.scene_setting import OWN, SceneSetting, setting_named
 from sim.bench.scenes.trace_error import trace_error
@@ -53,9 +52,13 @@ class SceneRuns:
     """
 
     def __init__(self, folder: Path) -> None:
-        self._path = folder / TABLE
+        self._table = GrowingTable(folder / TABLE, COLUMNS, "scene runs")
         self._traces: dict[tuple[SceneCase, str, int], tuple[dict[str, Any], Trace]] = {}
-        self.rows = _rows_of(self._path)
+
+    @property
+    def rows(self) -> list[dict[str, str]]:
+        """The rows that there are, as text by column."""
+        return self._table.rows
 
     def run(
         self,
@@ -79,7 +82,7 @@ class SceneRuns:
         for done, job in enumerate(wanted):
             progress(done / len(wanted), f"{job.case.scene}, {job.case.robot}: {job.setting.name}, seed {job.seed}")
             if job.key not in have:
-                self._add({**dict(zip(_KEYS, job.key, strict=True)), **self._measure(job)})
+                self._table.add({**dict(zip(_KEYS, job.key, strict=True)), **self._measure(job)})
         self._traces.clear()
 
     def _measure(self, job: _Job) -> dict[str, Any]:
@@ -113,16 +116,6 @@ class SceneRuns:
             told = _costs(run)
             self._traces[key] = told, run.trace()
         return self._traces[key]
-
-    def _add(self, row: dict[str, Any]) -> None:
-        whole = {name: str(row.get(name, "")) for name in COLUMNS}
-        new = not self._path.exists()
-        with self._path.open("a", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(whole)
-        self.rows.append(whole)
 
 
 _KEYS = ("scene", "robot", "walk", "setting", "against", "kind", "seed")
@@ -186,17 +179,3 @@ def _costs(run: ChangedRun) -> dict[str, Any]:
         "impact_N": round(median(impacts), 1) if impacts else "",
         "margin_mm": "" if margin is None else round(1e3 * margin, 2),
     }
-
-
-def _rows_of(path: Path) -> list[dict[str, str]]:
-    """The table's rows; what a run that was killed left of a row is cut off."""
-    if not path.exists():
-        return []
-    text = path.read_text(encoding="utf-8")
-    whole = text[: text.rfind("\n") + 1]
-    if whole != text:
-        path.write_text(whole, encoding="utf-8")
-    reader = csv.DictReader(io.StringIO(whole))
-    if tuple(reader.fieldnames or ()) != COLUMNS:
-        raise InputError(f"{path} is no table of scene runs: its first line has to be {','.join(COLUMNS)}")
-    return list(reader)

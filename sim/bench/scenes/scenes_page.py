@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from sim.bench.markdown_table import markdown_table
 from sim.bench.scenes.scene_row import NOISE, SceneRow
 from sim.bench.scenes.verdict import KnobVerdict
 
@@ -53,12 +54,18 @@ def scenes_page(rows: Sequence[SceneRow], verdicts: Sequence[KnobVerdict]) -> st
     Returns:
         Markdown.
     """
-    parts = [_HEAD, _VERDICTS, _table(("scene", "robot", "knob", "default", "reason"), map(_verdict_cells, verdicts))]
+    parts = [
+        _HEAD,
+        _VERDICTS,
+        markdown_table(("scene", "robot", "knob", "default", "reason"), map(_verdict_cells, verdicts)),
+    ]
     for case in dict.fromkeys((r.scene, r.robot, r.walk) for r in rows):
         mine = [r for r in rows if (r.scene, r.robot, r.walk) == case]
         scene, robot, walk = case
         parts.append(f"## {scene}, {robot}\n\nWith `{walk}`." if walk else f"## {scene}, {robot}")
-        parts.append(_table(_COLUMNS, [_cells(r) for r in mine if r.setting != r.against or r.knob == "reference"]))
+        parts.append(
+            markdown_table(_COLUMNS, [_cells(r) for r in mine if r.setting != r.against or r.knob == "reference"])
+        )
     return "\n".join(part.strip("\n") + "\n" for part in parts)
 
 
@@ -128,8 +135,3 @@ def _cells(row: SceneRow) -> tuple[str, ...]:
 
 def _number(value: float, digits: int) -> str:
     return "-" if math.isnan(value) else f"{value:.{digits}f}"
-
-
-def _table(head: Sequence[str], lines: Any) -> str:
-    rows = [head, ["---"] * len(head), *lines]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in rows)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError
+from sim.bench.growing_table import GrowingTable
 from sim.bench.stress.scenario import draw_scenario
 from sim.bench.stress.stress_run import FAILURES, run_scenario
 
@@ -39,10 +38,8 @@ def measure_stress(
     if count < 1:
         raise InputError(f"stress run of {count} scenarios; allowed: 1 or more")
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / _TABLE
-    if not path.exists():
-        path.write_text(_line(_COLUMNS))
-    rows = _rows_of(path)
+    table = GrowingTable(folder / _TABLE, _COLUMNS, "stress runs")
+    rows = {int(row["number"]): row for row in table.rows}
     wanted = range(first, first + count)
     for done, number in enumerate(wanted):
         if number in rows:
@@ -50,9 +47,8 @@ def measure_stress(
         scenario = draw_scenario(number)
         found = run_scenario(scenario)
         row = (number, scenario.scene, scenario.robot, found.kind, found.detail, round(found.time, 3))
-        with path.open("a") as table:
-            table.write(_line(row))
-        rows[number] = dict(zip(_COLUMNS, map(str, row), strict=True))
+        table.add(dict(zip(_COLUMNS, row, strict=True)))
+        rows[number] = table.rows[-1]
         if progress is not None:
             failures = sum(r["outcome"] in FAILURES for r in rows.values())
             progress((done + 1) / count, f"scenario {number}, {failures} failures")
@@ -80,21 +76,3 @@ def stress_loop_text(result: dict[str, Any]) -> str:
     lines += [f"{count:8} {outcome}" for outcome, count in result["outcomes"].items()]
     lines += [f"FAILED {r['number']}, {r['scene']}, {r['robot']}: {r['detail']}" for r in result["failures"]]
     return "\n".join(lines)
-
-
-def _line(cells: tuple[object, ...]) -> str:
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(cells)
-    return text.getvalue()
-
-
-def _rows_of(path: Path) -> dict[int, dict[str, str]]:
-    """The table's rows by their numbers; what a run that was killed left of a row is cut off."""
-    text = path.read_text()
-    whole = text[: text.rfind("\n") + 1]
-    if whole != text:
-        path.write_text(whole)
-    reader = csv.DictReader(io.StringIO(whole))
-    if tuple(reader.fieldnames or ()) != _COLUMNS:
-        raise InputError(f"{path} is no table of stress runs: its first line has to be {','.join(_COLUMNS)}")
-    return {int(row["number"]): row for row in reader}
