@@ -65,6 +65,15 @@ def test_verdicts_go_by_noise_and_time(coarse: float, cpu: float, own: float, st
     assert words in verdict.reason
 
 
+@pytest.mark.parametrize(("error", "words"), [(0.5, "no more than noise"), (1.5, "more than noise")])
+def test_what_the_machine_has_is_kept_and_what_finer_would_do_is_told(error: float, words: str) -> None:
+    fine, slow = "skin rate: 1000 Hz", "skin rate: 50 Hz"
+    more = [run(OWN, "traced", 2.0, error, against=fine), run(slow, "traced", 1.0, 0.1, against=fine)]
+    verdict = next(v for v in knob_verdicts(scene_rows([*runs(1.2), *more])) if v.knob == "skin rate")
+    assert verdict.stays
+    assert f": {words}" in verdict.reason
+
+
 def test_a_cheaper_setting_that_falls_or_parts_will_not_do() -> None:
     for change in ({"completed": "no: fall"}, {"together_s": "3.0"}):
         rows = [{**r, **change} if r["setting"] == COARSE and r["kind"] == "traced" else r for r in runs(0.7)]
