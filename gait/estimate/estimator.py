@@ -28,11 +28,11 @@ from gait.estimate.encoder_offsets import standing_base
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.push_estimate import PushEstimate
 from gait.estimate.steady_load import SteadyLoad
+from plantar.errors import InputError
+from plantar.kernels.floating_base import FloatingBase
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
-from plantar.mechanics.rotation import heading, orthonormalised, rotation_from_vector
-from plantar.mechanics.zmp import zmp_of_feet
 from plantar.settings.schema import Settings, share
 from plantar.sides import SIDES
 
@@ -135,16 +135,22 @@ class FloatingBaseEstimator:
     dcm_filter: DcmFilter | None = None
 
     def __post_init__(self) -> None:
-        self._rotation: NDArray[np.float64] | None = None
-        self._position = np.zeros(3)
-        self._com = np.zeros(3)
-        self._velocity = np.zeros(3)
+        gains = self.gains
+        self._rotation, self._position = np.eye(3), np.zeros(3)
+        self._com, self._velocity = np.zeros(3), np.zeros(3)
+        self._places, self._turns = np.zeros((2, 3)), np.zeros((2, 3, 3))
+        self._zmp = np.zeros(2)
+        # The arrays above are the state; the kernel writes them.
+        self._base = FloatingBase(
+            self.omega,
+            self.period,
+            GRAVITY,
+            (gains.averaging, gains.gravity, gains.yaw, gains.observer, gains.minimum_load),
+            *(self._rotation, self._position, self._com, self._velocity),
+            *(self._places, self._turns, self._zmp),
+        )
         self._last: Posture | None = None
-        self._samples = 0
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
-        self._last_rotation = np.eye(3)
-        self._heading: dict[Side, float | None] = {"left": None, "right": None}
-        self._astray = 0.0
         self.push_acceleration = np.zeros(2)
 
     def update(
@@ -177,44 +183,39 @@ class FloatingBaseEstimator:
             # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
+        left, right = soles["left"], soles["right"]
         # Ground never pulls; what the tare leaves below zero is noise.
-        loads: dict[str, float] = {s: max(0.0, soles[s].vertical_force - self._tare[s]) for s in SIDES}
-        cops = {s: soles[s].position_cop_in_sole for s in SIDES}
-        if self._rotation is None or self._last is None:
-            self._start(posture, accelerometer)
+        load_left = max(0.0, left.vertical_force - self._tare["left"])
+        load_right = max(0.0, right.vertical_force - self._tare["right"])
+        carried = (load_left, load_right, left.position_cop_in_sole, right.position_cop_in_sole)
+        before, base = self._last, self._base
+        self._take(posture)
+        if before is None:
+            # The robot stands still at the start, so the specific force is gravity alone.
+            self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
         else:
-            self._turn(posture, gyro, accelerometer, loads, planned_acceleration)
-            self._move(posture, loads, cops)
-        rotation = self._rotation
-        assert rotation is not None
-        self._last, self._last_rotation = posture, rotation
-        positions: dict[str, NDArray[np.float64]] = {
-            s: self._position + rotation.dot(posture.positions[s]) for s in SIDES
-        }
-        rotations: dict[str, NDArray[np.float64]] = {s: rotation.dot(posture.rotations[s]) for s in SIDES}
-        points: list[NDArray[np.float64] | None] = []
-        for s in SIDES:
-            cop = cops[s]
-            points.append(None if cop is None else (positions[s] + rotations[s][:, :2].dot(cop))[:2])
-        zmp = zmp_of_feet(points, [loads[s] for s in SIDES])
+            rate, missed = self._rate(gyro, before, posture, load_left, load_right)
+            by_legs = self.gyro_bias is not None
+            base.turn(rate, accelerometer, planned_acceleration, load_left, load_right, by_legs, missed)
+            base.move(*carried)
+        zmp = self._zmp.copy() if base.place(*carried) else None
+        if zmp is not None and not math.isfinite(zmp.item(0) + zmp.item(1)):
+            raise InputError("the ZMP or the vertical force of a foot is not finite")
         if self.push is not None:
-            self.push_acceleration = self._pushed(self.push, rotation.dot(accelerometer)[:2], zmp, felt)
-        self._observe(self._position + rotation.dot(posture.com), zmp)
+            self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt)
+        base.observe(*self.push_acceleration.tolist())
+        if self.dcm_filter is not None:
+            self._filter(self.dcm_filter, posture, zmp)
         return BaseState(
-            rotation,
+            self._rotation.copy(),
             self._position.copy(),
             self._com.copy(),
             self._velocity.copy(),
             zmp,
-            loads,
-            positions,
-            rotations,
+            {"left": load_left, "right": load_right},
+            {"left": self._places[0].copy(), "right": self._places[1].copy()},
+            {"left": self._turns[0].copy(), "right": self._turns[1].copy()},
         )
-
-    def _start(self, posture: Posture, accelerometer: NDArray[np.float64]) -> None:
-        """Level the base by gravity, head it along the feet, and stand on the known footholds."""
-        # The robot stands still at the start, so the specific force is gravity alone.
-        self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
 
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
         """Take the robot to stand on the known footholds again: it has not moved, but its kinematics are known better.
@@ -222,142 +223,57 @@ class FloatingBaseEstimator:
         Args:
             joint_positions: Encoder readings (k,) in rad.
         """
-        if self._rotation is None:
+        if self._last is None:
             return
-        self._last = self.kinematics.posture(joint_positions)
-        self._stand(self._last, self._rotation[2])
-        self._last_rotation = self._rotation
-        self._velocity = np.zeros(3)
-        self._astray = 0.0
+        posture = self.kinematics.posture(joint_positions)
+        self._take(posture)
+        self._stand(posture, self._rotation[2].copy())
+        self._base.rest()
+
+    def _take(self, posture: Posture) -> None:
+        self._last = posture
+        places, turns = posture.positions, posture.rotations
+        self._base.take(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
-        """Stand on the known footholds, with a unit vector (3,) against gravity in the base frame."""
-        self._rotation, self._position = standing_base(posture, up, self.feet)
-        self._com = self._position + self._rotation @ posture.com
+        """Level the base by a unit vector (3,) against gravity in the base frame, head it along the feet, and stand on
+        the known footholds."""
+        rotation, position = standing_base(posture, up, self.feet)
+        self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
         if self.dcm_filter is not None:
             self.dcm_filter.reset()
-        for side in SIDES:
-            self._heading[side] = self.feet[side][3]
 
-    def _turn(
-        self,
-        posture: Posture,
-        gyro: NDArray[np.float64],
-        accelerometer: NDArray[np.float64],
-        loads: Mapping[str, float],
-        planned_acceleration: NDArray[np.float64] | None,
-    ) -> None:
-        assert self._rotation is not None
-        assert self._last is not None
-        rotation = self._rotation
-        weights = {side: max(0.0, loads[side] - self.gains.minimum_load) for side in SIDES}
-        rate = gyro.copy()
-        if self.gyro_bias is not None:
-            still = weights if self.steady is None else self.steady.update(weights)
-            rate -= self.gyro_bias.update(gyro, self._last.rotations, posture.rotations, still)
-        # Gravity: the specific force minus the body's acceleration points up.
-        specific = rotation.dot(accelerometer)
-        if planned_acceleration is not None:
-            specific[:2] -= planned_acceleration
-        size = math.sqrt(float(specific.dot(specific)))
-        # An impact says nothing of what is up.
-        if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
-            x, y, _ = specific.tolist()
-            tilt = np.array([y / size, -x / size, 0.0])  # specific x up
-            # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
-            # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
-            self._samples += 1
-            since = self.period * (self._samples + 1)
-            gain = 1.0 / since if since < self.gains.averaging else self.gains.gravity
-            rate += gain * rotation.T.dot(tilt)
-        error = self._heading_error(posture, weights)
-        rate -= (self.gains.yaw * error) * rotation[2]
-        if self.gyro_bias is not None:
-            self._astray -= self.period * self.gains.yaw * error
-        # Rounding would make the product of thousands of rotations shrink or shear.
-        self._rotation = orthonormalised(rotation.dot(rotation_from_vector(rate * self.period)))
+    def _rate(
+        self, gyro: NDArray[np.float64], before: Posture, posture: Posture, load_left: float, load_right: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+        """Angular velocity (3,) in rad/s by the gyro less its bias, and the angle (3,) in rad that the gyro missed.
 
-    def _heading_error(self, posture: Posture, weights: Mapping[Side, float]) -> float:
-        """How far in rad the heading is ahead of that by the feet that carry.
-
-        Where the gyro's bias is identified, it is what the heading has turned more than the legs since the start while
-        feet stood still, so that nothing stays of what a bias turned it before it was known; in between it goes by the
-        gyro less its bias. Else a foot counts from when it comes to carry.
+        Where the gyro's bias is identified, the heading goes by what it has turned more than the legs since the start
+        while feet stood still, so that nothing stays of what a bias turned it before it was known; in between it goes
+        by the gyro less its bias. Else a foot counts from when it comes to carry.
         """
-        assert self._rotation is not None
-        if self.gyro_bias is not None:
-            if self.gyro_bias.missed is not None:
-                self._astray -= float(self._rotation[2].dot(self.gyro_bias.missed))
-            return self._astray
-        total = 0.0
-        error = 0.0
-        for side, weight in weights.items():
-            if weight <= 0.0:
-                self._heading[side] = None
-                continue
-            yaw = heading(self._rotation.dot(posture.rotations[side]))
-            held = self._heading[side]
-            if held is None:
-                # The heading that the foot has when it comes to carry is held against the gyro, which drifts about the
-                # vertical.
-                self._heading[side] = held = yaw
-            # Weights begin at zero, so that a foot joins and leaves without a jump.
-            error += weight * math.remainder(yaw - held, 2.0 * math.pi)
-            total += weight
-        return error / total if total > 0.0 else 0.0
-
-    def _move(
-        self,
-        posture: Posture,
-        loads: Mapping[str, float],
-        cops: Mapping[Side, NDArray[np.float64] | None],
-    ) -> None:
-        assert self._rotation is not None
-        assert self._last is not None
-        shift = np.zeros(3)
-        total = 0.0
-        for side in SIDES:
-            cop = cops[side]
-            weight = loads[side] - self.gains.minimum_load
-            if cop is None or weight <= 0.0:
-                continue
-            # The point of the sole that carries does not move while it rolls over the ground: its apparent move is the
-            # base's.
-            before = self._last.positions[side] + self._last.rotations[side][:, :2].dot(cop)
-            now = posture.positions[side] + posture.rotations[side][:, :2].dot(cop)
-            shift += weight * (self._last_rotation.dot(before) - self._rotation.dot(now))
-            total += weight
-        if total > 0.0:
-            self._position = self._position + shift / total
-        else:
-            # No foot carries: the body goes on as it went.
-            self._position = self._position + self.period * self._velocity
+        if self.gyro_bias is None:
+            return gyro, None
+        least = self.gains.minimum_load
+        weights: dict[Side, float] = {"left": max(0.0, load_left - least), "right": max(0.0, load_right - least)}
+        still = weights if self.steady is None else self.steady.update(weights)
+        bias = self.gyro_bias.update(gyro, before.rotations, posture.rotations, still)
+        return gyro - bias, self.gyro_bias.missed
 
     def _pushed(
         self,
         push: PushEstimate,
-        acceleration: NDArray[np.float64],
+        accelerometer: NDArray[np.float64],
         zmp: NDArray[np.float64] | None,
         felt: NDArray[np.float64] | None,
     ) -> NDArray[np.float64]:
         """The push at this tick: what skin on the body feels of it, else what the soles tell."""
-        estimated = push.update(acceleration, None if zmp is None else self.omega**2 * (self._com[:2] - zmp))
+        pendulum = None if zmp is None else self.omega**2 * (self._com[:2] - zmp)
+        estimated = push.update(self._rotation.dot(accelerometer)[:2], pendulum)
         return estimated if felt is None else felt
 
-    def _observe(self, com: NDArray[np.float64], zmp: NDArray[np.float64] | None) -> None:
-        acceleration = np.zeros(3)
-        if zmp is not None:
-            # Predicted by the pendulum over the measured ZMP; the kinematics corrects it.
-            acceleration[:2] = self.omega**2 * (self._com[:2] - zmp)
-        acceleration[:2] += self.push_acceleration
-        self._com = self._com + self.period * self._velocity
-        self._velocity = self._velocity + self.period * acceleration
-        error = com - self._com
-        # Both poles of the observer lie at -b: gains 2 b and b^2.
-        b = self.gains.observer
-        self._com = self._com + min(1.0, 2.0 * b * self.period) * error
-        self._velocity = self._velocity + min(1.0, b * b * self.period) * error
-        if self.dcm_filter is not None:
-            offset = self.push_acceleration / self.omega**2
-            told = self.dcm_filter.update(com[:2], None, zmp, offset)
-            self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)
+    def _filter(self, dcm_filter: DcmFilter, posture: Posture, zmp: NDArray[np.float64] | None) -> None:
+        """Take the horizontal CoM and its velocity from a filter in the observer's place."""
+        com = self._position + self._rotation.dot(posture.com)
+        told = dcm_filter.update(com[:2], None, zmp, self.push_acceleration / self.omega**2)
+        self._com[:2], self._velocity[:2] = told.com, self.omega * (told.dcm - told.com)

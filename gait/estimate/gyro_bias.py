@@ -18,8 +18,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.mechanics.rotation import sine_vector
-from plantar.sides import SIDES, Side
+from plantar.kernels.floating_base import mean_turn
+from plantar.sides import Side
 
 __all__ = ["GyroBias"]
 
@@ -68,6 +68,7 @@ class GyroBias:
         self._most_ticks = max(1, round(piece / period))
         self._slip = slip
         self._gathered = 0.0
+        self._turn = np.zeros(3)
         self._begin()
 
     def _begin(self) -> None:
@@ -95,21 +96,13 @@ class GyroBias:
             The bias (3,) in rad/s; the last one while no foot stands still.
         """
         self.missed = None
-        turn = np.zeros(3)
-        total = 0.0
-        worth = 1.0
-        for side in SIDES:
-            weight = weights[side]
-            if weight <= 0.0:
-                worth = _ONE_FOOT
-                continue
-            turn += weight * sine_vector(before[side].dot(now[side].T))
-            total += weight
-        if total > 0.0:
-            self._beyond += self._period * (gyro - self.value) - turn / total
+        left, right, turn = weights["left"], weights["right"], self._turn
+        still = mean_turn(before["left"], before["right"], now["left"], now["right"], left, right, turn)
+        if still:
+            self._beyond += self._period * (gyro - self.value) - turn
             self._ticks += 1
-            self._worth += worth
-        if self._ticks and (total <= 0.0 or self._ticks >= self._most_ticks):
+            self._worth += 1.0 if left > 0.0 and right > 0.0 else _ONE_FOOT
+        if self._ticks and (not still or self._ticks >= self._most_ticks):
             self._conclude()
         return self.value
 

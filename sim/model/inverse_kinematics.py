@@ -40,8 +40,8 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dposv
 
+from plantar.kernels.newton_step import NewtonStep
 from sim.model.tasks.posture_task import PostureTask
 from sim.model.tasks.task import Task
 
@@ -55,8 +55,6 @@ value: 3.0 to 3.4 times in walks, so this is the pivot of 0.012, and walks stay 
 _POSTURE_SHARE = 0.01  # of the way to the reference posture in a step: 0.5 s at 200 steps a second
 _INSIDE = 1e-12  # rad or m inside its limit at which a joint stops: rounding does not carry it out
 _NULL = 1e-9  # singular value over the largest below which a direction is in the null space
-
-_least, _most = np.minimum.reduce, np.maximum.reduce  # sooner than the methods of an array
 
 
 class InverseKinematics:
@@ -84,7 +82,8 @@ class InverseKinematics:
         columns: NDArray[np.int_],
         unit: float = 1.0,
     ) -> None:
-        self._model, self._data, self._columns = model, data, _as_slice(columns)
+        self._model, self._data = model, data
+        self._columns = np.asarray(columns, dtype=np.intp)
         self._configuration = data.qpos  # the data's own array
         self.tasks, self.posture = tuple(tasks), posture
         rows = sum(task.rows for task in tasks)
@@ -93,24 +92,26 @@ class InverseKinematics:
         ends = np.cumsum([task.rows for task in tasks]).tolist()
         self._rows = [slice(end - task.rows, end) for task, end in zip(tasks, ends, strict=True)]
         self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
-        self._used = np.empty((rows, len(columns)), order="F")  # the order decides the last bit of the products
         self._velocity = np.zeros(model.nv)
         in_units = [np.repeat([1.0 / unit, 1.0], [task.lengths, task.rows - task.lengths]) for task in tasks]
-        self._per_unit = None if unit == 1.0 else np.concatenate(in_units)
-        self._units = np.ones(model.nv)
+        units = np.ones(model.nv)
         for joint in np.flatnonzero(model.jnt_type == int(mujoco.mjtJoint.mjJNT_FREE)):
-            self._units[model.jnt_dofadr[joint] : model.jnt_dofadr[joint] + 3] = unit
-        self._diagonal = slice(None, None, len(columns) + 1)
+            units[model.jnt_dofadr[joint] : model.jnt_dofadr[joint] + 3] = unit
         joint_of = model.dof_jntid[columns]
         kinds = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
-        movable = np.flatnonzero(np.isin(model.jnt_type[joint_of], kinds))
-        joints = joint_of[movable]
-        self._movable, self._places = _as_slice(movable), _as_slice(model.jnt_qposadr[joints])
+        self._movable = np.flatnonzero(np.isin(model.jnt_type[joint_of], kinds))
+        joints = joint_of[self._movable]
+        self._places = model.jnt_qposadr[joints].astype(np.intp)
         free = model.jnt_limited[joints] == 0  # a joint without limits has the range 0 to 0 in the model
         self._lower = np.where(free, -np.inf, model.jnt_range[joints, 0])
         self._upper = np.where(free, np.inf, model.jnt_range[joints, 1])
-        self._middle = np.where(free, 0.0, model.jnt_range[joints].mean(axis=1))
-        self._half = np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1))
+        self._newton_jacobian, self._newton_step = np.zeros((rows, len(columns))), np.zeros(len(columns))
+        self._newton = NewtonStep(
+            *(self._columns, np.concatenate(in_units), units, self._movable, self._places),
+            np.where(free, 0.0, model.jnt_range[joints].mean(axis=1)),
+            np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1)),
+            *(_ROUNDING, _SUSPECT, self._newton_jacobian, self._newton_step),
+        )
         self.plain = self.careful = 0
         self._placed = False
         self._drawn = np.zeros((posture.rows, model.nv))
@@ -128,7 +129,7 @@ class InverseKinematics:
         """
         for _ in range(iterations):
             self._step(largest_step)
-        return float(_most(np.abs(self._error)))
+        return float(np.abs(self._error).max())
 
     def place(self) -> None:
         """Bring the data's poses to its configuration, unless they are there: who asks for them after a solution spares
@@ -143,34 +144,18 @@ class InverseKinematics:
         self._placed = False
 
     def _step(self, largest: float) -> None:
-        model, error = self._model, self._error
         self.place()
         for task, part, rows in self._parts:
             task.error(part)
             task.jacobian(rows)
-        if self._per_unit is not None:
-            self._error *= self._per_unit
-            self._jacobian *= self._per_unit[:, None]
-            self._jacobian *= self._units
-        jacobian = self._used
-        np.copyto(jacobian, self._jacobian[:, self._columns])
-        normal = jacobian.T @ jacobian
-        normal.ravel()[self._diagonal] += _ROUNDING
-        factor, step, _ = dposv(normal, jacobian.T.dot(error))
-        off = np.abs(self._configuration[self._places] + step[self._movable] - self._middle) - self._half
-        if not (
-            _least(factor.diagonal()) > _SUSPECT
-            and (float(step.dot(step)) <= largest * largest or _most(np.abs(step)) <= largest)
-            and _most(off) <= 0.0
-        ):
-            step = self._careful(jacobian, largest)
-            self.careful += 1
-        else:
+        step = self._newton_step
+        if self._newton.solve(self._jacobian, self._error, self._configuration, largest):
             self.plain += 1
-        self._velocity[self._columns] = step
-        if self._per_unit is not None:
-            self._velocity *= self._units
-        mujoco.mj_integratePos(model, self._configuration, self._velocity, 1.0)
+        else:
+            step = self._careful(self._newton_jacobian, largest)
+            self.careful += 1
+        self._newton.write(step, self._velocity)
+        mujoco.mj_integratePos(self._model, self._configuration, self._velocity, 1.0)
         self._placed = False
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
@@ -245,13 +230,6 @@ def _amounts(
     stays = math.sqrt(float(near @ along[:count] ** 2) + float((along[count:] ** 2).sum()))
     damping = _ROUNDING + near * _EPSILON**2 + values.max(initial=0.0) * stays
     return np.asarray(values * along[:count] / (values**2 + damping) + near * pulled)
-
-
-def _as_slice(places: NDArray[np.int_]) -> slice | NDArray[np.int_]:
-    """Places that follow each other as a slice, which numpy reads without a copy."""
-    first = int(places[0]) if len(places) else 0
-    follow = np.array_equal(places, first + np.arange(len(places)))
-    return slice(first, first + len(places)) if follow else places
 
 
 def _add(step: NDArray[np.float64], more: NDArray[np.float64], largest: float) -> None:

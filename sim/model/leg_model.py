@@ -47,14 +47,23 @@ class LegModel:
         held = np.isin(np.arange(model.njnt), ids, invert=True) & (model.jnt_type != int(mujoco.mjtJoint.mjJNT_FREE))
         self._others = model.jnt_qposadr[held]
         self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in SIDES}
+        self._feet: dict[Side, int] = {s: int(model.site_bodyid[i]) for s, i in self._sites.items()}
         upright = model.body(torso).id
         self._root = int(model.body_rootid[upright])
         self.mass = float(model.body_subtreemass[self._root])
         self._com = ComTask(model, self._data, self._root)
         self._torso = OrientationTask(model, self._data, upright)
+        # Views of what MuJoCo computes: asking the data for them costs more than reading them.
+        probe = self._probe
+        self._probe_joints = probe.qpos
+        self._posture_com = probe.subtree_com[self._root]
+        self._posture_places = {s: probe.site_xpos[i] for s, i in self._sites.items()}
+        self._posture_turns = {s: probe.site_xmat[i].reshape(3, 3) for s, i in self._sites.items()}
         sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
         self._soles: dict[Side, PoseTask] = {s: sole(model, self._data, self._sites[s]) for s in SIDES}
         self._reference = PostureTask(model, self._data, ids)
+        self._joints = self._data.qpos
+        self._load, self._lever = np.zeros(model.nv), np.zeros((3, model.nv))
         self.inverse = InverseKinematics(
             model,
             self._data,
@@ -66,14 +75,14 @@ class LegModel:
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics in the base frame (see `gait.estimate.estimator.LegKinematics`)."""
-        data = self._probe
-        data.qpos[self._qpos] = joint_positions
+        data, places, turns = self._probe, self._posture_places, self._posture_turns
+        self._probe_joints[self._qpos] = joint_positions
         mujoco.mj_kinematics(self.model, data)
         mujoco.mj_comPos(self.model, data)
         return Posture(
-            com=data.subtree_com[self._root].copy(),
-            positions={s: data.site_xpos[i].copy() for s, i in self._sites.items()},
-            rotations={s: data.site_xmat[i].reshape(3, 3).copy() for s, i in self._sites.items()},
+            self._posture_com.copy(),
+            {"left": places["left"].copy(), "right": places["right"].copy()},
+            {"left": turns["left"].copy(), "right": turns["right"].copy()},
         )
 
     def set_configuration(
@@ -143,7 +152,8 @@ class LegModel:
             sole.position, sole.rotation = positions[side], rotations[side]
             sole.level = 1 if side in yielding else 0
         missed = self.inverse.solve(iterations, largest_step)
-        return self._data.qpos[self._qpos], missed
+        joints: NDArray[np.float64] = self._joints[self._qpos]
+        return joints, missed
 
     def static_torques(
         self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, NDArray[np.float64]]
@@ -159,13 +169,13 @@ class LegModel:
         """
         model, data = self.model, self._data
         self.inverse.place()
-        result = np.zeros(model.nv)
+        result, jac = self._load, self._lever
         mujoco.mj_rne(model, data, 0, result)
-        jac = np.zeros((3, model.nv))
         for side in SIDES:
-            if forces[side][2] <= 0.0:
+            force = forces[side]
+            if force.item(2) <= 0.0:
                 continue
-            mujoco.mj_jac(model, data, jac, None, points[side], model.site_bodyid[self._sites[side]])
-            result -= jac.T.dot(forces[side])
+            mujoco.mj_jac(model, data, jac, None, points[side], self._feet[side])
+            result -= force.dot(jac)
         torques: NDArray[np.float64] = result[self._dof]
         return torques

@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.rotations import missing_turn
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.task import Task
 
@@ -33,7 +34,8 @@ class OrientationTask(Task):
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Turn (3,) that is missing, in the world frame (see `plantar.mechanics.rotation.rotation_error`)."""
-        out[:] = rotation_error(self.target, self._rotation)
+        if not missing_turn(self.target, self._rotation, out):
+            out[:] = rotation_error(self.target, self._rotation)
 
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Angular velocity of the body (3, nv) in the world frame."""

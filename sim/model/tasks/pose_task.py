@@ -6,6 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.rotations import missing_pose
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.task import Task
 
@@ -37,8 +38,8 @@ class PoseTask(Task):
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Way (3,) in m and turn (3,) that are missing, in the world frame."""
-        np.subtract(self.position, self._position, out=out[:3])
-        out[3:] = rotation_error(self.rotation, self._rotation)
+        if not missing_pose(self.position, self.rotation, self._position, self._rotation, out):
+            out[3:] = rotation_error(self.rotation, self._rotation)
 
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Velocity and angular velocity of the site (6, nv) in the world frame."""

@@ -1,0 +1,117 @@
+"""The kernel of inverse kinematics: a Newton step by the normal equations, and whether it may stay as it is.
+
+Plain Python that also compiles ahead of time (`newton_step.pxd` gives the C types).
+`sim.model.inverse_kinematics` is the public face: it says why, and what happens to a step that may not stay.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+__all__ = ["NewtonStep"]
+
+
+class NewtonStep:
+    """Solves J^T J dq = J^T e, with something on the diagonal, for some of a model's velocities.
+
+    Args:
+        columns: Velocities (n,) that a step may use.
+        row_units: Factor (m,) of each row of error and Jacobian.
+        column_units: Factor (nv,) of each column of the Jacobian, and of each velocity of the step.
+        movable: Which of a step's entries (k,) move a joint.
+        places: Where these joints are in the configuration (k,).
+        middle: Middle of the range of each joint (k,).
+        half: Half of that range (k,); inf where there is none.
+        diagonal: What is added to the diagonal.
+        least_pivot: Pivot of the Cholesky factor down to which a step stays.
+        jacobian: Receives the Jacobian (m, n) of each step, in units.
+        step: Receives the step (n,) in units.
+    """
+
+    def __init__(
+        self, columns, row_units, column_units, movable, places, middle, half, diagonal, least_pivot, jacobian, step
+    ):
+        self.columns, self.row_units, self.column_units = columns, row_units, column_units
+        self.movable, self.places, self.middle, self.half = movable, places, middle, half
+        self.diagonal, self.least_pivot = diagonal, least_pivot
+        self.jacobian, self.step = jacobian, step
+        self.normal = np.zeros((len(columns), len(columns)))
+        self.column = np.zeros(len(columns))
+
+    def solve(self, jacobian, error, configuration, largest):
+        """Find the step.
+
+        Args:
+            jacobian: Jacobian (m, nv) in m and rad.
+            error: Error (m,) in m and rad; afterwards in units.
+            configuration: Configuration (nq,).
+            largest: Largest entry of a step in units.
+
+        Returns:
+            Whether the step may stay: no pivot is small, no entry too large and no joint beyond its limits. One that
+            holds what is no number may not.
+        """
+        normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
+        m, n = self.row_units.shape[0], self.columns.shape[0]
+        for i in range(n):
+            step[i] = 0.0
+            for j in range(i + 1):
+                normal[i, j] = self.diagonal if i == j else 0.0
+        for r in range(m):
+            error[r] *= self.row_units[r]
+            for i in range(n):
+                used[r, i] = jacobian[r, columns[i]] * (self.row_units[r] * self.column_units[columns[i]])
+            for i in range(n):
+                share = used[r, i]
+                if share != 0.0:
+                    step[i] += share * error[r]
+                    for j in range(i + 1):
+                        normal[i, j] += share * used[r, j]
+        return self._factor(n) and self._stays(n, configuration, largest)
+
+    def _factor(self, n):
+        """Cholesky factor of the equations, and their solution; whether all pivots are large enough."""
+        normal, step, column = self.normal, self.step, self.column
+        for k in range(n):
+            if not normal[k, k] > self.least_pivot * self.least_pivot:
+                return False
+            pivot = math.sqrt(normal[k, k])
+            normal[k, k] = pivot
+            step[k] /= pivot
+            for i in range(k + 1, n):
+                column[i] = normal[i, k] / pivot
+                normal[i, k] = column[i]
+                step[i] -= column[i] * step[k]
+            for i in range(k + 1, n):
+                share = column[i]
+                if share != 0.0:
+                    for j in range(k + 1, i + 1):
+                        normal[i, j] -= share * column[j]
+        for k in range(n - 1, -1, -1):
+            step[k] /= normal[k, k]
+            for i in range(k):
+                step[i] -= normal[k, i] * step[k]
+        return True
+
+    def _stays(self, n, configuration, largest):
+        """Whether no entry is too large, and no joint leaves its limits."""
+        for i in range(n):
+            if not math.fabs(self.step[i]) <= largest:
+                return False
+        for k in range(self.movable.shape[0]):
+            beside = configuration[self.places[k]] + self.step[self.movable[k]] - self.middle[k]
+            if not math.fabs(beside) <= self.half[k]:
+                return False
+        return True
+
+    def write(self, step, velocity):
+        """Write a step as a velocity of the model.
+
+        Args:
+            step: The step (n,) in units.
+            velocity: Receives it (nv,) in m and rad, where the step has entries.
+        """
+        for i in range(self.columns.shape[0]):
+            velocity[self.columns[i]] = step[i] * self.column_units[self.columns[i]]

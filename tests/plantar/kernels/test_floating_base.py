@@ -1,0 +1,180 @@
+"""The kernel of the floating base against the same equations in numpy, and its compiled form against its source."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from plantar import kernels
+from plantar.kernels import floating_base, rotations
+from plantar.mechanics.rotation import (
+    heading,
+    orthonormalised,
+    rotation_from_vector,
+    sine_vector,
+)
+from plantar.mechanics.zmp import zmp_of_feet
+
+OMEGA, PERIOD, GRAVITY = 3.5, 0.005, 9.81
+AVERAGING, TILT, YAW, BANDWIDTH, LEAST = GAINS = (0.02, 0.1, 1.0, 10.0, 40.0)
+SOURCES = {name: kernels.python_form(name) for name in ("rotations", "floating_base")}
+EXACT = {"rtol": 1e-13, "atol": 1e-13}
+
+
+def base_of(module):
+    """A base with its state."""
+    shapes = ((3, 3), (3,), (3,), (3,), (2, 3), (2, 3, 3), (2,))
+    state = [np.zeros(shape) for shape in shapes]
+    return module.FloatingBase(OMEGA, PERIOD, GRAVITY, GAINS, *state), state
+
+
+def ticks(seed, count=60):
+    """What comes in, tick by tick: postures, IMU, plan, loads and centres of pressure, feet in the air among them."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        turns = Rotation.from_rotvec(0.3 * rng.normal(size=(2, 3))).as_matrix()
+        posture = (rng.normal(size=3), *rng.normal(size=(2, 3)), *turns)
+        loads = rng.choice([0.0, 30.0, 1.0], 2) * rng.uniform(1.0, 20.0, 2)
+        cops = [rng.normal(size=2) if load > 0.0 and rng.random() < 0.9 else None for load in loads]
+        specific = np.array([0.0, 0.0, GRAVITY]) + rng.choice([0.1, 3.0]) * rng.normal(size=3)
+        planned = rng.normal(size=2) if rng.random() < 0.7 else None
+        missed = 1e-3 * rng.normal(size=3) if rng.random() < 0.3 else None
+        yield posture, rng.normal(size=3), specific, planned, loads.tolist(), cops, missed, rng.normal(size=2).tolist()
+
+
+class Reference:
+    """The same in numpy, tick by tick from the state that the kernel had."""
+
+    def __init__(self):
+        self.samples, self.astray, self.headings = 0, 0.0, [None, None]
+
+    def turned(self, rotation, posture, rate, specific, planned, loads, by_legs, missed):
+        rate = rate.copy()
+        up = rotation @ specific
+        if planned is not None:
+            up[:2] -= planned
+        size = float(np.linalg.norm(up))
+        if 0.7 * GRAVITY < size < 1.3 * GRAVITY:
+            self.samples += 1
+            since = PERIOD * (self.samples + 1)
+            gain = 1.0 / since if since < AVERAGING else TILT
+            rate += gain * rotation.T @ np.cross(up / size, [0.0, 0.0, 1.0])
+        if by_legs:
+            self.astray -= 0.0 if missed is None else float(rotation[2] @ missed)
+            error = self.astray
+            self.astray -= PERIOD * YAW * error
+        else:
+            error = self.heading_error(rotation, posture, loads)
+        rate -= YAW * error * rotation[2]
+        return orthonormalised(rotation @ rotation_from_vector(PERIOD * rate))
+
+    def heading_error(self, rotation, posture, loads):
+        total = error = 0.0
+        for k, load in enumerate(loads):
+            if load <= LEAST:
+                self.headings[k] = None
+                continue
+            yaw = heading(rotation @ posture[3 + k])
+            if self.headings[k] is None:
+                self.headings[k] = yaw
+            error += (load - LEAST) * math.remainder(yaw - self.headings[k], 2.0 * math.pi)
+            total += load - LEAST
+        return error / total if total else 0.0
+
+
+@pytest.mark.parametrize("by_legs", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_tick_is_that_of_the_equations(seed, by_legs):
+    base, (rotation, position, com, velocity, places, turns, zmp) = base_of(floating_base)
+    reference, past = Reference(), None
+    for posture, rate, specific, planned, loads, cops, missed, push in ticks(seed):
+        old, at, center, speed = rotation.copy(), position.copy(), com.copy(), velocity.copy()
+        base.take(*posture)
+        if past is None:
+            old, at = Rotation.from_rotvec([0.1, 0.2, 0.3]).as_matrix(), np.array([0.1, 0.2, 0.8])
+            base.stand(old, at, 0.5, 0.6)
+            np.testing.assert_allclose(com, at + old @ posture[0], **EXACT)
+            reference.headings, past = [0.5, 0.6], posture
+            continue
+        base.turn(rate, specific, planned, *loads, by_legs, missed)
+        np.testing.assert_allclose(
+            rotation, reference.turned(old, posture, rate, specific, planned, loads, by_legs, missed), **EXACT
+        )
+        base.move(*loads, *cops)
+        points = [(k, loads[k] - LEAST, c) for k, c in enumerate(cops) if c is not None and loads[k] > LEAST]
+        moves = [
+            old @ (past[1 + k] + past[3 + k][:, :2] @ c) - rotation @ (posture[1 + k] + posture[3 + k][:, :2] @ c)
+            for k, _, c in points
+        ]
+        step = np.average(moves, axis=0, weights=[w for _, w, _ in points]) if points else PERIOD * speed
+        np.testing.assert_allclose(position, at + step, **EXACT)
+        carries = base.place(*loads, *cops)
+        for k in range(2):
+            np.testing.assert_allclose(places[k], position + rotation @ posture[1 + k], **EXACT)
+            np.testing.assert_allclose(turns[k], rotation @ posture[3 + k], **EXACT)
+        cop = [None if c is None else (places[k] + turns[k][:, :2] @ c)[:2] for k, c in enumerate(cops)]
+        expected = zmp_of_feet(cop, loads)
+        assert carries == (expected is not None)
+        np.testing.assert_allclose(zmp, [np.nan] * 2 if expected is None else expected, **EXACT)
+        base.observe(*push)
+        wanted = OMEGA**2 * (center[:2] - expected) if carries else np.zeros(2)
+        acceleration = np.array([*(wanted + push), 0.0])
+        error = position + rotation @ posture[0] - center - PERIOD * speed
+        np.testing.assert_allclose(com, center + PERIOD * speed + 2.0 * BANDWIDTH * PERIOD * error, **EXACT)
+        np.testing.assert_allclose(velocity, speed + PERIOD * acceleration + BANDWIDTH**2 * PERIOD * error, **EXACT)
+        past = posture
+    base.rest()
+    assert not velocity.any()
+
+
+@pytest.mark.parametrize("by_legs", [False, True])
+def test_both_forms_agree_to_the_last_bit(by_legs):
+    found = []
+    for module in (floating_base, SOURCES["floating_base"]):
+        base, state = base_of(module)
+        first = True
+        for posture, rate, specific, planned, loads, cops, missed, push in ticks(9, 30):
+            base.take(*posture)
+            if first:
+                base.stand(np.eye(3), np.zeros(3), 0.0, 0.0)
+            else:
+                base.turn(rate, specific, planned, *loads, by_legs, missed)
+                base.move(*loads, *cops)
+            base.place(*loads, *cops)
+            base.observe(*push)
+            first = False
+        found.append(np.concatenate([x.ravel() for x in state]))
+    assert np.array_equal(*found, equal_nan=True)
+
+
+@pytest.mark.parametrize("weights", [(300.0, 100.0), (0.0, 50.0), (50.0, -1.0), (0.0, 0.0), (math.nan, 10.0)])
+def test_the_mean_turn_of_soles_is_their_sine(weights):
+    a, b, c, d = Rotation.from_rotvec(np.random.default_rng(0).normal(size=(4, 3))).as_matrix()
+    found, form = np.empty(3), np.empty(3)
+    stands = floating_base.mean_turn(a, b, c, d, *weights, found)
+    assert SOURCES["floating_base"].mean_turn(a, b, c, d, *weights, form) == stands == any(w > 0.0 for w in weights)
+    assert np.array_equal(found, form)
+    each = [w * sine_vector(x @ y.T) for w, x, y in zip(weights, (a, b), (c, d), strict=True) if w > 0.0]
+    total = sum(w for w in weights if w > 0.0)
+    np.testing.assert_allclose(found, np.sum(each, axis=0) / total if each else np.zeros(3), **EXACT)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-6, 0.3, 3.0, 7.0])
+def test_rotations_are_those_of_scipy(size):
+    rng = np.random.default_rng(1)
+    v, w = rng.normal(size=(2, 3))
+    v *= size / np.linalg.norm(v)
+    r = Rotation.from_rotvec(v).as_matrix()
+    for module in (rotations, SOURCES["rotations"]):
+        out, again, work, vector = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
+        module.exponential(*v.tolist(), out)
+        np.testing.assert_allclose(out, r, atol=1e-15)
+        module.turn(r, w, vector)
+        np.testing.assert_allclose(vector, r @ w, **EXACT)
+        module.turn_back(r, w, vector)
+        np.testing.assert_allclose(vector, r.T @ w, **EXACT)
+        module.multiply(r, r, again)
+        np.testing.assert_allclose(again, r @ r, **EXACT)
+        module.orthonormalise(r + 1e-6 * w, work, again)
+        np.testing.assert_allclose(again, orthonormalised(r + 1e-6 * w), **EXACT)
