@@ -12,13 +12,12 @@ weight and becomes the one that the body leans on.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.mechanics.rotation import sine_vector
+from plantar.kernels.lean_correction import correct
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 __all__ = ["PostureCompensation"]
@@ -106,17 +105,9 @@ class PostureCompensation:
         step = self.period / self.fade
         # Fades: at lift-off and touchdown the foot is on the ground, and a jump of its target would push it.
         self._weight = min(1.0, self._weight + step) if swings else max(0.0, self._weight - step)
-        lean = rotation_command.dot(rotation_estimated.T)
-        shift = com_command + lean.dot(position_in_world - com_estimated) - position
-        # The sine instead of the angle: the leans are small, and it has no singularity to guard.
-        turn = sine_vector(lean)
-        share = min(1.0, self.period / self.time_constant)
-        wanted = self._weight * (_limited(shift, self.largest_shift) + self._kept)
-        self.shift = self.shift + share * (wanted - self.shift)
-        self.turn = self.turn + share * (self._weight * _limited(turn, self.largest_turn) - self.turn)
-        return self.shift, self.turn
-
-
-def _limited(vector: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
-    size = math.sqrt(float(vector.dot(vector)))
-    return vector if size <= largest else vector * (largest / size)
+        correct(
+            *(position, position_in_world, com_command, com_estimated, rotation_command, rotation_estimated),
+            *(self._kept, self.largest_shift, self.largest_turn, self._weight),
+            *(min(1.0, self.period / self.time_constant), self.shift, self.turn),
+        )
+        return self.shift.copy(), self.turn.copy()

@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
+from plantar.kernels.pendulum import on_segment
 
 __all__ = ["LipReference", "VrpPlan"]
 
@@ -221,20 +222,6 @@ class VrpPlan:
         time = max(time, self.times[0])
         i = bisect_right(self.times, time) - 1
         since, until = time - self.times[i], self.times[i + 1] - time
-        grown, shrunk = math.exp(-omega * until), math.exp(-omega * since)
-        rates, starts = self._rate[i].tolist(), self.vrps[i].tolist()
-        growths, shrinkages = self._end_offset[i].tolist(), self._offset_of_com(i).tolist()
-        axes = []
-        for start, rate, growth, shrinkage in zip(starts, rates, growths, shrinkages, strict=True):
-            vrp, growing, shrinking = start + since * rate, grown * growth, shrunk * shrinkage
-            axes.append(
-                (
-                    vrp,
-                    vrp + rate / omega + growing,
-                    rate + omega * growing,
-                    vrp + 0.5 * growing + shrinking,
-                    rate + omega * (0.5 * growing - shrinking),
-                    omega * omega * (0.5 * growing + shrinking),
-                )
-            )
-        return LipReference(*np.array(list(zip(*axes, strict=True))))
+        out = np.empty((6, 2))
+        on_segment(omega, since, until, self.vrps[i], self._rate[i], self._end_offset[i], self._offset_of_com(i), out)
+        return LipReference(*out)

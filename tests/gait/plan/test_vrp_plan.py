@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from gait.plan.vrp_plan import VrpPlan
+from plantar import kernels
 from plantar.errors import InputError
+from plantar.kernels import pendulum
 
 OMEGA = 3.5
 
@@ -105,3 +107,14 @@ def test_a_thousand_steps_stay_finite_and_consistent() -> None:
 def test_bad_knots_are_refused(times: list[float], points: list[list[float]]) -> None:
     with pytest.raises(InputError):
         VrpPlan(times, points, OMEGA)
+
+
+def test_both_forms_of_the_kernel_agree_to_the_last_bit() -> None:
+    rng = np.random.default_rng(0)
+    source = kernels.python_form("pendulum")
+    for _ in range(20):
+        given = (float(rng.uniform(1.0, 5.0)), *rng.uniform(0.0, 2.0, 2).tolist(), *rng.normal(size=(4, 2)))
+        compiled, interpreted = np.empty((6, 2)), np.empty((6, 2))
+        pendulum.on_segment(*given, compiled)
+        source.on_segment(*given, interpreted)
+        assert np.array_equal(compiled, interpreted)
