@@ -64,7 +64,7 @@ from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.external_wrench import external_acceleration
-from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
+from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
@@ -303,7 +303,7 @@ class WalkingController:
         if feedback:
             self._align(state)
         feet, inward = self._swing(sensed, state)
-        xi = divergent_component(state.com[:2], state.com_velocity[:2], self.omega)
+        xi = state.com[:2] + state.com_velocity[:2] / self.omega  # T 4.27, of an omega that is known to be sound
         tick = self._perceive(sensed, state, feet, inward, feedback)
         region = self._zmp_region(tick.phase, feet)
         if feedback and (self.settings.step_timing is not None or self.settings.step_adjustment is not None):
@@ -424,8 +424,11 @@ class WalkingController:
 
     def _stand_beside(self, state: BaseState) -> None:
         """Command a foot that has landed beside its place to where it stands, where steps move for balance."""
-        feet, rules = self.motion.view, self.settings.step_adjustment
-        if rules is None or not feet.touchdown or feet.side is None:
+        rules = self.settings.step_adjustment
+        if rules is None:
+            return
+        feet = self.motion.view
+        if not feet.touchdown or feet.side is None:
             return
         if state.loads[feet.side] <= self.settings.landing.contact_force:  # only the plan has it down
             return
@@ -534,10 +537,9 @@ class WalkingController:
 
     def _body(self, phase: Phase, com: NDArray[np.float64]) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """CoM (3,) in m, heading in rad and rotation (3, 3) of the torso in the command frame."""
-        yaws = [self.motion.footholds[side][1] for side in SIDES]
-        height = self._com_height(phase)
-        target = np.array([*self._frame.to_command(com).tolist(), height])
-        torso = yaws[0] + 0.5 * math.remainder(yaws[1] - yaws[0], 2.0 * math.pi)
+        left, right = self.motion.footholds["left"][1], self.motion.footholds["right"][1]
+        target = np.array([*self._frame.to_command(com).tolist(), self._com_height(phase)])
+        torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
         return target, torso, self._posture(target, torso)
 
     def _feet(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool) -> Feet:
@@ -582,14 +584,15 @@ class WalkingController:
         if side is None:
             return
         foot = feet[side]
-        place = self._frame.to_world(foot.position)
+        (x, y, z), (cx, cy, _) = self._frame.to_world(foot.position).tolist(), state.com.tolist()
         back = level_rotation(torso - heading(state.rotation_base_to_world))
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
-        aligned = level_rotation(-self._frame.turn)
+        c, s = math.cos(self._frame.turn), math.sin(self._frame.turn)
+        aligned = np.array((cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z))
         shift, turn = self._compensation.update(
             phase.swing == side,
             foot.position,
-            state.com + aligned.dot(place - state.com),
+            aligned,
             com,
             state.com,
             posture,
@@ -605,9 +608,10 @@ class WalkingController:
         lean brings hip and CoM together, as people do whose hip abductors are weak.
         """
         s = self.settings
-        middle = 0.5 * (self.motion.footholds["left"][0] + self.motion.footholds["right"][0])
+        (lx, ly, _), (rx, ry, _) = (self.motion.footholds[side][0].tolist() for side in SIDES)
+        x, y, _ = com.tolist()
         c, d = math.cos(torso), math.sin(torso)
-        dx, dy, _ = (com - middle).tolist()
+        dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
         left = -d * dx + c * dy
         lean = max(
             s.trunk_lean,

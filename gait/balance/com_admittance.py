@@ -16,10 +16,6 @@ LARGEST_OFFSET = 0.5
 class ComAdmittance:
     """Offset of the CoM reference from the plan.
 
-    Attributes:
-        offset: The offset (2,) in m.
-        rate: Its rate (2,) in m/s.
-
     Args:
         zmp_gain: k_f in 1/s: how fast the CoM reference yields to a ZMP error.
         com_gain: k_x in 1/s: how fast it returns to the plan.
@@ -38,14 +34,23 @@ class ComAdmittance:
     def __init__(
         self, zmp_gain: float, com_gain: float, zmp_filter: float, period: float, largest: float = math.inf
     ) -> None:
-        self.offset = np.zeros(2)
-        self.rate = np.zeros(2)
+        self._x = self._y = self._rate_x = self._rate_y = 0.0
         self._zmp_gain = zmp_gain
         self._com_gain = com_gain
         self._period = period
         self._largest = largest
         self._share = period / (zmp_filter + period)
-        self._error = np.zeros(2)  # filtered
+        self._error_x = self._error_y = 0.0  # filtered
+
+    @property
+    def offset(self) -> NDArray[np.float64]:
+        """Offset (2,) of the CoM reference from the plan in m."""
+        return np.array((self._x, self._y))
+
+    @property
+    def rate(self) -> NDArray[np.float64]:
+        """Its rate (2,) in m/s."""
+        return np.array((self._rate_x, self._rate_y))
 
     def update(self, error: NDArray[np.float64]) -> None:
         """One control tick.
@@ -53,11 +58,15 @@ class ComAdmittance:
         Args:
             error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
         """
+        x, y = error.tolist()
         # Keeps the noise of the taxels out of the CoM's reference.
-        self._error += self._share * (error - self._error)
+        self._error_x += self._share * (x - self._error_x)
+        self._error_y += self._share * (y - self._error_y)
         # The second term brings the CoM back onto the plan; without it a bias of the ZMP would add up to a drift.
-        self.rate = self._zmp_gain * self._error - self._com_gain * self.offset
-        self.offset = self.offset + self._period * self.rate
-        size = math.sqrt(self.offset.dot(self.offset))
+        self._rate_x = self._zmp_gain * self._error_x - self._com_gain * self._x
+        self._rate_y = self._zmp_gain * self._error_y - self._com_gain * self._y
+        self._x += self._period * self._rate_x
+        self._y += self._period * self._rate_y
+        size = math.sqrt(self._x * self._x + self._y * self._y)
         if size > self._largest:
-            self.offset = self.offset * (self._largest / size)
+            self._x, self._y = self._x * (self._largest / size), self._y * (self._largest / size)

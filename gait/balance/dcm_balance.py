@@ -12,11 +12,13 @@ from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
-from plantar.geometry.polygon import closest_point
+from plantar.kernels.convex import closest_point
 from plantar.settings.schema import Settings, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
+
+_NO_ERROR = np.zeros(2)
 
 
 class BalanceGains(Settings):
@@ -74,10 +76,14 @@ class DcmBalance:
         """
         # At xi = xi_r this is the planned VRP; a DCM that is off has its error driven to zero at the rate k_xi (T
         # 4.28).
-        wanted = reference.vrp - (1.0 + self.gains.dcm_gain / self.omega) * (reference.dcm - dcm)
-        nearest = closest_point(region, wanted)
+        (px, py), (rx, ry), (x, y) = reference.vrp.tolist(), reference.dcm.tolist(), dcm.tolist()
+        gain = 1.0 + self.gains.dcm_gain / self.omega
+        x, y = px - gain * (rx - x), py - gain * (ry - y)
+        if not len(region):
+            return np.array((x, y))
         # No foot can press beside its contact: what is wanted there is cut to what the ground can give (T Algorithm 1).
-        return wanted if nearest is None else nearest
+        nearest: NDArray[np.float64] = closest_point(region, x, y)
+        return nearest
 
     def update(
         self,
@@ -98,7 +104,7 @@ class DcmBalance:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
         desired = self.desired_zmp(reference, dcm, region)
-        self._admittance.update(np.zeros(2) if zmp is None else zmp - desired)
+        self._admittance.update(_NO_ERROR if zmp is None else zmp - desired)
         com = reference.com + self._admittance.offset
         return BalanceState(
             zmp_desired=desired,

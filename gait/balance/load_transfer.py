@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from plantar.mechanics.lip import GRAVITY
-from plantar.sides import SIDES, Side
+from plantar.sides import Side
 
 __all__ = ["transferred"]
 
@@ -27,19 +26,26 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
     Returns:
         What each foot shall carry.
     """
-    zmp, acceleration = feet.frame.to_command(balanced.zmp_desired), balanced.com_acceleration
-    force = mass * np.array([acceleration[0], acceleration[1], GRAVITY])
-    left, right = (_center(feet.states[side]) for side in SIDES)
+    # Plain numbers: on two of them an array costs ten times as much, and this runs at every tick.
+    x, y = feet.frame.to_command(balanced.zmp_desired).tolist()
+    ax, ay = balanced.com_acceleration.tolist()
+    (lx, ly), (rx, ry) = _center(feet.states["left"]), _center(feet.states["right"])
     if feet.stance is not None:
         share = 1.0 if feet.stance == "left" else 0.0
     else:
-        line = left - right
-        share = min(1.0, max(0.0, float((zmp - right) @ line / (line @ line))))
+        dx, dy = lx - rx, ly - ry
+        share = min(1.0, max(0.0, ((x - rx) * dx + (y - ry) * dy) / (dx * dx + dy * dy)))
     other = 1.0 - share
-    rest = zmp - (share * left + other * right)
-    return {"left": FootAction(share * force, left + rest), "right": FootAction(other * force, right + rest)}
+    fx, fy, fz = mass * ax, mass * ay, mass * GRAVITY
+    x, y = x - (share * lx + other * rx), y - (share * ly + other * ry)
+    return {
+        "left": FootAction(np.array((share * fx, share * fy, share * fz)), np.array((lx + x, ly + y))),
+        "right": FootAction(np.array((other * fx, other * fy, other * fz)), np.array((rx + x, ry + y))),
+    }
 
 
-def _center(foot: FootState) -> NDArray[np.float64]:
-    """Point (2,) of the command frame in m at which a foot is to be loaded."""
-    return np.asarray(foot.position[:2] + foot.rotation[:2, :2].dot(foot.center))
+def _center(foot: FootState) -> tuple[float, float]:
+    """Point (x, y) of the command frame in m at which a foot is to be loaded."""
+    (x, y, _), (cx, cy) = foot.position.tolist(), foot.center.tolist()
+    (xx, xy, _), (yx, yy, _), _ = foot.rotation.tolist()
+    return x + (xx * cx + xy * cy), y + (yx * cx + yy * cy)

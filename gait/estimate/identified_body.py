@@ -70,7 +70,7 @@ class IdentifiedBody:
             return self._kinematics.posture(joint_positions)
         read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
         posture = self._kinematics.posture(read)
-        return posture._replace(com=posture.com + self.com_offset)
+        return Posture(posture.com + self.com_offset, posture.positions, posture.rotations)
 
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]

@@ -35,5 +35,8 @@ cdef class NewtonStep:
     @cython.locals(i=Py_ssize_t, k=Py_ssize_t, beside=double)
     cdef bint _stays(self, Py_ssize_t n, const double[::1] configuration, double largest) noexcept
 
+    @cython.locals(r=Py_ssize_t, value=double, largest=double)
+    cpdef double worst(self, const double[::1] error) except? -1.0
+
     @cython.locals(i=Py_ssize_t)
     cpdef void write(self, const double[::1] step, double[::1] velocity) except *

@@ -106,6 +106,17 @@ class NewtonStep:
                 return False
         return True
 
+    def worst(self, error):
+        """Largest absolute value of an error (m,); not a number where one of them is not."""
+        largest = 0.0
+        for r in range(self.row_units.shape[0]):
+            value = math.fabs(error[r])
+            if not value <= largest:
+                largest = value
+                if value != value:
+                    break
+        return largest
+
     def write(self, step, velocity):
         """Write a step as a velocity of the model.
 

@@ -129,7 +129,8 @@ class InverseKinematics:
         """
         for _ in range(iterations):
             self._step(largest_step)
-        return float(np.abs(self._error).max())
+        worst: float = self._newton.worst(self._error)
+        return worst
 
     def place(self) -> None:
         """Bring the data's poses to its configuration, unless they are there: who asks for them after a solution spares

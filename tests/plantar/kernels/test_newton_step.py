@@ -34,6 +34,7 @@ def solved(module, given, half=10.0, largest=1e9, least=0.0):
     for _ in range(2):  # nothing stays of the step before
         error[:] = given[1]
         stays = kernel.solve(jacobian, error, configuration, largest)
+    np.testing.assert_equal(kernel.worst(error), np.abs(error).max())
     kernel.write(step, velocity)
     return stays, step, used, error, velocity
 
