@@ -1,5 +1,6 @@
-"""The percept's members over whole recordings: arrays of forces (frames, taxels), without a loop over frames in Python.
+"""The percept's members over whole recordings: arrays of forces (..., taxels), without a loop over frames in Python.
 
+The dimensions before the taxels are whatever there are, such as environments and time; results have them too.
 Forces may be a memory-mapped array larger than memory. Rows that are float64 and contiguous are read where they are, in
 one pass; others are converted block by block (`BLOCK` frames), never as a whole. A taxel is active as in `Percept`:
 above the threshold, and below the layout's force limit where it saturates; a dead one (NaN) never is.
@@ -7,6 +8,7 @@ above the threshold, and below the layout's force limit where it saturates; a de
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -38,12 +40,12 @@ BLOCK = 4096
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """What the forces of each frame sum up to.
+    """What the forces of each frame sum up to; "..." are the dimensions of the forces before the taxels.
 
     Attributes:
-        wrench: Ground reaction wrench (frames, 6) about the sole frame's origin in N and N m (T 4.23).
-        contact_area: Area (frames,) of the active cells in m^2 (T 4.22).
-        center_of_pressure: Position (frames, 2) in the sole frame in m (T 4.21); NaN in a frame without load.
+        wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
+        contact_area: Area (...) of the active cells in m^2 (T 4.22).
+        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN in a frame without load.
 
     Example:
         >>> Loads(np.array([[0.0, 0.0, 5.0, 0.0, 0.0, 0.0]]), np.zeros(1), np.zeros((1, 2))).vertical_force.tolist()
@@ -56,8 +58,8 @@ class Loads:
 
     @property
     def vertical_force(self) -> NDArray[np.float64]:
-        """Vertical force (frames,) in N."""
-        return self.wrench[:, 2]
+        """Vertical force (...) in N."""
+        return self.wrench[..., 2]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,10 +67,11 @@ class SupportPolygons:
     """The convex support polygon of each frame (T 4.24).
 
     Attributes:
-        area: Area (frames,) in m^2, 0 without contact.
-        centroid: Centroid (frames, 2) in m; NaN without contact.
-        size: Number of vertices (frames,).
-        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other; None where not asked for.
+        area: Area (...) in m^2, 0 without contact.
+        centroid: Centroid (..., 2) in m; NaN without contact.
+        size: Number of vertices (...).
+        vertices: Vertices (sum of sizes, 2) of all polygons in m, one after the other, the last of the dimensions
+            counted first; None where not asked for.
 
     Example:
         >>> corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
@@ -82,11 +85,11 @@ class SupportPolygons:
     size: NDArray[np.int64]
     vertices: NDArray[np.float64] | None = None
 
-    def polygon(self, frame: int) -> NDArray[np.float64]:
+    def polygon(self, *frame: int) -> NDArray[np.float64]:
         """Support polygon of one frame.
 
         Args:
-            frame: Index of the frame, from 0; below 0 from the last one.
+            frame: Index of the frame along each dimension, from 0; below 0 from the last one.
 
         Returns:
             Vertices (k, 2) in m, counter-clockwise; empty without contact.
@@ -97,13 +100,15 @@ class SupportPolygons:
         """
         if self.vertices is None:
             raise ReadingError("support polygons hold no vertices; ask for them with vertices=True")
+        if len(frame) != self.size.ndim:
+            raise IndexError(f"{len(frame)} indices of a frame; expected {self.size.ndim}, one a dimension")
         end = int(self._ends[frame])
         return self.vertices[end - int(self.size[frame]) : end]
 
     @lazy
     def _ends(self) -> NDArray[np.int64]:
-        """Where each frame's polygon ends in `vertices` (frames,)."""
-        return np.cumsum(self.size)
+        """Where each frame's polygon ends in `vertices` (...)."""
+        return np.cumsum(self.size).reshape(self.size.shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,11 +116,11 @@ class GroundPlanes:
     """The plane of the ground of each frame: z = -height + slope . (x, y) in the sole frame.
 
     Attributes:
-        height: Height (frames,) in m of the sole frame's origin above the ground; NaN where no taxel sees it.
-        slope: Rise (frames, 2) of the ground along the sole's x and y, as a ratio; NaN likewise.
-        residual: Root mean square distance (frames,) in m of the points used; NaN likewise.
-        directions: Directions (frames,) in which the points determine a slope: 2, 1, 0, and -1 without a plane.
-        inliers: Taxels (frames, n) whose points were used.
+        height: Height (...) in m of the sole frame's origin above the ground; NaN where no taxel sees it.
+        slope: Rise (..., 2) of the ground along the sole's x and y, as a ratio; NaN likewise.
+        residual: Root mean square distance (...) in m of the points used; NaN likewise.
+        directions: Directions (...) in which the points determine a slope: 2, 1, 0, and -1 without a plane.
+        inliers: Taxels (..., n) whose points were used.
 
     Example:
         >>> from plantar import grid_layout
@@ -142,12 +147,12 @@ def wrenches(
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (frames, n) in N.
+        force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None, -inf to count every finite force.
-        out: Where to write (frames, 6), float64 and contiguous; a new array where None.
+        out: Where to write (..., 6), float64 and contiguous; a new array where None.
 
     Returns:
-        Wrench (frames, 6) about the sole frame's origin in N and N m.
+        Wrench (..., 6) about the sole frame's origin in N and N m.
 
     Raises:
         ReadingError: If the forces or `out` have another shape, or are not numeric.
@@ -158,16 +163,17 @@ def wrenches(
         >>> wrenches(layout, np.full((1000, len(layout)), 10.0)).shape
         (1000, 6)
     """
-    array = _forces(layout, force)
+    array, lead = _frames(layout, force)
     if out is None:
-        out = np.empty((len(array), 6))
-    elif out.shape != (len(array), 6) or out.dtype != np.float64 or not out.flags.carray:
+        out = np.empty((*lead, 6))
+    elif out.shape != (*lead, 6) or out.dtype != np.float64 or not out.flags.carray:
         raise ReadingError(
-            f"out has shape {out.shape}, type {out.dtype}; expected ({len(array)}, 6) contiguous, writeable float64"
+            f"out has shape {out.shape}, type {out.dtype}; expected {(*lead, 6)} contiguous, writeable float64"
         )
+    rows_out = out.reshape(-1, 6)
     low, high = _limits(layout, threshold)
     for rows, part in _pieces(array):
-        _kernel.wrenches(layout.kernel, part, low, high, out[rows])
+        _kernel.wrenches(layout.kernel, part, low, high, rows_out[rows])
     return out
 
 
@@ -176,7 +182,7 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) 
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (frames, n) in N.
+        force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None.
 
     Returns:
@@ -191,12 +197,13 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) 
         >>> loads(layout, np.full((2, len(layout)), 10.0)).vertical_force.tolist()
         [330.0, 330.0]
     """
-    array = _forces(layout, force)
+    array, lead = _frames(layout, force)
     out = np.empty((len(array), 9))
     low, high = _limits(layout, threshold)
     for rows, part in _pieces(array):
         _kernel.loads(layout.kernel, part, low, high, out[rows])
-    return Loads(out[:, :6], out[:, 6], out[:, 7:])
+    out = out.reshape(*lead, 9)
+    return Loads(out[..., :6], out[..., 6], out[..., 7:])
 
 
 def support_polygons(
@@ -206,7 +213,7 @@ def support_polygons(
 
     Args:
         layout: The sole, n taxels.
-        force: Normal forces (frames, n) in N.
+        force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None.
         vertices: Keep the polygons, and not only what is measured of them.
 
@@ -222,7 +229,7 @@ def support_polygons(
         >>> support_polygons(layout, np.zeros((3, len(layout)))).area.tolist()
         [0.0, 0.0, 0.0]
     """
-    array = _forces(layout, force)
+    array, lead = _frames(layout, force)
     measure = np.empty((len(array), 3))
     size = np.empty(len(array), dtype=np.intp)
     active = np.empty(len(layout), dtype=np.uint8)
@@ -239,9 +246,9 @@ def support_polygons(
             if vertices:
                 found.append(points[: int(sizes[:count].sum())].copy())
             done += count
-    return SupportPolygons(
-        measure[:, 0], measure[:, 1:], size, np.concatenate([points[:0], *found]) if vertices else None
-    )
+    measure = measure.reshape(*lead, 3)
+    kept = np.concatenate([points[:0], *found]) if vertices else None
+    return SupportPolygons(measure[..., 0], measure[..., 1:], size.reshape(lead), kept)
 
 
 def ground_planes(
@@ -251,7 +258,7 @@ def ground_planes(
 
     Args:
         layout: The sole, n taxels.
-        distance: Distances (frames, n) in m; inf where nothing is in range, NaN for a dead taxel.
+        distance: Distances (..., n) in m; inf where nothing is in range, NaN for a dead taxel.
         sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
             layout where None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
@@ -270,7 +277,7 @@ def ground_planes(
         >>> planes.height.round(9).tolist(), planes.directions.tolist()
         ([0.03, nan], [2, -1])
     """
-    array = _forces(layout, distance, "distances")
+    array, lead = _frames(layout, distance, "distances")
     reach = checked_range(layout, sensing_range, tolerance)
     out = np.empty((len(array), 4))
     directions = np.empty(len(array), dtype=np.intp)
@@ -278,7 +285,9 @@ def ground_planes(
     used = inliers.view(np.uint8)
     for rows, part in _pieces(array):
         ground_fit(layout).frames(part, reach, tolerance, out[rows], directions[rows], used[rows])
-    return GroundPlanes(out[:, 0], out[:, 1:3], out[:, 3], directions, inliers)
+    out = out.reshape(*lead, 4)
+    inliers = inliers.reshape(*lead, len(layout))
+    return GroundPlanes(out[..., 0], out[..., 1:3], out[..., 3], directions.reshape(lead), inliers)
 
 
 def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[slice, NDArray[np.float64]]]:
@@ -305,12 +314,16 @@ def blocks(force: NDArray[np.float64], frames: int = BLOCK) -> Iterator[tuple[sl
         yield rows, force[rows]
 
 
-def _forces(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> NDArray[np.float64]:
-    """The forces as an array of numbers, not copied, of the layout's width."""
+def _frames(layout: SoleLayout, force: ArrayLike, name: str = "forces") -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """Forces (frames, n) of the layout's width, and the dimensions that the frames are of.
+
+    Not copied, but where the dimensions cannot be one otherwise.
+    """
     array = held_numbers(force, name, ReadingError)
-    if array.ndim != 2 or array.shape[1] != len(layout):
-        raise ReadingError(f"{name} have shape {array.shape}; expected (frames, {len(layout)})")
-    return array
+    if array.ndim < 1 or array.shape[-1] != len(layout):
+        raise ReadingError(f"{name} have shape {array.shape}; expected (..., {len(layout)})")
+    lead = array.shape[:-1]
+    return array.reshape(math.prod(lead), len(layout)), lead
 
 
 def _limits(layout: SoleLayout, threshold: float | None) -> tuple[float, float]:

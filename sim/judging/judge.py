@@ -92,7 +92,8 @@ class Judge:
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         body = self.world.body
         self._touch, self._least = _TOUCH * body.weight, _LEAST * body.weight
-        self._settled = _SETTLED * body.beat
+        self._settled, self._reach = _SETTLED * body.beat, self.world.reach
+        self._lowest = _FALLEN_HEIGHT * self.standing_height
         self.steps = StepCount(self.goal, body.weight)
         self.legs = LegContact(self.world)
         self.joints = JointLimits(self.world)
@@ -179,31 +180,34 @@ class Judge:
         data = self.world.data
         if feet is None:
             feet = self._contacts.read()
-        truth = ground_truth(feet, minimum_force=self._least, reach=self.world.reach)
-        if truth.margin is not None:
-            self.margin_min = min(self.margin_min, truth.margin)
+        truth = ground_truth(feet, minimum_force=self._least, reach=self._reach)
+        _, true_zmp, ring, margin, points = truth
+        if margin is not None:
+            self.margin_min = min(self.margin_min, margin)
             if self.landings:
-                self.landings[-1].margin = min(self.landings[-1].margin, truth.margin)
+                self.landings[-1].margin = min(self.landings[-1].margin, margin)
         tilt = math.degrees(math.acos(min(1.0, self._torso.item(8))))
         self.tilt_max = max(self.tilt_max, tilt)
         for i, (told, true) in enumerate(zip(com.tolist(), self._center.tolist(), strict=True)):
             if not abs(told - true) <= self.estimate_error_max[i]:
                 self.estimate_error_max[i] = abs(told - true)
-        if zmp is not None and truth.zmp is not None:
-            self.zmp_error.append(math.dist(zmp, truth.zmp))
-        for side, points in zip(SIDES, truth.points, strict=True):
+        if zmp is not None and true_zmp is not None:
+            self.zmp_error.append(math.dist(zmp, true_zmp))
+        now = float(data.time)
+        for side, own in zip(SIDES, points, strict=True):
             last = self._landing[side]
-            if last is not None and len(points) > 2 and data.time - last.time <= self._settled:
-                last.area = max(last.area, _area(small_hull(points)))
+            if last is not None and len(own) > 2 and now - last.time <= self._settled:
+                alone = sum(map(len, points)) == len(own)  # the ring is this foot's
+                last.area = max(last.area, _area(ring if alone else small_hull(own)))
         if moved:
-            self.goal.hear(float(data.time), moved)
+            self.goal.hear(now, moved)
         for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=True):
             if force >= self.steps.enough:
                 x, y, _ = position.tolist()
                 self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
         self.joints.tick()
         if self.fall is None:
-            least, height = _FALLEN_HEIGHT * self.standing_height, self.height
+            least, height = self._lowest, self.height
             if tilt > _FALLEN_TILT:
                 self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
             elif height < least:

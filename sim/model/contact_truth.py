@@ -8,6 +8,7 @@ robot.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
@@ -15,8 +16,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.few_points import small_hull, small_margin
+from plantar.kernels.few_points import small_hull
 from plantar.kernels.foot_contacts import FootContacts
+from plantar.kernels.ground_reaction import ground_reaction
 
 __all__ = [
     "REACH",
@@ -299,19 +301,8 @@ def ground_truth(
     Returns:
         The truth, in the world frame.
     """
-    sums = np.zeros(7)
-    points: tuple[list[tuple[float, float]], ...] = tuple([] for _ in feet)
-    for foot, own in zip(feet, points, strict=True):
-        foot.add_to_ground(reach, sums, own)
-    fx, fy, fz, tx, ty, _, height = sums.tolist()
-    wrench = sums[:6]
-    ring = small_hull([p for own in points for p in own])
-    if not fz >= minimum_force:
-        return GroundTruth(wrench, None, ring, None, points)
-    if plane_height is None:
-        plane_height = height / fz
-    x, y = (plane_height * fx - ty) / fz, (plane_height * fy + tx) / fz
-    return GroundTruth(wrench, np.array([x, y]), ring, small_margin(ring, x, y), points)
+    height = math.nan if plane_height is None else plane_height
+    return GroundTruth(*ground_reaction(feet, height, minimum_force, reach))
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

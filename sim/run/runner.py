@@ -277,9 +277,11 @@ class Simulation:
         longest = _LONGEST * last
         tick_every = round(self.settings.period / world.period)
         frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
-        while k < min(last, longest):
+        skin_every, step_physics, update_physics = sensors.skin_every, self.step_physics, judge.update_physics
+        drive, moving_ground = servos.drive, bool(world.moving_ground)
+        while k < last and k < longest:
             feet = None
-            if k % sensors.skin_every == 0:
+            if k % skin_every == 0:
                 feet = sensors.read_skins(controller.proximity_sides, everything)
                 if log is not None:
                     log.skin(sensors.readings)
@@ -327,13 +329,13 @@ class Simulation:
                     film.add(sensors.readings)
                 else:
                     skipped["rendered_frames"] += 1
-            servos.drive()
+            drive()
             if pushes:
                 self.pusher.apply(world)
-            if world.moving_ground:
+            if moving_ground:
                 world.move_ground()
-            self.step_physics()
-            judge.update_physics()
+            step_physics()
+            update_physics()
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import few_points, foot_contacts, is_compiled, python_form
+from plantar.kernels import few_points, foot_contacts, ground_reaction, is_compiled, python_form
 
 REACH = 5e-4
 OWN = np.array([1, 0, 1, 0, 0], dtype=np.uint8)  # geoms 0 and 2 are the foot's
@@ -109,6 +109,38 @@ def test_the_ground_s_sums_are_numpy_s(seed):
     assert sums[3:6] == pytest.approx(2.0 * (np.cross(positions, forces) + torques).sum(axis=0), abs=1e-11)
     assert sums[6] == pytest.approx(2.0 * positions[:, 2] @ forces[:, 2], abs=1e-12)
     assert points == 2 * [(x, y) for x, y, _ in positions[carries | (gaps <= REACH)].tolist()]
+
+
+@pytest.mark.parametrize("height", [np.nan, 0.3])
+@settings(max_examples=40)
+@given(seeds)
+def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
+    forms = (foot_contacts, ground_reaction), (python_form("foot_contacts"), python_form("ground_reaction"))
+    one, other = (
+        module.ground_reaction([gathered(lists, seed), gathered(lists, seed + 1)], height, 1.0, REACH)
+        for lists, module in forms
+    )
+    assert one[0].tolist() == other[0].tolist()
+    assert (one[1] is None) == (other[1] is None)
+    assert one[1] is None or one[1].tolist() == other[1].tolist()
+    assert one[2:] == other[2:]
+    wrench, zmp, ring, margin, points = one
+    sums, together = np.zeros(7), []
+    for number, own in enumerate(points):
+        added = []
+        gathered(foot_contacts, seed + number).add_to_ground(REACH, sums, added)
+        assert own == added
+        together += added
+    assert wrench.tolist() == sums[:6].tolist()
+    assert ring == few_points.small_hull(together)
+    if zmp is None:
+        assert sums[2] < 1.0
+        assert margin is None
+        return
+    plane = sums[6] / sums[2] if np.isnan(height) else height
+    moment = sums[3:6] - np.cross([*zmp, plane], sums[:3])  # about the ZMP there is none but about the vertical
+    assert moment[:2] == pytest.approx(np.zeros(2), abs=1e-9 * np.abs(sums).max())
+    assert margin == few_points.small_margin(ring, *zmp)
 
 
 @settings(max_examples=60)

@@ -185,7 +185,7 @@ def test_a_threshold_of_minus_infinity_counts_every_finite_force():
 @pytest.mark.parametrize(
     ("force", "message"),
     [
-        (np.zeros(3), r"forces have shape \(3,\); expected \(frames, "),
+        (np.zeros(3), r"forces have shape \(3,\); expected \(..., "),
         (np.zeros((2, 3)), r"forces have shape \(2, 3\); expected"),
         ([["a"]], "forces are not numeric"),
     ],
@@ -243,3 +243,33 @@ def test_ground_planes_take_any_array_of_numbers():
         batch.ground_planes(SOLE, distance[:, 1:])
     with pytest.raises(InputError, match="tolerance of the ground plane"):
         batch.ground_planes(SOLE, distance, tolerance=0.0)
+
+
+@pytest.mark.parametrize("lead", [(), (1,), (3, 4), (2, 3, 2), (0, 5), (5, 0, 2)])
+@pytest.mark.parametrize("contiguous", [True, False])
+def test_dimensions_before_the_taxels_are_those_of_the_results(lead, contiguous):
+    """Environments, time and soles in any number: each frame is what it is alone."""
+    n = len(SOLE)
+    force = np.resize(recording(11, frames=12), (*lead, n))
+    if not contiguous:
+        force = np.asfortranarray(force)
+    flat = force.reshape(-1, n)
+    height = np.where(np.nan_to_num(force) > 0.0, 0.03, np.inf)
+    found, alone = loads(SOLE, force), loads(SOLE, flat)
+    polygons, hulls = support_polygons(SOLE, force, vertices=True), support_polygons(SOLE, flat, vertices=True)
+    planes, plain = batch.ground_planes(SOLE, height), batch.ground_planes(SOLE, height.reshape(-1, n))
+    pairs = [
+        (wrenches(SOLE, force), wrenches(SOLE, flat)),
+        (wrenches(SOLE, force, out=np.empty((*lead, 6))), wrenches(SOLE, flat)),
+        (found.vertical_force, alone.vertical_force),
+        *((getattr(found, name), getattr(alone, name)) for name in vars(alone)),
+        *((getattr(polygons, name), getattr(hulls, name)) for name in ("area", "centroid", "size")),
+        *((getattr(planes, name), getattr(plain, name)) for name in vars(plain)),
+    ]
+    for given_shape, of_frames in pairs:
+        assert given_shape.shape == (*lead, *of_frames.shape[1:])
+        np.testing.assert_array_equal(given_shape.reshape(of_frames.shape), of_frames)
+    for i, frame in enumerate(np.ndindex(*lead)):
+        assert polygons.polygon(*frame).tolist() == hulls.polygon(i).tolist()
+    with pytest.raises(IndexError, match="one a dimension"):
+        polygons.polygon(*[0] * (len(lead) + 1))
