@@ -1,0 +1,121 @@
+"""Activation, wrench, contact area and centre of pressure of forces in arrays of any library: torch, JAX, CuPy, numpy.
+
+Whatever follows the array API standard, and torch, stays in its own library, on its own device and with its own type of
+numbers; it is differentiated, compiled and batched as that library does. The sums are differentiable in the forces of
+the taxels that are active: which ones these are does not change with a small change of forces. On a CPU `plantar.batch`
+is faster.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from plantar.errors import ReadingError
+from plantar.layouts.layout import SoleLayout
+
+__all__ = ["ArrayLoads", "active", "loads"]
+
+
+class ArrayLoads(NamedTuple):
+    """What forces sum up to; "..." are their dimensions before the taxels.
+
+    Attributes:
+        wrench: Ground reaction wrench (..., 6) about the sole frame's origin in N and N m (T 4.23).
+        contact_area: Area (...) of the active cells in m^2 (T 4.22).
+        center_of_pressure: Position (..., 2) in the sole frame in m (T 4.21); NaN without load.
+    """
+
+    wrench: Any
+    contact_area: Any
+    center_of_pressure: Any
+
+
+def active(layout: SoleLayout, force: Any, threshold: float | None = None) -> Any:
+    """Which taxels are active (T 4.22): above the threshold and below the layout's force limit; a dead one never is.
+
+    Args:
+        layout: The sole, n taxels.
+        force: Normal forces (..., n) in N, an array of real floating point numbers.
+        threshold: Activation threshold in N; the layout's own where None.
+
+    Returns:
+        Mask (..., n) of the same library.
+
+    Raises:
+        ReadingError: If the forces have another shape, are no such numbers, or of a library without a namespace.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> active(layout, np.array([[0.0, 9.0], [np.nan, 9.0]]), threshold=1.0).tolist()
+        [[False, True], [False, True]]
+    """
+    _namespace(layout, force)
+    low = layout.force_threshold if threshold is None else float(threshold)
+    return (force > low) & (force < layout.force_limit)
+
+
+def loads(layout: SoleLayout, force: Any, threshold: float | None = None) -> ArrayLoads:
+    """Wrench, contact area and CoP (T 4.21-4.23).
+
+    Args:
+        layout: The sole, n taxels.
+        force: Normal forces (..., n) in N, an array of real floating point numbers.
+        threshold: Activation threshold in N; the layout's own where None.
+
+    Returns:
+        The sums, of the same library, device and type of numbers. The derivative of a CoP without load is 0.
+
+    Raises:
+        ReadingError: As `active`.
+
+    Example:
+        >>> from plantar import grid_layout
+        >>> layout = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.1, 0.1))
+        >>> loads(layout, np.array([10.0, 30.0])).center_of_pressure.round(3).tolist()
+        [0.125, 0.05]
+    """
+    xp = _namespace(layout, force)
+    on = active(layout, force, threshold)
+    # What is not active must not come into a product: 0 times NaN is NaN, and so is its derivative.
+    kept = xp.where(on, force, xp.zeros_like(force))
+    # Copies, since torch warns of arrays that are read-only.
+    columns = _constant(xp, np.array(layout.kernel.columns), force)
+    areas = _constant(xp, np.array(layout.kernel.areas)[:, None], force)
+    sums = kept @ columns
+    ones = xp.where(on, xp.ones_like(force), xp.zeros_like(force))
+    vertical = sums[..., 2:3]
+    carries = (vertical > 0.0) & (vertical < float("inf"))
+    whole = xp.where(carries, vertical, xp.ones_like(vertical))
+    position = sums[..., 6:8] / whole
+    nowhere = xp.full_like(position, float("nan"))
+    return ArrayLoads(sums[..., :6], (ones @ areas)[..., 0], xp.where(carries, position, nowhere))
+
+
+def _namespace(layout: SoleLayout, force: Any) -> Any:
+    """The functions of the library that an array is of."""
+    kind = type(force)
+    if hasattr(force, "__array_namespace__"):
+        xp = force.__array_namespace__()
+    elif kind.__module__.partition(".")[0] == "torch" and hasattr(force, "dtype"):
+        xp = sys.modules["torch"]  # its functions are called as the standard's, as far as they are used here
+    else:
+        raise ReadingError(f"forces are of type {kind.__name__}; expected an array of a library with a namespace")
+    if force.ndim < 1 or force.shape[-1] != len(layout):
+        raise ReadingError(f"forces have shape {tuple(force.shape)}; expected (..., {len(layout)})")
+    if "float" not in str(force.dtype):
+        raise ReadingError(f"forces are of type {force.dtype}; expected real floating point numbers")
+    return xp
+
+
+def _constant(xp: Any, values: Any, like: Any) -> Any:
+    """A constant of the sole beside forces: their library, type of numbers and device."""
+    if not hasattr(like, "__array_namespace__"):
+        return xp.as_tensor(values, dtype=like.dtype, device=like.device)
+    # Where a library has several devices, what is not on the default one has to be told; JAX moves it by itself.
+    made = xp.asarray(values, dtype=like.dtype)
+    there = getattr(like, "device", None)
+    return made if xp.__name__.startswith("jax") or there == made.device else xp.asarray(made, device=there)
