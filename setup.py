@@ -42,7 +42,16 @@ def extensions() -> list[Extension]:
 
 
 class BuildWherePossible(build_ext):
-    """Compiles each extension, or says that it could not: a missing compiler raises what `optional` does not catch."""
+    """Compiles each extension, or says that it could not: a missing compiler raises what `optional` does not catch.
+
+    One on each core, since they know nothing of each other.
+    """
+
+    def finalize_options(self) -> None:
+        """As many at once as there are cores, where no number was asked for."""
+        super().finalize_options()
+        if self.parallel is None:
+            self.parallel = os.cpu_count() or 1
 
     def build_extension(self, ext: Extension) -> None:
         """Compile one extension; a failure is no error."""
