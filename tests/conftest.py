@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from hypothesis import settings
 from plantar import SoleLayout, hex_layout
 
 # MuJoCo looks for it when it is first imported, and an introduced robot is drawn. What tests start says so itself.
-if "MUJOCO_GL" not in os.environ:
+if "MUJOCO_GL" not in os.environ and find_spec("mujoco") is not None:
     os.environ["MUJOCO_GL"] = "egl"
     import_module("mujoco")
     del os.environ["MUJOCO_GL"]
