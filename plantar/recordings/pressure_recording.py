@@ -29,6 +29,9 @@ __all__ = [
 RATES = (0.1, 1e5)
 """Lowest and highest rate in frames a second that is believed."""
 
+_GAP = 2.5
+"""Steps in time of more than so many usual ones are gaps, and tell nothing of the rate."""
+
 _LEAST_STEP = 1e-3
 """Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite."""
 
@@ -263,9 +266,10 @@ def _checked_times(
         usual = forward[np.abs(forward / np.median(forward) - 1.0) <= 0.5]
         measured = 1.0 / float(usual.mean())
     in_order = bool(np.isfinite(time).all() and (steps >= 0.0).all())
-    tied = in_order and measured is not None and float(np.mean(steps == 0.0)) > 0.1
-    if tied and measured:  # a clock that is coarser than the frames: several share a time
-        measured *= len(time) / (len(forward) + 1)
+    tied = in_order and measured is not None and bool((steps == 0.0).any())
+    if tied:  # a clock that is coarser than the frames, or frames that were written twice
+        without_gaps = forward[forward <= _GAP * np.median(forward)]
+        measured = (len(steps) - len(forward) + len(without_gaps)) / float(without_gaps.sum())
     rate = measured or stated
     if rate is None:
         raise FormatError("the frames have no times that increase, and no rate is stated")
@@ -278,8 +282,12 @@ def _checked_times(
     start = float(np.nanmedian(time - index / rate)) if np.isfinite(time).any() else 0.0
     grid = start + index / rate
     if tied:
-        warnings.append(f"frames share their times: taken from the rate of {rate:g} Hz")
-        return grid, rate, tuple(warnings)
+        if (np.abs(time - grid) <= 1.0 / rate + np.median(forward)).all():
+            warnings.append(f"frames share their times: taken from the rate of {rate:g} Hz")
+            return grid, rate, tuple(warnings)
+        count = int((steps == 0.0).sum())
+        warnings.append(f"{count} frame(s) have the time of the one before: put between it and the next")
+        return _apart(time, float(np.median(forward))), rate, tuple(warnings)
     off = ~(np.abs(time - grid) <= 0.5 / rate)
     if not off.any() or off.mean() <= 0.01:
         repaired = np.where(off, grid, time)
@@ -292,3 +300,14 @@ def _checked_times(
         return time, rate, tuple(warnings)
     warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz")
     return grid, rate, tuple(warnings)
+
+
+def _apart(time: NDArray[np.float64], usual: float) -> NDArray[np.float64]:
+    """Times (n,) of which none is that of the frame before: frames that share one are put evenly up to the next.
+
+    They take no more than the usual step in s each, as what follows may be a gap.
+    """
+    first = np.flatnonzero(np.diff(time, prepend=-np.inf) > 0.0)
+    count = np.diff(np.append(first, len(time)))
+    step = np.minimum(np.append(np.diff(time[first]), np.inf) / count, usual)
+    return np.asarray(time + (np.arange(len(time)) - np.repeat(first, count)) * np.repeat(step, count))
