@@ -52,6 +52,9 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         wanted = _wanted(channels)
         table = _numbers(path, lines, delimiter, channels, wanted, warnings)
     names = [channels[i] for i in wanted]
+    if len(table) > 1 and np.nanmedian(np.diff(table[:, 0])) >= 1.0:  # a frame a second is no gait
+        table[:, 0] *= 1e-3
+        warnings.append("the times rise by 1 and more a frame: ms are assumed")
     time, rate, notes = sampling(table[:, 0], None, options.rate_hz)
     size = _size(header, warnings)
     feet: dict[Side, FootRecording] = {}

@@ -23,7 +23,7 @@ from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_ins
 from plantar.formats.number_rows import number_rows
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
-from plantar.formats.text import blocks_of_lines, open_text
+from plantar.formats.text import blocks_of_lines, encoding_of, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -33,7 +33,7 @@ from plantar.sides import SIDES, Side
 __all__ = ["FORMAT"]
 
 
-_COLUMNS = re.compile(r"\s*time\s*\[\s*s(?:ecs?)?\s*\]", re.IGNORECASE)
+_COLUMNS = re.compile(r"\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?", re.IGNORECASE)
 _NUMBER = r"[-+]?\d+(?:[.,]\d*)?(?:[eE][-+]?\d+)?"
 _LABELS = re.compile(r"\s*(?:M[VP]P|x\[|y\[|area|electrical|mechanical|corner|time)", re.IGNORECASE)
 _CORNER = re.compile(r"\s*[xy]\[[0-3]\]\s")
@@ -47,9 +47,12 @@ _LATEST = 1e9
 
 
 def _recognises(head: bytes) -> bool:
-    text = head.decode("latin-1").lower()
-    columns = re.search(r"^\s*time\s*\[\s*s(?:ecs?)?\s*\]\s+\d+", text, re.MULTILINE) is not None
-    return columns and b"\0" not in head and ("pressure values" in text or "scanning rate" in text)
+    encoding = encoding_of(head)
+    if encoding != "utf-16" and b"\0" in head:
+        return False
+    text = head.decode(encoding, errors="replace").lower().replace("\r", "\n")
+    columns = re.search(r"^\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?[\s;,]+\d+", text, re.MULTILINE) is not None
+    return columns and ("pressure values" in text or "scanning rate" in text)
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:
@@ -59,12 +62,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         FormatError: If the file is not such an export, states an unknown unit, or holds no frames.
     """
     notes: list[str] = []
-    with open_text(path, "latin-1") as stream:
+    with open_text(path) as stream:
         lines = iter(stream)
-        header, columns = _take_header(path, lines)
+        header, columns, delimiter = _take_header(path, lines)
         text = "\n".join(header)
         sides = _sides(text, columns, options, notes)
-        rows, tail = _take_rows(path, lines, len(columns), [span for _, span in sides])
+        rows, tail = _take_rows(path, lines, delimiter, len(columns), [span for _, span in sides])
     warnings = [*rows.warnings, *notes]
     layout = options.layout
     unit = _unit(path, text, options, warnings)
@@ -96,14 +99,15 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     )
 
 
-def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int]]:
+def _take_header(path: Path, lines: Iterator[str]) -> tuple[list[str], list[int], str | None]:
+    """Lines before the row of column names, the cells of that, and the sign between its names; None for blanks."""
     header: list[str] = []
     for line in lines:
         if _COLUMNS.match(line):
             cells = re.findall(r"(?<![\w.])\d{1,9}(?![\w.])", _COLUMNS.sub("", line, count=1))
             if not cells:
                 raise FormatError(f"{path}: the row of column names lists no cells")
-            return header, [int(c) for c in cells]
+            return header, [int(c) for c in cells], next((d for d in ";," if line.count(d) >= len(cells)), None)
         header.append(line[:_LONGEST_FACT].rstrip("\n"))
         if len(header) > _LARGEST_HEADER:
             break
@@ -119,7 +123,9 @@ class _Rows:
     warnings: tuple[str, ...]
 
 
-def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[range]) -> tuple[_Rows, list[str]]:
+def _take_rows(
+    path: Path, lines: Iterator[str], delimiter: str | None, cells: int, spans: Sequence[range]
+) -> tuple[_Rows, list[str]]:
     """Frames up to the next section; also the lines after them that may give the cells' corners."""
     tail: list[str] = []
 
@@ -136,7 +142,7 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
     times, values = FrameTable(1, 0), [FrameTable(len(span), 0) for span in spans]
     bad, lost = 0, []
     for block in blocks_of_lines(frames(), max(1, min(_BLOCK, _BLOCK_VALUES // (cells + 1)))):
-        rows = _frames(block, cells)
+        rows = _frames(block, delimiter, cells)
         if not len(times):
             usual = sum(map(len, block)) // len(block)  # lines may be shorter; what is not written takes no memory
             expected = len(block) + path.stat().st_size // max(usual * 3 // 5, 2 * cells)
@@ -166,14 +172,14 @@ def _take_rows(path: Path, lines: Iterator[str], cells: int, spans: Sequence[ran
     return _Rows(times.rows[:, 0], [table.rows for table in values], tuple(warnings)), tail
 
 
-def _frames(block: list[str], cells: int) -> NDArray[np.float64]:
+def _frames(block: list[str], delimiter: str | None, cells: int) -> NDArray[np.float64]:
     """Numbers (lines, 1 + cells) of lines; NaN in each line that is not made of as many finite numbers."""
-    rows = number_rows(block, None, 1 + cells)
-    if rows is not None and (np.abs(rows[:, 0]) < _LATEST).all():
+    rows = number_rows(block, delimiter, 1 + cells)
+    if rows is not None and np.isfinite(rows).all() and (np.abs(rows[:, 0]) < _LATEST).all():
         return rows
     out = np.full((len(block), 1 + cells), np.nan)
     for i, line in enumerate(block):
-        row = _numbers(line.split(), cells)
+        row = _numbers(line.rstrip(f"{delimiter or ' '}\n").split(delimiter), cells)
         if row is not None:
             out[i] = row
     return out

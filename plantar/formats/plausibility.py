@@ -66,7 +66,8 @@ def doubts(recording: PressureRecording) -> list[str]:
 
 def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
     """What to say of cells at the end of their range, and of frames that are copies of those before."""
-    part = np.nan_to_num(foot.force[: max(20, _SEEN // foot.force.shape[1])])
+    measured = foot.force[: max(20, _SEEN // foot.force.shape[1])]
+    part = np.nan_to_num(measured)
     let_go(foot.force)
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
@@ -85,7 +86,7 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
             f"{clipped} cells of the {foot.side} foot stay at {highest / 1e3:.4g} kPa, the largest value: the end of "
             "the sensor's range? Forces and pressures would be larger"
         )
-    beside = np.maximum(value[:-2], value[2:])
+    beside = np.maximum(measured[:-2], measured[2:]) / foot.layout.areas  # NaN beside what was not measured
     alone = int(((value[1:-1] > _ALONE * beside) & (value[1:-1] > _HIGH)).sum())
     if alone and rate >= _QUICK:
         out.append(

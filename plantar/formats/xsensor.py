@@ -120,6 +120,8 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         shape = sensor.rows, sensor.columns
         values = sensor.of_frames(frames)
         lost = int(np.isnan(values).all(axis=1).sum())
+        if lost == frames:
+            raise FormatError(f"{path}: no frame of the {side} insole holds a number")
         if lost:
             warnings.append(f"{lost} frame(s) of the {side} insole are missing: they count as not measured")
         if sensor.damaged:
@@ -175,7 +177,10 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
         text = line.strip().strip("\ufeff")
         if not text.strip(",;\t "):
             continue
-        delimiter = ";" if ";" in text and "," not in text.split(";")[0] else ("\t" if "\t" in text else ",")
+        if ";" in text and "," not in text.split(";")[0]:
+            delimiter = ";"
+        elif "\t" in text or "," in text:  # a line without any of them, as SENSELS alone, tells nothing
+            delimiter = "\t" if "\t" in text else ","
         parts = [p.strip().strip('"') for p in text.split(delimiter)]
         key = parts[0].rstrip(":").strip()
         value = next((p for p in parts[1:] if p), "")

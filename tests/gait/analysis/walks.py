@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.formats.nominal_insole import nominal_insole
+from plantar.layouts.layout import SoleLayout
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 from plantar.sides import SIDES, Side
 
@@ -54,6 +55,7 @@ def made_walk(
     forefoot: float = 1.0,
     roll: Sequence[tuple[float, float]] = ((0.0, 0.15), (1.0, 0.85)),
     seed: int = 0,
+    layouts: Mapping[Side, SoleLayout] | None = None,
 ) -> MadeWalk:
     """A walk from heel to toe.
 
@@ -73,6 +75,7 @@ def made_walk(
         forefoot: Pressure of the front half relative to the hind half's.
         roll: Where the load is over the stance: shares of the stance, and of the sole's length from the heel.
         seed: Of noise and offsets.
+        layouts: Other soles than 99-cell insoles, from the heel at x = 0 to the toes.
     """
     random = np.random.default_rng(seed)
     end = 1.0 + (strides + 1.2) * stride + 2.0 * slow_ends * stance * stride
@@ -81,7 +84,7 @@ def made_walk(
     strikes: dict[Side, NDArray[np.float64]] = {}
     lifts: dict[Side, NDArray[np.float64]] = {}
     for side in SIDES:
-        layout = nominal_insole("x", side)
+        layout = nominal_insole("x", side) if layouts is None else layouts[side]
         length = float(layout.outline[:, 0].max())
         begin = 0.5 + (0.5 * stride if side == "right" else 0.0) + np.arange(strides) * stride
         lasts = np.full(strides, stance * stride)

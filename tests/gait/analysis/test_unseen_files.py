@@ -1,0 +1,111 @@
+"""Files as they come from elsewhere: whatever locale, clock or transfer made of them, the walk in them is the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gait.analysis.analyse import Analysis, analyse
+from plantar.formats.moticon_insole import moticon_insole
+from plantar.sides import SIDES
+
+from .vendor_texts import Writing, matrix_insoles, moticon, pedar, tekscan, xsensor
+from .walks import MadeWalk, made_walk
+
+WALK = made_walk(strides=3)
+PLAIN = Writing()
+
+
+def analysed(path: Path, content: bytes) -> Analysis:
+    path.write_bytes(content)
+    return analyse(path)
+
+
+def check(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> None:
+    """Heel strikes within 20 ms, toe offs within 35 ms, cadence within 0.3 %, forces exact."""
+    assert set(found.feet) == set(sides)
+    for side in sides:
+        contacts = [c for c in found.feet[side].contacts if c.complete]
+        assert len(contacts) == len(walk.strikes[side])
+        assert np.abs([c.heel_strike for c in contacts] - walk.strikes[side]).max() < 0.020
+        assert np.abs([c.toe_off for c in contacts] - walk.lifts[side]).max() < 0.035
+        peak = max(step["peak_force_N"] for step in found.feet[side].steps)
+        assert peak == pytest.approx(walk.recording.feet[side].vertical_force.max(), rel=2e-3)
+    cadence = 120.0 / np.mean([np.diff(walk.strikes[side]) for side in sides])
+    assert found.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(cadence, rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"comma": True, "sep": ";", "end": "\r\n", "encoding": "latin-1"},
+        {"comma": True, "encoding": "utf-16", "unit": "n/cm2"},
+        {"sep": ",", "encoding": "utf-8-sig", "unit": "psi"},
+        {"sep": "   ", "end": "\r", "short": True},
+        {"sides": ("right",)},
+    ],
+    ids=str,
+)
+def test_pedar(tmp_path: Path, changes: dict) -> None:
+    how = replace(PLAIN, **changes)
+    check(analysed(tmp_path / "walk.asc", pedar(WALK, how)), WALK, how.sides)
+
+
+@pytest.mark.parametrize("rate", [30.0, 200.0])
+def test_a_clock_of_hundredths(tmp_path: Path, rate: float) -> None:
+    walk = made_walk(strides=3, rate=rate)
+    check(analysed(tmp_path / "walk.asc", pedar(walk, replace(PLAIN, decimals=2, short=True))), walk)
+
+
+@pytest.mark.parametrize("short", [False, True])
+@pytest.mark.parametrize("every", [3, 10, 150, 0])
+def test_a_clock_that_stands_still_now_and_then(tmp_path: Path, every: int, short: bool) -> None:
+    times = WALK.recording.time.copy()
+    held = np.arange(5, len(times), every) if every else np.random.default_rng(0).integers(1, len(times), 60)
+    times[held] = times[held - 1]
+    found = analysed(tmp_path / "walk.asc", pedar(WALK, replace(PLAIN, short=short), times=np.sort(times)))
+    check(found, WALK)
+    assert any("time" in warning for warning in found.metrics["warnings"])
+
+
+@pytest.mark.parametrize("every", [1, 10, 150, 0])
+def test_frames_that_were_written_twice(tmp_path: Path, every: int) -> None:
+    n = len(WALK.recording.time)
+    again = np.arange(0, n, every) if every else np.random.default_rng(0).choice(n, n // 10, replace=False)
+    frames = np.sort(np.concatenate([np.arange(n), again])).tolist()
+    found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, frames=frames))
+    check(found, WALK)
+    assert any("time" in warning for warning in found.metrics["warnings"])
+
+
+def test_frames_that_were_lost(tmp_path: Path) -> None:
+    kept = np.flatnonzero(np.random.default_rng(0).random(len(WALK.recording.time)) > 0.2).tolist()
+    found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, frames=kept))
+    check(found, WALK)
+    assert any("not evenly spaced" in warning for warning in found.metrics["warnings"])
+
+
+@pytest.mark.parametrize(
+    "changes", [{"sep": ",", "encoding": "utf-16"}, {"sep": ";", "comma": True, "end": "\r\n"}], ids=str
+)
+def test_tekscan(tmp_path: Path, changes: dict) -> None:
+    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(60, 21, 5.08e-3))
+    check(analysed(tmp_path / "walk.asf", tekscan(walk, replace(PLAIN, sides=("right",), **changes))), walk, ("right",))
+
+
+@pytest.mark.parametrize("changes", [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True}, {"sep": "\t"}], ids=str)
+def test_xsensor(tmp_path: Path, changes: dict) -> None:
+    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(31, 11, 8.6e-3))
+    check(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
+
+
+@pytest.mark.parametrize(
+    "changes", [{"sep": ";", "comma": True, "encoding": "utf-16"}, {"seconds": 1e-3, "decimals": 0}], ids=str
+)
+def test_moticon(tmp_path: Path, changes: dict) -> None:
+    walk = made_walk(strides=3, layouts={side: moticon_insole(7, side) for side in SIDES})
+    check(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2", **changes))), walk)

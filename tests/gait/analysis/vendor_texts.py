@@ -1,0 +1,135 @@
+"""Walks written as vendors' programs write them, in the variations that locale, operator and transfer make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from plantar.formats.grid_cells import grid_cells
+from plantar.formats.units import PASCALS
+from plantar.layouts.layout import SoleLayout
+from plantar.sides import SIDES, Side
+
+from .walks import MadeWalk
+
+
+@dataclass(frozen=True)
+class Writing:
+    """How a text is written.
+
+    Attributes:
+        sep: The sign between numbers.
+        comma: Decimal commas.
+        end: Line ends.
+        encoding: Of the text.
+        unit: Of the pressures, by its plain name.
+        sides: Feet that are written.
+        short: Leave out all of a header that can be left out.
+        decimals: Of times in s.
+        seconds: Length in s of the unit of the times that the file does not name.
+    """
+
+    sep: str = "\t"
+    comma: bool = False
+    end: str = "\n"
+    encoding: str = "utf-8"
+    unit: str = "kpa"
+    sides: tuple[Side, ...] = SIDES
+    short: bool = False
+    decimals: int = 5
+    seconds: float = 1.0
+
+    def number(self, value: float, decimals: int = 5) -> str:
+        """A number without zeros at its end."""
+        text = f"{value:.{decimals}f}"
+        text = text.rstrip("0").rstrip(".") if "." in text else text
+        return text.replace(".", ",") if self.comma else text
+
+    def row(self, values: Sequence[float]) -> str:
+        """Numbers in a row."""
+        return self.sep.join(self.number(v) for v in values)
+
+    def bytes(self, lines: Sequence[str]) -> bytes:
+        """The text."""
+        return (self.end.join(lines) + self.end).encode(self.encoding)
+
+
+def _pressures(walk: MadeWalk, side: Side, how: Writing) -> NDArray[np.float64]:
+    foot = walk.recording.feet[side]
+    assert foot.layout is not None
+    return foot.force / (foot.layout.areas * PASCALS[how.unit])
+
+
+def pedar(walk: MadeWalk, how: Writing, times: NDArray | None = None, frames: Sequence[int] | None = None) -> bytes:
+    """A pedar export; with other times than the walk's, or some of its frames, perhaps twice."""
+    rate, time = walk.recording.rate_hz, walk.recording.time if times is None else times
+    head = ["sensor type:  x-1865l-1870r-pxf306-11mar2021"]
+    if not how.short:
+        head = ["file name: Müller.sol", *head, f"total time [secs]:  9\tscanning rate [Hz]:  {how.number(rate)}"]
+        head += [f"{side} insole: {','.join(map(str, range(1, 100)))}," for side in how.sides]
+    names = how.sep.join(["time[secs]", *(str(c) for _ in how.sides for c in range(1, 100))])
+    table = np.hstack([_pressures(walk, side, how) for side in how.sides])
+    rows = [
+        how.number(time[i], how.decimals) + how.sep + how.row(table[i])
+        for i in (range(len(time)) if frames is None else frames)
+    ]
+    return how.bytes([*head, f"pressure values in  {how.unit}", "", names, *rows])
+
+
+def matrix_insoles(rows: int, columns: int, pitch: float) -> dict[Side, SoleLayout]:
+    """Rounded insoles in matrices of square cells of a pitch in m."""
+    down, across = np.mgrid[0:rows, 0:columns]
+    round_ = ((2 * across - columns + 1) / columns) ** 2 + ((2 * down - rows + 1) / rows) ** 4 < 1.0
+    return {side: grid_cells(round_, pitch, pitch, side=side, name="made", threshold=1e3) for side in SIDES}
+
+
+def _matrices(walk: MadeWalk, side: Side, how: Writing, cells: int) -> NDArray[np.float64]:
+    """Pressures (n, cells) of a whole matrix; NaN where there is no cell."""
+    layout = walk.recording.feet[side].layout
+    assert layout is not None
+    out = np.full((len(walk.recording.time), cells), np.nan)
+    out[:, layout.ids - 1] = _pressures(walk, side, how)
+    return out
+
+
+def tekscan(walk: MadeWalk, how: Writing, rows: int = 60, columns: int = 21) -> bytes:
+    """A Tekscan export of one foot."""
+    side, pitch = how.sides[0], how.number(5.08)
+    out = ["DATA_TYPE MOVIE", f"FILENAME {side}.fsx", f"ROWS {rows}", f"COLS {columns}", f"ROW_SPACING {pitch} mm"]
+    out += [f"COL_SPACING {pitch} mm", f"SECONDS_PER_FRAME {how.number(1 / walk.recording.rate_hz)}"]
+    out += [f"UNITS {how.unit}", "ASCII_DATA @@", ""]
+    for i, frame in enumerate(_matrices(walk, side, how, rows * columns).reshape(-1, rows, columns)):
+        out.append(f"Frame {i + 1}")
+        out += [how.sep.join("B" if np.isnan(v) else how.number(v) for v in row) for row in frame] + [""]
+    return how.bytes(out)
+
+
+def xsensor(walk: MadeWalk, how: Writing, rows: int = 31, columns: int = 11) -> bytes:
+    """An XSENSOR export."""
+    both = {s: _matrices(walk, s, how, rows * columns).reshape(-1, rows, columns) for s in how.sides}
+    out = [f"Units:{how.sep}{how.unit}"]
+    for i, time in enumerate(walk.recording.time):
+        out += [f"FRAME{how.sep}{i}", f"TIME{how.sep}08:21:{time:06.3f}"]
+        for side in how.sides:
+            facts = {"SENSOR": f"HX {side}", "Rows": rows, "Columns": columns, "Sensel Width (cm)": how.number(0.86)}
+            facts |= {"Sensel Height (cm)": how.number(0.86)}
+            out += [f"{name}{how.sep}{value}" for name, value in facts.items()] + ["SENSELS"]
+            out += [how.row(row) for row in np.nan_to_num(both[side][i])]
+    return how.bytes(out)
+
+
+def moticon(walk: MadeWalk, how: Writing) -> bytes:
+    """A Moticon export."""
+    of_foot = [*(f"pressure {i + 1}[N/cm2]" for i in range(16)), "total force[N]"]
+    names = [f"{side} {name}" for side in how.sides for name in of_foot]
+    out = ["# Size: 7", "# " + how.sep.join(["time", *names])]
+    tables = [
+        table for s in how.sides for table in (_pressures(walk, s, how), walk.recording.feet[s].vertical_force[:, None])
+    ]
+    table = np.hstack(tables)
+    for time, row in zip(walk.recording.time / how.seconds, table, strict=True):
+        out.append(how.number(time, how.decimals) + how.sep + how.row(row))
+    return how.bytes(out)
