@@ -31,6 +31,7 @@ class FootContacts:
     def _make_room(self, room):
         """Room for so many contacts; those that are there are forgotten."""
         self.room = room
+        self.size = 0
         self.ids = np.empty((room, 2), dtype=np.int32)
         self.vectors = np.empty((3 * room, 3))
         self.gaps = np.empty(room)
