@@ -200,6 +200,10 @@ def _bars_row(name: str, cells: Sequence[str], bars: Sequence[tuple[float, str]]
 _UNITS = {"steps": "", "largest difference": "\u00a0mm"}
 
 
+def _figure(value: float) -> str:
+    return f"{value:.0f}" if value == round(value) else number(value)
+
+
 def _papers(told: Mapping[str, Any]) -> str:
     rows = told.get("experiments", ())
     if not rows:
@@ -212,18 +216,13 @@ def _papers(told: Mapping[str, Any]) -> str:
             lost = "fell" if one["fell"] else "" if one["completed"] else "not completed"
             ends = ["fell" if one["printed_fell"] else "", lost]
             figures = [
-                f"{'–' if value is None else number(value) + unit}{f', {end}' if end else ''}"
+                f"{'–' if value is None else _figure(value) + unit}{f', {end}' if end else ''}"
                 for value, end in zip((printed, ours), ends, strict=True)
             ]
-            cells = [
-                html.escape(one["robot"]),
-                html.escape(name),
-                *figures,
-                html.escape(one["source"].replace(" ", "\u00a0")),
-            ]
+            cells = [*figures, html.escape(one["source"].replace(" ", "\u00a0"))]
             bars = [(printed / most, "other"), ((ours or 0.0) / most, "ours")]
-            lines.append(_bars_row(html.escape(one["what"]), cells, bars))
-    head = ("experiment", "robot", "figure", "paper", "here", "where", "paper, here")
+            lines.append(_bars_row(html.escape(f"{one['what']}, {one['robot']}: {name}"), cells, bars))
+    head = ("experiment", "paper", "here", "where", "paper, here")
     return (
         "<p>The papers' experiments, each run once here on a seed that nothing was tuned on. The papers' figures are "
         "of real robots, measured by their ankles; ours are of a simulation, and the true ground forces within 50 ms "
