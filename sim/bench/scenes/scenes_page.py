@@ -72,8 +72,8 @@ def scenes_page(rows: Sequence[SceneRow], verdicts: Sequence[KnobVerdict]) -> st
 _HEAD = """# Run time against error of whole scenes
 
 Written by `plantar bench scenes -o DIR`; goes on where it was left, from `scene_runs.csv`. Each row changes one thing
-of a scene and runs the same walk. Rows keep the times of the program that ran them: begin in another folder where it has
-changed since.
+of a scene and runs the same walk. Rows keep the times of the program that ran them: begin in another folder where it
+has changed since.
 
 ![Run time against error](scenes.png)
 
