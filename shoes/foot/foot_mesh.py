@@ -17,6 +17,7 @@ from shoes.foot.orientation import (
     AXES,
     Axis,
     check_one_body,
+    check_upright,
     flat_share,
     forward_axis,
     levelled,
@@ -129,8 +130,8 @@ def foot_from_triangles(
         "where": where, "mesh_side": mesh_side, "sole_z": sole_z, "forward": forward, "sole_band": sole_band,
     }  # fmt: skip
     if up is not None:
-        turned = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
-        return _standing(name, triangles @ rotation_up(up).T, notes=notes + turned, **settings)
+        given = [f"the mesh's {up} axis points up, as given"] if up != "z" else []
+        return _standing(name, triangles @ rotation_up(up).T, notes=notes + given, up_given=True, **settings)
     try:
         return _standing(name, triangles, notes=notes, **settings)
     except FootError as error:
@@ -153,6 +154,7 @@ def _standing(
     forward: Axis | None,
     sole_band: float,
     notes: list[str],
+    up_given: bool = False,
 ) -> Foot:
     """The foot from triangles in mm with z up."""
     notes = list(notes)
@@ -160,6 +162,7 @@ def _standing(
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
+    upright = triangles
     axis = forward
     if axis is None:
         check_one_body(triangles, where)
@@ -194,6 +197,8 @@ def _standing(
         notes.append("the mesh's origin lies far from the sole: the layout's origin is the middle of the sole instead")
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
+    if not up_given and sole_z is None:
+        notes += check_upright(upright, where)
     support = touching(lifted, _TOUCHING).intersection(sole)
     return Foot(
         name,

@@ -16,6 +16,7 @@ __all__ = [
     "AXES",
     "Axis",
     "check_one_body",
+    "check_upright",
     "flat_share",
     "forward_axis",
     "levelled",
@@ -37,6 +38,10 @@ _NEAR = 1.0  # mm
 _MANY = 100_000  # points, above which the lowest in each column are looked at
 _COLUMN = 1.0  # mm
 _RESTS = 0.3  # share of the silhouette that one plane of the hull must have to be what the foot rests on
+_BAND, _DEEP = 5.0, 2.0  # mm: how far what lies below reaches up, and a face on a side inwards
+_SIDE = 1.5  # of the face below: a face on a side that is so much larger is the sole
+_SLANTED = "a slanted one"
+_UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
 _CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
 _BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
@@ -141,6 +146,77 @@ def levelled(triangles: Array) -> tuple[Array, float]:
     k = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
     turn = np.eye(3) + math.sin(tilt) * k + (1.0 - math.cos(tilt)) * k @ k
     return np.asarray(triangles @ turn.T), math.degrees(tilt)
+
+
+def check_upright(triangles: Array, where: str) -> list[str]:
+    """Refuse a foot that lies on its side: one that could stand on a face much larger than what lies below.
+
+    Faces are compared by the hull of what lies near them: along the axes, and along the largest plane of the
+    convex hull. Faces above are left out, since a foot's deck may be larger than its sole.
+
+    Args:
+        triangles: Triangles in mm with z taken to point up.
+        where: Name of the file, for the message.
+
+    Returns:
+        A note where a side is about as large.
+
+    Raises:
+        FootError: If a face on a side is larger by half.
+    """
+    points = triangles.reshape(-1, 3)
+    if len(points) > _MANY:
+        _, first = np.unique(corner_numbers(points * (1e-3 / _COLUMN)), return_index=True)
+        points = points[first]
+    below = _face_area(points, _direction("-z"), _BAND)
+    sides = [(_face_area(points, -_direction(axis), _DEEP), f"{axis} up") for axis in AXES[:4]]
+    sides += [(_face_area(points, n, _DEEP), _SLANTED) for n in _largest_plane(points) if _is_face(triangles, n)]
+    area, which = max(sides)
+    if area > _SIDE * below:
+        raise FootError(
+            f"{where}: the foot seems to lie on its side: {0.01 * below:.0f} cm2 lie below, and {0.01 * area:.0f} cm2 "
+            f"on another side ({which}); give the axis that points up ({', '.join(AXES)}), or level the mesh"
+        )
+    if area > below:
+        return [
+            f"another side of the foot is as large as what lies below ({which}); look whether it stands as it should"
+        ]
+    return []
+
+
+def _is_face(triangles: Array, normal: Array) -> bool:
+    """Whether faces of the surface fill a plane of its hull by a share; over what juts out there are none."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    depth = triangles @ normal
+    near = (depth.max() - depth.min(axis=1) < _NEAR) & (cross @ normal > _SAME_PLANE * np.linalg.norm(cross, axis=1))
+    own = 0.5 * float(np.linalg.norm(cross[near], axis=1).sum())
+    return own > _RESTS * _face_area(triangles.reshape(-1, 3), normal, _DEEP)
+
+
+def _face_area(points: Array, outward: Array, deep: float) -> float:
+    """Area in mm^2 of the hull of what lies within so many mm of the farthest point in a direction."""
+    depth = points @ outward
+    near = points[depth > depth.max() - deep]
+    across = np.linalg.svd(outward[None])[2][1:]
+    return float(convex_outline(near @ across.T).area)
+
+
+def _largest_plane(points: Array) -> list[Array]:
+    """Outward normal (3,) of the largest plane of the convex hull that does not face upwards; none of a flat body."""
+    with optional_library("scipy", "shoes"):
+        from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return []
+    normals = hull.equations[:, :3]
+    corners = points[hull.simplices]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    area[normals[:, 2] > _UPWARD] = 0.0
+    likely = np.argsort(-area, kind="stable")[:12]
+    same = [float(area[normals @ normals[i] > _SAME_PLANE].sum()) for i in likely]
+    return [normals[likely[int(np.argmax(same))]]]
 
 
 def check_one_body(triangles: Array, where: str) -> None:

@@ -13,6 +13,7 @@ from plantar.errors import FootError
 from shoes.foot.orientation import (
     AXES,
     check_one_body,
+    check_upright,
     flat_share,
     forward_axis,
     levelled,
@@ -101,3 +102,18 @@ def test_two_feet_are_told_from_a_foot_and_a_loose_part(box: Shape) -> None:
     check_one_body(np.concatenate([foot, box((160, 170), (-20, 20), (0, 20))]), "a.stl")
     with pytest.raises(FootError, match="holds 2 bodies apart from each other, two feet maybe"):
         check_one_body(np.concatenate([foot, foot + np.array([0.0, 120.0, 0.0])]), "a.stl")
+
+
+def test_a_foot_that_lies_on_its_side_is_refused_and_a_slender_one_is_not(box: Shape) -> None:
+    foot = np.concatenate([box((-80, 150), (-45, 45), (0, 40)), box((-20, 20), (-20, 20), (40, 70))])
+    assert check_upright(foot, "foot") == []
+    for up in ("x", "-x", "y", "-y"):
+        with pytest.raises(FootError, match=f"seems to lie on its side: .* {'xy'['xy'.index(up[-1])]} up"):
+            check_upright(foot @ rotation_up(up), "foot")
+    slanted = trimesh.transformations.rotation_matrix(np.radians(40.0), [1, 0, 0])[:3, :3]
+    with pytest.raises(FootError, match="a slanted one"):
+        check_upright(foot @ slanted.T, "foot")
+    slender = np.concatenate([box((-80, 170), (-12.5, 12.5), (0, 20)), box((-10, 10), (-10, 10), (15, 60))])
+    assert check_upright(slender, "foot") == []
+    deck = np.concatenate([box((-60, 90), (-35, 35), (0, 20)), box((-80, 150), (-60, 60), (20, 40))])
+    assert check_upright(deck, "foot") == []
