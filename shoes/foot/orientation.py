@@ -171,7 +171,7 @@ def check_upright(triangles: Array, where: str) -> list[str]:
     below = _face_area(points, _direction("-z"), _BAND)
     sides = [(_face_area(points, -_direction(axis), _DEEP), f"{axis} up") for axis in AXES[:4]]
     sides += [(_face_area(points, n, _DEEP), _SLANTED) for n in _largest_plane(points) if _is_face(triangles, n)]
-    area, which = max(sides)
+    area, which = max(sides, key=lambda side: round(side[0]))  # of equal ones an axis
     if area > _SIDE * below:
         raise FootError(
             f"{where}: the foot seems to lie on its side: {0.01 * below:.0f} cm2 lie below, and {0.01 * area:.0f} cm2 "
