@@ -51,7 +51,9 @@ class ShoeParameters:
     rib: float = _length(2.4, 0.8, 8.0, "wall between two pockets, centred on the border of the cells")
     border: float = _length(2.0, 0.5, 20.0, "sole beyond the outermost cells")
     scribe: float = _length(0.4, 0.0, 1.5, "depth of the groove in the ribs that marks the border of the cells")
-    port_width: float = _length(6.0, 0.0, 20.0, "gap in a rib where the cable passes to the next taxel; 0 leaves none")
+    port_width: float = _length(
+        6.0, 0.0, 20.0, "gap in a rib where the cable passes to the next taxel; 0: no ways for a cable at all"
+    )
     clearance: float = _length(0.5, 0.0, 5.0, "gap between foot and wall (printer tolerance)")
     rim_height: float = _length(12.0, 2.0, 60.0, "wall above the face the foot stands on")
     rim_thickness: float = _length(3.0, 0.8, 15.0, "wall around the foot; strengthen may raise it")

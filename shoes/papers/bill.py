@@ -65,7 +65,8 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
             )
         )  # fmt: skip
     cut = int((build.fit.shares < 1.0 - 1e-6).sum())
-    note = f"in {len(plan.connectors)} patch(es)" + (f"; {cut} of them trimmed at the rim" if cut else "")
+    patches = f"in {len(plan.connectors)} patch(es)" if plan.connectors else "wired by themselves"
+    note = patches + (f"; {cut} of them trimmed at the rim" if cut else "")
     height = p.taxel_protrusion + p.pocket_depth
     parts.append(
         Part("taxel", len(shoe.layout), "skin", f"{build.fit.cell_area:g} mm2 x {height:g} mm", weights.skin, note)
@@ -73,16 +74,9 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))
-    parts.append(
-        Part(
-            "cable",
-            len(plan.connectors),
-            "flat",
-            f"{_cable(shoe):.0f} mm or longer",
-            None,
-            "patch to heel, in the channel",
-        )
-    )
+    if plan.connectors:
+        length = f"{_cable(shoe):.0f} mm or longer"
+        parts.append(Part("cable", len(plan.connectors), "flat", length, None, "patch to heel, in the channel"))
     parts += _holding(build, high_y - low_y)
     return parts
 

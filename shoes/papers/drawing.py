@@ -83,9 +83,10 @@ def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
     centres = to_mm(shoe.layout.positions[:, :2])
     for i, j in plan.route:
         axes.plot(*centres[[i, j]].T, color=COLOURS["active"], lw=0.8)
-    starts = centres[list(plan.connectors)]
-    axes.plot(*starts.T, "s", color=COLOURS["cop"], ms=4, label="connector and cable")
-    axes.plot([starts[0, 0], plan.heel.x], [starts[0, 1], plan.heel.y], color=COLOURS["cop"], lw=1.2)
+    if plan.connectors:
+        starts = centres[list(plan.connectors)]
+        axes.plot(*starts.T, "s", color=COLOURS["cop"], ms=4, label="connector and cable")
+        axes.plot([starts[0, 0], plan.heel.x], [starts[0, 1], plan.heel.y], color=COLOURS["cop"], lw=1.2)
     flip = np.array([1.0, 1.0 if shoe.side == "left" else -1.0])
     axes.plot(*_closed(ring(plan.contact)).T, color=colour, lw=2.0, label="contact face (pad)")
     axes.plot(*_closed(ring(plan.rim)).T, color=colour, lw=0.8, label="wall")

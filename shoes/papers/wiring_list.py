@@ -27,7 +27,8 @@ def wiring_text(shoes: tuple[Shoe, ...]) -> str:
 
     Returns:
         The text, a header first: of each cell its patch, place, area, how many hops it is from the connector, the cell
-        that its cable comes from (empty for a connector's) and the middle of the port between the two.
+        that its cable comes from (empty for a connector's) and the middle of the port between the two. Of cells without
+        ways for a cable only place and area.
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -40,13 +41,13 @@ def wiring_text(shoes: tuple[Shoe, ...]) -> str:
         before: dict[int, int] = {}
         for i, j in plan.route:  # a tree, from the connectors outwards
             patch[j], hop[j], before[j] = patch[i], hop[i] + 1, i
-        for j in sorted(hop, key=lambda k: (patch[k], hop[k], ids[k])):
+        for j in sorted(range(len(ids)), key=lambda k: (patch.get(k, 0), hop.get(k, 0), ids[k])):
             x, y = centres[j].round(3).tolist()
             port: list[Any] = ["", "", ""]
             if j in before:
                 port = [ids[before[j]], *plan.shared_edge(before[j], j).mean(axis=0).round(3).tolist()]
             area = round(1e6 * float(shoe.layout.areas[j]), 2)
-            writer.writerow([shoe.side, ids[j], patch[j], x, y, area, hop[j], *port])
+            writer.writerow([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port])
     return out.getvalue()
 
 

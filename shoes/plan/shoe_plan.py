@@ -44,6 +44,7 @@ class ShoePlan:
         pockets: Taxel pockets: the cells moved in by half a rib.
         route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
         connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
+            Empty where there are no ways for a cable.
         heel: Where the cable leaves the shoe.
         layout: The sole layout, in m.
         notes: What was decided.
@@ -149,6 +150,9 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     layout = _layout(contact, fit, name or foot.name)
     heel, note = find_heel(rim, outline, parameters)
     connectors, route = _route(layout, (heel.x, heel.y))
+    if parameters.port_width <= 0.0:
+        heel, connectors, route = replace(heel, board=False), (), ()
+        note = "no ports, channel or board for a cable (port_width 0): the cells are to be wired by themselves"
     notes = () if note is None else (note,)
     return ShoePlan("left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes)
 

@@ -56,13 +56,15 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
         parameters: Dimensions.
 
     Returns:
-        Shapely polygons.
+        Shapely polygons; none without connectors.
     """
     import shapely
 
+    if not plan.connectors:
+        return []
     parts = []
     width = parameters.port_width
-    for i, j in plan.route if width > 0.0 else ():
+    for i, j in plan.route:
         edge = plan.shared_edge(i, j)
         middle, across = edge.mean(axis=0), edge[1] - edge[0]
         length = math.hypot(*across)

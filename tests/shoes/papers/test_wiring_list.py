@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from collections import Counter
 from pathlib import Path
 
@@ -12,8 +13,9 @@ import pytest
 import shapely
 import trimesh
 
-from shoes import ShoeReport
+from shoes import Foot, ShoeParameters, ShoeReport, build_shoe, export_shoe
 from shoes.foot.mesh_file import read_mesh
+from shoes.plan.wiring import cable_outlines, hole_outline
 from shoes.solid.pad import taxel_surfaces
 
 
@@ -68,3 +70,37 @@ def test_the_assembly_holds_all_parts_by_name_in_their_places(exported: tuple[Sh
     assert sum(t.volume for t in taxels) == pytest.approx(
         cells * p.taxel_protrusion + pockets * p.pocket_depth, rel=1e-6
     )
+
+
+def test_cells_that_are_wired_by_themselves_have_no_route(small_foot: Foot) -> None:
+    build = build_shoe(small_foot, parameters=ShoeParameters(port_width=0.0), layout_only=True)
+    assert any("port_width 0" in note for note in build.notes)
+    for shoe in build.shoes:
+        assert shoe.plan.connectors == shoe.plan.route == ()
+        assert not shoe.plan.heel.board
+        assert cable_outlines(shoe.plan, build.parameters) == []
+        assert hole_outline(shoe.plan, build.parameters).is_empty
+
+
+@pytest.mark.long
+def test_cells_that_are_wired_by_themselves_have_no_ways_for_a_cable_in_any_file(
+    small_foot: Foot, tmp_path: Path
+) -> None:
+    build = build_shoe(small_foot, side="left", parameters=ShoeParameters(port_width=0.0))
+    report = export_shoe(build, tmp_path)
+    assert report.holds
+    shoe = build.shoes[0]
+    with (tmp_path / "wiring.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(shoe.layout)
+    assert {r[k] for r in rows for k in ("patch", "hop", "from_cell", "port_x_mm")} == {""}
+    told = json.loads((tmp_path / "layout_left.json").read_text())["shoe"]
+    assert told["connectors"] == told["cable_route"] == []
+    assert report.as_dict()["patches"] == 0
+    parts = (tmp_path / "parts.csv").read_text()
+    assert "cable" not in parts
+    assert "board" not in parts
+    mesh, height = trimesh.load(tmp_path / "shoe_left.stl"), build.parameters.ceiling - 0.1
+    cut = trimesh.intersections.mesh_plane(mesh, [0, 0, 1], [0, 0, height])[..., :2]
+    rings = shapely.polygonize([shapely.union_all(shapely.linestrings(cut), grid_size=1e-4)]).geoms
+    assert len(rings) == len(shoe.layout) + 1  # the plate, and each pocket closed all round
