@@ -59,7 +59,7 @@ def shoe(
         Path | None,
         Argument(
             metavar="[FOOT]",
-            help="Mesh of the foot (.stl .obj .ply .off .3mf .step), robot's model (.xml .urdf, with --body), "
+            help="Mesh of the foot (.stl .obj .ply .off .dae .3mf .step), robot's model (.xml .urdf, with --body), "
             "or outline of its sole (.dxf .svg .geojson).",
             show_default=False,
         ),

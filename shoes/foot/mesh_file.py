@@ -1,4 +1,4 @@
-"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY and OFF through trimesh, STEP through OpenCascade.
+"""Triangle meshes from files: STL, OBJ and 3MF read here, PLY, OFF and DAE through trimesh, STEP through OpenCascade.
 
 The libraries are called in a process of its own whose memory and time have limits (`plantar.files.confined`).
 """
@@ -25,7 +25,7 @@ __all__ = ["MESH_FORMATS", "MOST_TRIANGLES", "Unit", "read_mesh"]
 Unit = Literal["m", "cm", "mm", "in"]
 """Unit of length of a mesh file."""
 
-MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".3mf", ".step", ".stp")
+MESH_FORMATS: tuple[str, ...] = (".stl", ".obj", ".ply", ".off", ".dae", ".3mf", ".step", ".stp")
 """File endings that are read."""
 
 MOST_TRIANGLES = 1_200_000
@@ -34,6 +34,7 @@ MOST_TRIANGLES = 1_200_000
 _LARGEST = 100e6  # bytes: so many triangles in binary, a third of them as text
 # Library, function, and how much memory in bytes and time in s it may take: at least, and for each byte of the file.
 _BY_TRIMESH = ("trimesh", "shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (2.5, 2.5e-7))
+_BY_PYCOLLADA = ("collada", "shoes.foot.trimesh_file:triangles_of_trimesh", (330e6, 20.0), (30.0, 2e-6))
 _BY_OPENCASCADE = ("OCP", "shoes.foot.step_file:triangles_of_step", (330e6, 30.0), (3.0, 1e-6))
 
 
@@ -82,6 +83,8 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
         return triangles, cast(Unit, unit)
     if kind in (".step", ".stp"):
         return _read_step(file), "mm"
+    if kind == ".dae":
+        return _read_confined(file, kind, *_BY_PYCOLLADA), "m"
     if kind in (".ply", ".off"):
         return _read_confined(file, kind, *_BY_TRIMESH), None
     read = triangles_of_stl if kind == ".stl" else triangles_of_obj

@@ -1,4 +1,4 @@
-"""3MF packages: the triangles of all build items, with their transforms."""
+"""3MF packages: the triangles of all build items, with their transforms, from all model parts that they name."""
 
 from __future__ import annotations
 
@@ -30,8 +30,11 @@ _LONGEST = 1_000_000  # characters of an element
 _DEEPEST = 8  # components in each other
 _MOST_PARTS = 10_000  # objects, components and build items
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02 "
+_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 
 Array = NDArray[np.float64]
+_Name = tuple[str, str]
+"""The model part that an object is in, and its number there."""
 
 
 @dataclass
@@ -40,22 +43,25 @@ class _Object:
 
     corners: array[float] = field(default_factory=lambda: array("d"))
     faces: array[int] = field(default_factory=lambda: array("q"))
-    components: list[tuple[str, str | None]] = field(default_factory=list)
+    components: list[tuple[_Name, str | None]] = field(default_factory=list)
 
 
 class _Model:
-    """The model part of a package, read element by element: no tree of it is kept."""
+    """The model parts of a package, read element by element: no tree of them is kept."""
 
     def __init__(self, most: int, where: str) -> None:
         self.unit = "millimeter"
-        self.objects: dict[str, _Object] = {}
-        self.items: list[tuple[str, str | None]] = []
+        self.objects: dict[_Name, _Object] = {}
+        self.items: list[tuple[_Name, str | None]] = []
+        self.named: list[str] = []
+        self._part = ""
         self._most, self._where = most, where
         self._here = _Object()
         self._parts = self._corners = self._faces = 0
 
-    def read(self, stream: IO[bytes]) -> None:
-        """Read all of it."""
+    def read(self, stream: IO[bytes], part: str) -> None:
+        """Read all of a part, the main one first; `named` are the parts that it and others name."""
+        self._part = part
         parser = expat.ParserCreate(namespace_separator=" ")
         parser.StartElementHandler = self._start
         parser.EntityDeclHandler = self._refuse_entity
@@ -81,7 +87,7 @@ class _Model:
         elif name in ("object", "component", "item"):
             self._parts += 1
             self._add_part(name, attributes)
-        elif name == "model":
+        elif name == "model" and self._part == self.named[0]:
             self.unit = attributes.get("unit", self.unit)
         if self._faces > self._most or self._corners > 3 * self._most:
             raise FootError(f"{self._where}: has more than {self._most} triangles; reduce the mesh")
@@ -90,10 +96,16 @@ class _Model:
 
     def _add_part(self, name: str, attributes: dict[str, str]) -> None:
         if name == "object":
-            self._here = self.objects[attributes.get("id", "")] = _Object()
+            self._here = self.objects[self._part, attributes.get("id", "")] = _Object()
             return
-        use = (attributes.get("objectid", ""), attributes.get("transform"))
-        (self._here.components if name == "component" else self.items).append(use)
+        part = _plain(attributes[_PATH]) if _PATH in attributes else self._part
+        if part not in self.named:
+            self.named.append(part)
+        use = ((part, attributes.get("objectid", "")), attributes.get("transform"))
+        if name == "component":
+            self._here.components.append(use)
+        elif self._part == self.named[0]:
+            self.items.append(use)
 
     def triangles(self) -> Array:
         """Triangles of all build items."""
@@ -104,7 +116,7 @@ class _Model:
             (identity, move), outer, depth = queue.pop()
             calls += 1
             if depth > _DEEPEST or identity not in self.objects:
-                raise FootError(f"{self._where}: the 3MF package names an object that is not in its main model part")
+                raise FootError(f"{self._where}: the 3MF package names an object that it does not hold")
             if calls > _MOST_PARTS:
                 raise FootError(f"{self._where}: is put together of more than {_MOST_PARTS} components")
             found, place = self.objects[identity], _matrix(move) @ outer
@@ -138,13 +150,24 @@ def triangles_of_3mf(path: Path, most: int) -> tuple[Array, str]:
         names = [i for i in package.infolist() if i.filename.lower().endswith(".model")]
         if not names:
             raise FootError(f"{path}: the 3MF package holds no model part")
-        part = min(names, key=lambda i: (i.filename.lower() != "3d/3dmodel.model", i.filename))
-        model = _Model(most, str(path))
-        with package.open(part) as stream:
-            model.read(stream)
+        main = min(names, key=lambda i: (i.filename.lower() != "3d/3dmodel.model", i.filename))
+        held = {_plain(i.filename): i for i in names}
+        model, done = _Model(most, str(path)), 0
+        model.named.append(_plain(main.filename))
+        while done < len(model.named):
+            part = model.named[done]
+            done += 1
+            if part in held:
+                with package.open(held[part]) as stream:
+                    model.read(stream, part)
     unit, factor = _UNITS[model.unit]
     with np.errstate(all="ignore"):  # what is not finite is reported by who reads the mesh
         return model.triangles() * factor, unit
+
+
+def _plain(part: str) -> str:
+    """A part's name as it is compared: without the root, in small letters."""
+    return part.lstrip("/").lower()
 
 
 def _matrix(transform: str | None) -> Array:

@@ -1,4 +1,7 @@
-"""PLY and OFF files through trimesh: called in a process of its own, see `plantar.files.confined`."""
+"""PLY, OFF and COLLADA files through trimesh (and pycollada): called in a process of its own.
+
+See `plantar.files.confined`.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,8 @@ def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
         path: The file.
 
     Returns:
-        "triangles" (n, 3, 3), in the file's unit.
+        "triangles" (n, 3, 3), in the file's unit; of COLLADA (.dae) in m, its axes as they are: which of them the file
+        says is up is passed over, as viewers of robots do.
 
     Raises:
         DependencyError: If trimesh is not installed.
@@ -31,4 +35,7 @@ def triangles_of_trimesh(path: Path) -> dict[str, NDArray[Any]]:
         mesh = trimesh.load(path, process=False, force="mesh", skip_materials=True)
     if not isinstance(mesh, trimesh.Trimesh):
         return {"triangles": np.empty((0, 3, 3))}
-    return {"triangles": np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]}
+    triangles = np.asarray(mesh.vertices, dtype=float)[np.asarray(mesh.faces, dtype=np.int64)]
+    if path.suffix.lower() == ".dae":
+        triangles *= float(str(mesh.units).partition("*")[0]) if "*" in str(mesh.units) else 1.0  # "0.001 * meters"
+    return {"triangles": triangles}

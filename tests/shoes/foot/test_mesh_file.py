@@ -224,3 +224,59 @@ def test_a_mesh_of_too_many_triangles_is_refused(
     monkeypatch.setattr(mesh_file, "MOST_TRIANGLES", len(mesh.faces) - 1)
     with pytest.raises(FootError, match=f"{len(mesh.faces) - 1}.*reduce the mesh"):
         read_mesh(path)
+
+
+DAE = """<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset>
+<unit name="u" meter="{metre}"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="{numbers}">{points}</float_array><technique_common><accessor source="#a"
+count="{count}" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
+</accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="{faces}"><input semantic="VERTEX" source="#v" offset="0"/><p>{corners}</p></triangles></mesh>
+</geometry></library_geometries><library_visual_scenes><visual_scene id="s"><node id="n">
+<matrix>1 0 0 10 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>"""
+
+
+@pytest.mark.parametrize("metre", [0.001, 1.0, 0.0254])
+def test_collada_is_read_in_metres_with_its_nodes(tmp_path: Path, box: Shape, metre: float) -> None:
+    body = box((-60, 140), (-45, 45), (0, 40))
+    points = body.reshape(-1, 3)
+    (tmp_path / "foot.dae").write_text(
+        DAE.format(
+            metre=metre,
+            numbers=points.size,
+            points=" ".join(map(str, points.ravel())),
+            count=len(points),
+            faces=len(body),
+            corners=" ".join(map(str, range(len(points)))),
+        )
+    )
+    triangles, unit = read_mesh(tmp_path / "foot.dae")
+    assert unit == "m"
+    found = triangles.reshape(-1, 3)
+    np.testing.assert_allclose([found.min(axis=0), found.max(axis=0)], metre * np.array([[-50, -45, 0], [150, 45, 40]]))
+    (tmp_path / "foot.dae").write_text(DAE[:400])
+    with pytest.raises(FootError, match=r"foot\.dae: not a DAE mesh"):
+        read_mesh(tmp_path / "foot.dae")
+
+
+def test_a_3mf_may_keep_its_objects_in_parts_of_their_own(tmp_path: Path, box: Shape) -> None:
+    mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(box((-60, 140), (-45, 45), (0, 40))))
+    _write_3mf(tmp_path / "plain.3mf", mesh, "millimeter", '<item objectid="1"/>')
+    with zipfile.ZipFile(tmp_path / "plain.3mf") as plain:
+        part = plain.read("3D/3dmodel.model").decode()
+    names = 'xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" '
+    names += 'xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06"'
+    use = '<component objectid="1" p:path="/3D/Objects/Foot.model" transform="1 0 0 0 1 0 0 0 1 0 0 5"/>'
+    main = f'<model unit="millimeter" {names}><resources><object id="1"><components>{use}</components></object>'
+    main += '</resources><build><item objectid="1"/></build></model>'
+    with zipfile.ZipFile(tmp_path / "foot.3mf", "w") as package:
+        package.writestr("3D/3dmodel.model", main)
+        package.writestr("3D/Objects/Foot.model", part)
+    triangles, _ = read_mesh(tmp_path / "foot.3mf")
+    assert len(triangles) == len(mesh.faces)
+    assert (triangles[..., 2].min(), triangles[..., 2].max()) == (5.0, 45.0)
+    with zipfile.ZipFile(tmp_path / "foot.3mf", "w") as package:
+        package.writestr("3D/3dmodel.model", main)
+    with pytest.raises(FootError, match="names an object that it does not hold"):
+        read_mesh(tmp_path / "foot.3mf")
