@@ -90,7 +90,7 @@ class ModelSource:
         for part in _NOT_NEEDED:
             for element in list(getattr(spec, part, ())):
                 spec.delete(element)
-        for compiler in (spec.compiler, *(body.compiler for body in spec.bodies)):  # attached models have their own
+        for compiler in (spec.compiler, *(_compiler(spec, body) for body in spec.bodies)):
             compiler.balanceinertia = True
             compiler.boundmass = max(compiler.boundmass, _LEAST)
             compiler.boundinertia = max(compiler.boundinertia, _LEAST)
@@ -150,7 +150,7 @@ class ModelSource:
             try:
                 spec = self.spec()
                 for body in spec.bodies:
-                    weighed = _weighed_by_shapes(body)
+                    weighed = _weighed_by_shapes(spec, body)
                     _delete(spec, [g for g in body.geoms if g.meshname and not weighed])
                 self._give_meshes(spec, read_all)
                 model = self._placed(spec)[0]
@@ -224,7 +224,7 @@ class ModelSource:
         if self.urdf is not None:
             return mesh_of_urdf(self.file, self.mesh_names.get(mesh.file, mesh.file), FootError, where)
         name = re.split(r"[/\\]", mesh.file)[-1] if spec.strippath else mesh.file
-        places = [folder / Path(mesh.compiler.meshdir) / name for folder in self.folders]
+        places = [folder / _mesh_folder(spec, mesh) / name for folder in self.folders]
         found = next((place for place in places if place.is_file()), places[0])
         return named_file(found, folders_of_model(self.file), FootError, where)
 
@@ -269,6 +269,16 @@ def read_model_source(file: Path) -> ModelSource:
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
 
 
+def _compiler(spec: Spec, element: Any) -> Any:
+    """Settings by which MuJoCo reads an element: those of the file that it came with; older MuJoCo has one for all."""
+    return getattr(element, "compiler", spec.compiler)
+
+
+def _mesh_folder(spec: Spec, mesh: Any) -> str:
+    """Folder that a mesh is looked for in, as its file states it."""
+    return str(getattr(_compiler(spec, mesh), "meshdir", spec.meshdir))
+
+
 def _fixed_to(body: Any) -> Iterator[Any]:
     """A body and those without joints below it."""
     yield body
@@ -282,12 +292,12 @@ def _delete(spec: Spec, elements: list[Any]) -> None:
         spec.delete(element)
 
 
-def _weighed_by_shapes(body: Any) -> bool:
+def _weighed_by_shapes(spec: Spec, body: Any) -> bool:
     """Whether MuJoCo takes a body's mass from its shapes."""
     import mujoco
 
     kind = mujoco.mjtInertiaFromGeom
-    chosen = int(body.compiler.inertiafromgeom)
+    chosen = int(_compiler(spec, body).inertiafromgeom)
     return chosen == int(kind.mjINERTIAFROMGEOM_TRUE) or (
         chosen == int(kind.mjINERTIAFROMGEOM_AUTO) and not body.explicitinertial
     )
