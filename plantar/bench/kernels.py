@@ -15,6 +15,8 @@ from plantar.bench.random_cells import random_outline
 from plantar.bench.soles import Contact, contacts
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.geometry.outline import Outline, concave_outline
+from plantar.percepts.percept import Percept
+from plantar.sensing.reading import Reading
 
 __all__ = ["OFFSET", "RANDOM", "compare_random_cells", "compare_shapes"]
 
@@ -94,6 +96,12 @@ def _hull(found: Sequence[Contact]) -> tuple[list[Route], Reference]:
     corners = rivals.Corners(found[0].layout)
     routes = [
         Route("plantar, from active taxels", kernel.hull, masks, lambda r: r[1], ours=True),
+        Route(
+            "plantar, through a Percept",
+            lambda f: Percept(found[0].layout, Reading(0.0, f)).support_area,
+            [c.force for c in found],
+            ours=True,
+        ),
         Route("plantar, from points", lambda p: polygon.area(polygon.convex_hull(p)), points, ours=True),
         Route("scipy ConvexHull, from active taxels", lambda m: rivals.hull_scipy(corners.of(m)), masks),
         Route("scipy ConvexHull, points ready", rivals.hull_scipy, points),
@@ -182,7 +190,13 @@ def _circle(hulls: Sequence[Array]) -> tuple[list[Route], Reference]:
 
     routes = [
         Route("plantar", inscribed.inscribed_circle, hulls, radius, ours=True),
-        Route("shapely maximum_inscribed_circle", rivals.circle_shapely, hulls, approximate=True),
+        Route("shapely maximum_inscribed_circle, default tolerance", rivals.circle_shapely, hulls, approximate=True),
+        Route(
+            "shapely maximum_inscribed_circle, to 1e-6",
+            partial(rivals.circle_shapely, tolerance=1e-6),
+            hulls,
+            approximate=True,
+        ),
     ]
     return routes, Reference([exact.circle_radius(h) for h in hulls])
 

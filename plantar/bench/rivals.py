@@ -288,12 +288,13 @@ def parallelogram_around_numpy(polygon: Array) -> float:
         return float(np.where(turn > 1e-12, width[:, None] * width / turn, math.inf).min())
 
 
-def circle_shapely(polygon: Array) -> float:
-    """Radius in m of the largest circle in a polygon: GEOS, to 1e-6 of its size."""
+def circle_shapely(polygon: Array, tolerance: float | None = None) -> float:
+    """Radius in m of the largest circle in a polygon: GEOS, to a share of its size, or as GEOS does by default."""
     import shapely
 
     shape: Any = shapely.Polygon(polygon)
-    return float(shapely.length(shapely.maximum_inscribed_circle(shape, tolerance=1e-6 * float(np.ptp(polygon)))))
+    given = None if tolerance is None else tolerance * float(np.ptp(polygon))
+    return float(shapely.length(shapely.maximum_inscribed_circle(shape, tolerance=given)))
 
 
 def closest_shapely(case: tuple[Array, Array]) -> tuple[float, float]:

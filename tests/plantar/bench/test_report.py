@@ -84,6 +84,7 @@ def test_targets_take_the_worst_size_and_say_whether_they_are_met():
     found = [
         result("closest point", "plantar", 1.0, 1.0, 1e-16),
         result("closest point", "shapely nearest_points, with construction", 9.0, 9.0),
+        result("inner offset", "plantar", 1.0, 1.0),
         result("inner offset", "shapely buffer, mitred", 12.0, 12.0),
         result("walking tick", "plantar", 39.0, 1.0, 2e-12),
         result("rectangle inside, any angle", "plantar", 39.0, 1.0, 1e-8),
@@ -129,3 +130,28 @@ def test_neither_plantar_nor_the_help_loads_the_measuring():
         "assert not [m for m in sys.modules if m.startswith('plantar.bench')]"
     )
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
+
+
+def test_headlines_are_against_the_fastest_library_that_gives_the_same_answer():
+    def timed(route: str, median: float, size: str, approximate: bool = False) -> Result:
+        return Result("walking tick", size, route, route.startswith("plantar"), approximate, median, 0.0, median, 0.0)
+
+    found = targets(
+        [
+            timed("plantar", 1.0, "20"),
+            timed("plantar, percepts", 4.0, "20"),
+            timed("slow library", 50.0, "20"),
+            timed("quick library", 12.0, "20"),
+            timed("quicker, polygons ready", 3.0, "20"),
+            timed("quickest (float32)", 2.0, "20"),
+            timed("plain Python loops", 2.0, "20"),
+            timed("a guess", 0.1, "20", approximate=True),
+            timed("plantar", 1.0, "51"),
+            timed("quick library", 40.0, "51"),
+        ]
+    )
+    told = {t.what: (t.figure, t.where) for t in found if t.unit == "times"}
+    assert told == {
+        "walking tick against quick library": (12.0, "20"),
+        "walking tick (plantar, percepts) against quick library": (3.0, "20"),
+    }
