@@ -24,7 +24,8 @@ from plantar.gravity import GRAVITY
 from plantar.layouts.layout_file import layout_to_dict
 
 from ..browser import visit
-from ..test_report_in_browser import READABLE
+from ..printing import printed_images
+from ..test_report_in_browser import READABLE, whole
 from ..walks import made_walk
 
 
@@ -215,3 +216,11 @@ def test_the_page_opens_on_a_telephone(study: tuple[Path, Path, Study], tmp_path
     assert seen.found["weak"] == seen.found["unnamed"] == seen.found["outline"] == seen.found["axe"] == []
     assert seen.found["wide"] <= 0
     assert page.read_text().count("<figure") == 3
+
+
+@pytest.mark.long
+def test_no_figure_of_the_page_is_cut_in_print(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+    """Each figure lies whole on one sheet."""
+    images = printed_images(study[1] / "study.html", tmp_path)
+    assert len(images) == (study[1] / "study.html").read_text().count("<figure") >= 2
+    assert whole(images)
