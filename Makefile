@@ -5,6 +5,7 @@ PYTHON_IN_VENV := $(VENV)/bin/python
 PLANTAR := $(VENV)/bin/plantar
 INSTALLED := $(VENV)/.installed
 OUT ?= out
+BENCH_OPTIONS ?=
 # All cores; a file stays on one of them, since some of its tests share what is slow to make. Files come in the order of
 # tests/conftest.py, the slow ones first; xdist by itself puts those of few tests last, which are the slow ones.
 PYTEST_OPTIONS ?= -n logical --dist loadfile --no-loadscope-reorder
@@ -19,7 +20,7 @@ help:
 	@echo "make demo      build the H1 shoe, walk on plantar feedback, analyse the recording (into $(OUT)/)"
 	@echo "make test      run the tests, without the long ones"
 	@echo "make test-all  run every test"
-	@echo "make bench     measure run time against error (into $(OUT)/bench/)"
+	@echo "make bench     measure run time against error, and show it on a page (into $(OUT)/bench/); BENCH_OPTIONS=--quick"
 	@echo "make docs      build the site (into $(OUT)/site/)"
 	@echo "make lint      ruff, mypy and the layering test"
 	@echo "make format    let ruff format the code"
@@ -38,7 +39,7 @@ test-all: $(BUILT)
 	$(PYTHON_IN_VENV) -m pytest $(PYTEST_OPTIONS)
 
 bench: $(BUILT)
-	$(PLANTAR) bench all -o $(OUT)/bench
+	$(PLANTAR) bench all $(BENCH_OPTIONS) -o $(OUT)/bench
 
 docs: $(BUILT)
 	@$(PYTHON_IN_VENV) -m pip install --quiet --editable '.[docs]' --no-build-isolation
