@@ -128,10 +128,11 @@ class PushTruth:
     Args:
         mass: Mass of the robot in kg.
         leg: Length of its legs in m.
+        stride: Time in s from a step to the next one of the same foot; 0 for a robot that stands.
     """
 
-    def __init__(self, mass: float, leg: float) -> None:
-        self._mass, self._leg = mass, leg
+    def __init__(self, mass: float, leg: float, stride: float = 0.0) -> None:
+        self._mass, self._leg, self._stride = mass, leg, stride
         self._samples: list[_Sample] = []
 
     def update(
@@ -163,6 +164,9 @@ class PushTruth:
         above a CoM at height h (K 9-11, corrected). Integrated over the push, m dv less the ground's share has to be
         the integral of F (1 + d / h); with the signs as they are printed it would be that of F (1 - d / h).
 
+        What legs and trunk swing with has angular momentum that the pendulum does not know: 1.2 N s in 0.24 s of H1's
+        steps in place, to the left or to the right. What it made a stride before, where nobody pushed, is taken off.
+
         Args:
             pushes: The pushes.
 
@@ -172,31 +176,40 @@ class PushTruth:
         return [self._acceleration(push) for push in pushes]
 
     def _acceleration(self, push: Pushed) -> dict[str, float]:
-        chosen = [s for s in self._samples if push.start - 0.02 <= s.time <= push.end + 0.02]
+        chosen = self._around(push.start, push.end)
         nothing = dict.fromkeys(("measured_Ns", "predicted_Ns", "printed_Ns", "above_com_m", "ratio"), math.nan)
         length = float(np.hypot(*push.impulse))
         if len(chosen) < 4 or length == 0.0:
             return nothing
         way = push.impulse / length
-        times = np.array([s.time for s in chosen])
-        com = np.array([s.com for s in chosen])
-        along, height = com[:, :2] @ way, com[:, 2]
-        zmp = np.array([s.zmp for s in chosen]) @ way
+        before = self._around(push.start - self._stride, push.end - self._stride) if self._stride else []
+        walks = len(before) >= 4 and not any(s.force.any() for s in before)
+        measured = self._unexplained(chosen, way) - (self._unexplained(before, way) if walks else 0.0)
+        times, height = np.array([s.time for s in chosen]), np.array([s.com[2] for s in chosen])
         force = np.array([s.force for s in chosen]) @ way
         above = np.array([s.above for s in chosen])
-        speed = np.gradient(along, times)
-        ground = self._mass * GRAVITY * (along - zmp) / height
-        measured = self._mass * (speed[-2] - speed[1]) - float(np.trapezoid(ground[1:-1], times[1:-1]))
         predicted = float(np.trapezoid(force * (1.0 + above / height), times))
         printed = float(np.trapezoid(force * (1.0 - above / height), times))
         given = float(np.trapezoid(force, times))
         return {
-            "measured_Ns": float(measured),
+            "measured_Ns": measured,
             "predicted_Ns": predicted,
             "printed_Ns": printed,
             "above_com_m": float(np.trapezoid(force * above, times)) / given if given else math.nan,
-            "ratio": float(measured) / predicted if predicted else math.nan,
+            "ratio": measured / predicted if predicted else math.nan,
         }
+
+    def _around(self, start: float, end: float) -> list[_Sample]:
+        """The samples of some time, and of 20 ms before and after."""
+        return [s for s in self._samples if start - 0.02 <= s.time <= end + 0.02]
+
+    def _unexplained(self, chosen: Sequence[_Sample], way: NDArray[np.float64]) -> float:
+        """What the CoM gained along a way in N s beside what the ground gives a pendulum."""
+        times, com = np.array([s.time for s in chosen]), np.array([s.com for s in chosen])
+        along, zmp = com[:, :2] @ way, np.array([s.zmp for s in chosen]) @ way
+        speed = np.gradient(along, times)
+        ground = self._mass * GRAVITY * (along - zmp) / com[:, 2]
+        return float(self._mass * (speed[-2] - speed[1]) - np.trapezoid(ground[1:-1], times[1:-1]))
 
     def steps_reasons(self, pushes: Sequence[Pushed], changes: Sequence[float]) -> list[dict[str, Any]]:
         """Criteria that failed of a scene in which small pushes leave the steps alone and large ones change one.

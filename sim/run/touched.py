@@ -67,7 +67,8 @@ class Touched:
     ) -> None:
         self._scene, self._skin, self._body, self._seed = scene, skin, body, seed
         self._feet, self._steps = feet, steps
-        self._truth = PushTruth(body.mass, body.leg)
+        timing = schedule().timing
+        self._truth = PushTruth(body.mass, body.leg, 2.0 * (timing.single_support + timing.double_support))
         self.hands: HandPushes | None = None
         self.partner: MobileRobot | None = None
         self.touch: Touch | None = None

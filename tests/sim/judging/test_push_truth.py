@@ -83,6 +83,25 @@ def test_a_pendulum_with_a_wrench_accelerates_as_the_corrected_sign_says(above: 
     assert truth.acceleration_reasons([Pushed(0, 0.1, 0.3, impulse, small=False)]) == []
 
 
+@pytest.mark.parametrize("stride", [0.8, 0.0])
+def test_what_the_walk_itself_does_to_the_pendulum_is_taken_off(stride: float) -> None:
+    """A moment about the CoM that comes again with every stride, as that of legs that swing; it is no push."""
+    mass, height, step, fine = 86.0, 0.83, 0.005, 20
+    truth, at, speed = PushTruth(mass, LEG, stride), 0.0, 0.02
+    for k in range(230):
+        time = step * k
+        force = 80.0 * math.sin(math.pi * (time - 0.9) / 0.2) if 0.9 <= time < 1.1 else 0.0
+        truth.update(time, np.array([at, 0.0, height]), np.zeros(2), np.array([force, 0, 0, 0, height * force, 0]))
+        moment = 20.0 * math.sin(2.0 * math.pi * (time - 0.85) / 0.8)
+        for _ in range(fine):
+            speed += (GRAVITY / height * at + (force * height + moment) / height / mass) * step / fine
+            at += speed * step / fine
+    impulse = 80.0 * 0.2 * 2.0 / math.pi
+    (told,) = truth.accelerations([Pushed(2, 0.9, 1.1, np.array([impulse, 0.0]), small=False)])
+    of_the_walk = 20.0 * 0.4 / math.pi * (math.cos(0.035 * math.tau / 0.8) - math.cos(0.265 * math.tau / 0.8)) / height
+    assert told["ratio"] == pytest.approx(1.0 if stride else 1.0 + of_the_walk / impulse, abs=0.01)
+
+
 def test_an_acceleration_that_nothing_explains_is_told() -> None:
     truth = PushTruth(86.0, LEG)
     for k in range(100):
