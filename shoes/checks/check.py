@@ -20,7 +20,7 @@ from shoes.geometry.outline import ring
 from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
 from shoes.plan.load_share import LoadShare
-from shoes.plan.pull_off import PullOff
+from shoes.plan.pull_off import SNAP_MOST, PullOff
 from shoes.plan.shoe_plan import ShoePlan
 from shoes.plan.strength import LoadCase, Member, check_strength
 from shoes.plan.wiring import cable_outlines, hole_outline, pocket_outlines
@@ -230,6 +230,9 @@ def _holding_checks(held: PullOff) -> Iterator[Check]:
         round(held.moment, 2),
         f"{held.scuff:.2f} or more",
     )
+    if held.snap > 0.0:
+        easy = held.snap <= SNAP_MOST
+        yield Check("force that snaps a clip on, N", easy, round(held.snap, 1), f"{SNAP_MOST:g} or less")
 
 
 def _share_checks(share: LoadShare) -> Iterator[Check]:

@@ -2,6 +2,7 @@
 
 - A clip's arm is a cantilever that the hook bends by its reach d; its retaining face stands at 45 degrees:
   F = E b t^3 d / (4 L^3), pull-off P = F (mu + tan 45) / (1 - mu tan 45)          (Bayer, Snap-fit joints for plastics)
+  It snaps on over a lead-in of 45 degrees with the same force, which a person pushes with: 200 N at most (EN 1005-3)
 - A strap slips where its hooks and loops shear over the length they overlap, and pulls on both of its lugs at 45
   degrees: P = 2 sin 45 x shear strength x width x overlap (7 N/cm^2, hook-and-loop tapes' data sheets)
 - A set screw presses with what two fingers tighten, 100 N, on a soft tip: P = mu 100 N
@@ -18,13 +19,16 @@ from dataclasses import dataclass
 from plantar.mechanics.lip import GRAVITY
 from shoes.parameters import ShoeParameters
 
-__all__ = ["PullOff", "clip_force", "needed_force", "pull_off"]
+__all__ = ["SNAP_MOST", "PullOff", "clip_force", "needed_force", "pull_off"]
 
 _MU = 0.3  # plastic on plastic or metal
 _SWING = 5.0  # g
 _SCUFF = 0.1  # of the robot's weight on the toe
 _SHEAR, _OVERLAP = 0.07, 50.0  # MPa and mm of hooks and loops
 _SCREW = 100.0  # N
+
+SNAP_MOST = 200.0
+"""Force in N that a person pushes with his body at most, at work (EN 1005-3)."""
 
 
 @dataclass(frozen=True)
@@ -36,12 +40,14 @@ class PullOff:
         swing: What is needed of it in N: 5 g on the worn mass.
         moment: Moment in N m about the heel's edge that the holders take.
         scuff: What is needed of it in N m.
+        snap: Force in N that snaps the stiffest clip on; 0 without clips.
     """
 
     force: float
     swing: float
     moment: float
     scuff: float
+    snap: float = 0.0
 
 
 def clip_force(length: float, parameters: ShoeParameters) -> float:
@@ -91,5 +97,6 @@ def pull_off(
     each = [clip_force(arm, p) if kind == "clips" else strap if kind == "straps" else _MU * _SCREW for _, arm in places]
     moment = sum(f * (x - heel) for f, (x, _) in zip(each, places, strict=True))
     scuff = _MU * _SCUFF * mass * GRAVITY * (p.thickness + p.rim_height / 3.0)
-    rounded = (round(v, 3) for v in (sum(each), needed_force(worn), 1e-3 * moment, 1e-3 * scuff))
+    snap = max(each) if kind == "clips" else 0.0
+    rounded = (round(v, 3) for v in (sum(each), needed_force(worn), 1e-3 * moment, 1e-3 * scuff, snap))
     return PullOff(*rounded)

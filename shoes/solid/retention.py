@@ -13,8 +13,9 @@ from shoes.foot.foot import Foot
 from shoes.geometry.outline import grown, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step, box_block
-from shoes.plan.pull_off import PullOff, clip_force, needed_force, pull_off
+from shoes.plan.pull_off import SNAP_MOST, PullOff, pull_off
 from shoes.plan.shoe_plan import ShoePlan
+from shoes.plan.strength import load_case
 
 __all__ = ["Retention", "choose_retention", "retention_steps"]
 
@@ -152,16 +153,20 @@ def _clips(foot: Foot, plan: ShoePlan, p: ShoeParameters) -> tuple[Retention | N
                 return None, f"the foot's upper edge lies {edge:.0f} mm high, too low for an arm that bends"
             strain = max(strain, 1.5 * p.clip_thickness * p.clip_hook / arm**2)
             places.append(_Place(round(x, 3), side, round(edge, 3)))
-    hold = sum(clip_force(q.edge + 0.5 * _hook_height(p), p) for q in places)
-    needed = needed_force(_HEAVY * plan.contact.area * p.thickness)
-    if hold < needed:
-        return None, f"four clips would hold {hold:.0f} N, 5 g on the shoe in swing are {needed:.0f} N"
     if strain > p.printed.strain:
         return None, (
             f"a clip's arm would be strained by {100 * strain:.1f} %, {p.material} takes {100 * p.printed.strain:.1f} %"
         )
     note = "four clips over the foot's upper edge: " + ", ".join(f"{q.edge:.1f}" for q in places) + " mm high"
-    return Retention("clips", tuple(places), p.clip_width, strain, note), ""
+    clips = Retention("clips", tuple(places), p.clip_width, strain, note)
+    held = clips.pull_off(foot, _HEAVY * plan.contact.area * p.thickness, load_case(foot, p).mass, p)
+    if held.force < held.swing:
+        return None, f"four clips would hold {held.force:.0f} N, 5 g on the shoe in swing are {held.swing:.0f} N"
+    if held.moment < held.scuff:
+        return None, f"four clips would hold {held.moment:.2f} N m in a scuff at the toe, which takes {held.scuff:.2f}"
+    if held.snap > SNAP_MOST:
+        return None, f"a clip would take {held.snap:.0f} N to snap on, a person pushes with {SNAP_MOST:g} N"
+    return clips, ""
 
 
 def _surface_points(triangles: Any) -> Any:

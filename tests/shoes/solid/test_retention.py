@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -68,3 +69,25 @@ def test_what_is_asked_for_is_given(plate: tuple[Foot, ShoePlan]) -> None:
     for kind, places in (("none", 0), ("screws", 4), ("straps", 4), ("clips", 4)):
         found = choose_retention(foot, plan, ShoeParameters(retention=kind))
         assert (found.kind, len(found.places)) == (kind, places)
+
+
+@pytest.mark.parametrize(
+    ("height", "size", "change", "reason"),
+    [
+        (39.0, 200.0, {"robot_mass": 10.0}, "5 g on the shoe in swing are"),
+        (39.0, 80.0, {"robot_mass": 150.0}, "in a scuff at the toe, which takes"),
+        (16.0, 200.0, {"robot_mass": 60.0, "clip_width": 40.0, "clip_thickness": 4.0}, "200 N"),
+    ],
+)
+def test_clips_that_would_not_hold_or_not_snap_on_give_way_to_straps(
+    box: Callable[..., NDArray[np.float64]], height: float, size: float, change: dict[str, float], reason: str
+) -> None:
+    foot = foot_from_triangles("f", box((-0.4 * size, 0.6 * size), (-0.22 * size, 0.22 * size), (0, height)), where="f")
+    build = build_shoe(foot, cell_area=300.0, layout_only=True, parameters=ShoeParameters(**change))  # type: ignore[arg-type]
+    found = choose_retention(foot, build.shoes[0].plan, build.parameters)
+    assert found.kind == "straps"
+    assert reason in found.note
+    mass = change["robot_mass"]
+    held = found.pull_off(foot, 0.6, mass, build.parameters)
+    assert held.force > held.swing
+    assert held.moment > held.scuff
