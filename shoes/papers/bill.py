@@ -60,7 +60,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     if p.pad_thickness > 0.0:
         parts.append(
             Part(
-                f"pad, {side}", 1, "silicone, about 40 Shore A", f"{outline} x {p.pad_thickness:g} mm", weights.pad,
+                f"pad, {side}", 1, f"silicone, about {p.pad_hardness:g} Shore A", f"{outline} x {p.pad_thickness:g} mm", weights.pad,
                 f"cast, or cut from sheet and rim, to pad_{side}.stl; glued to the taxels, replaced when worn",
             )
         )  # fmt: skip

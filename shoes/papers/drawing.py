@@ -99,10 +99,21 @@ def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
     _dimension(axes, (face[0], low[1] - 8.0), (face[2], low[1] - 8.0), f"{face[2] - face[0]:.1f}")
     _dimension(axes, (low[0], low[1] - 16.0), (high[0], low[1] - 16.0), f"{high[0] - low[0]:.1f} over all")
     _dimension(axes, (low[0] - 8.0, face[1]), (low[0] - 8.0, face[3]), f"{face[3] - face[1]:.1f}")
+    _directions(axes, shoe, low, high)
     axes.set_title(f"From above; overhang of the contact face {plan.overhang:.1f} mm", fontsize=9, loc="left")
     axes.set(xlim=(low[0] - 28.0, high[0] + 28.0), ylim=(low[1] - 24.0, high[1] + 14.0), ylabel="y, left")
     axes.set_aspect("equal")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), ncols=6, fontsize=7, frameon=False)
+
+
+def _directions(axes: Any, shoe: Shoe, low: Any, high: Any) -> None:
+    """Where toes, heel and the body's middle are."""
+    middle = 0.5 * (low[1] + high[1])
+    sides = ("outer", "inner") if shoe.side == "left" else ("inner", "outer")
+    axes.text(high[0] + 18.0, middle, "toes", rotation=-90.0, ha="center", va="center", fontsize=8)
+    axes.text(low[0] - 22.0, middle, "heel", rotation=90.0, ha="center", va="center", fontsize=8)
+    axes.text(low[0] - 24.0, high[1] + 7.0, f"left, {sides[0]} side", fontsize=8)
+    axes.text(low[0] - 24.0, low[1] - 20.0, f"right, {sides[1]} side", fontsize=8)
 
 
 def _section(
@@ -145,14 +156,19 @@ def _section(
         _dimension(axes, (x, bottom), (x, upper), f"{upper - bottom:g}")
     _dimension(axes, (low - 8.0, p.bottom), (low - 8.0, p.ceiling), f"{p.ceiling - p.bottom:g}")
     _dimension(axes, (low - 16.0, 0.0), (low - 16.0, p.bottom), f"{p.bottom:g}")
-    letter = "y" if axis == 1 else "x"
+    letter, seen = ("y", "the right") if axis == 1 else ("x", "the toes")
     axes.set_title(
-        f"{name}, {letter} = {at:.1f}: pad {p.pad_thickness:g}, taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
+        f"{name}, {letter} = {at:.1f}, seen from {seen}: pad {p.pad_thickness:g}, taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
         f"floor {p.floor:g}, wall {p.rim_thickness:g}, clearance {p.clearance:g}",
         fontsize=9,
         loc="left",
     )
-    axes.set(xlim=(low - 28.0, high + 28.0), ylim=(-4.0, cut.bounds[3] + 6.0), ylabel="z")
+    axes.set(
+        xlim=(low - 28.0, high + 28.0),
+        ylim=(-4.0, cut.bounds[3] + 6.0),
+        xlabel="x, forward" if axis == 1 else "y, left",
+        ylabel="z",
+    )
     axes.set_aspect("equal")
 
 
