@@ -86,18 +86,21 @@ def shoe(
     Example: plantar shoe robot.xml --body left_foot --side left
 
     Example: plantar shoe --robot h1 --set material=PETG --set rim_height=16 --json
+
+    Example: plantar shoe foot.stl --coupon -o out/coupon
+
+    Example: plantar shoe outline_of_my_foot.svg --insole 6 --set robot_mass=72 -o out/insole
     """
     from plantar.atomic import output_folder
-    from shoes import ShoeParameters, build_shoe, export_shoe, read_parameters
+    from shoes import ShoeParameters, export_shoe, read_parameters
     from shoes.foot.source import read_foot
+    from shoes.ordered import build_ordered, coupons_text, write_ordered_coupons
     from shoes.papers.shoe_text import failed_checks, shoe_text
 
     if order.side not in (*SIDES, "both"):
         raise InputError(f"--side is '{order.side}'; allowed: left, right, both")
     used = (ShoeParameters() if parameters is None else read_parameters(parameters)).changed(settings or [])
     shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
-    wanted = order.taxels if order.taxels is not None or order.rim == "fine" else taxels
-    options: dict[str, Any] = vars(order) | {"taxels": wanted}
     if preview:
         from shoes.papers.preview import draw_preview
 
@@ -107,7 +110,12 @@ def shoe(
         end_command(drawn, as_json, "\n".join(f"  {line}" for line in (*drawn["notes"], *drawn["files"])))
         return
     with output_folder(output) as folder, progress_bar() as tell:
-        build = build_shoe(shape, parameters=used, progress=part_of(tell, 0.0, 0.6), **options)
+        build = build_ordered(shape, order, used, taxels, part_of(tell, 0.0, 0.6))
+        if order.coupon:
+            made = write_ordered_coupons(build, folder, part_of(tell, 0.6, 0.4))
+            made |= {"files": [str(output / name) for name in made["files"]]}
+            end_command(made, as_json, coupons_text(made))
+            return
         report = export_shoe(build, folder, progress=part_of(tell, 0.6, 0.4))
     summary = report.as_dict() | {"files": [str(output / name) for name in report.files]}
     failed = failed_checks(summary)

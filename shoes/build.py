@@ -25,7 +25,7 @@ from shoes.solid.body import mark_outline, mirrored_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
 
-__all__ = ["RIMS", "Progress", "Rim", "Shoe", "ShoeBuild", "Sides", "build_shoe"]
+__all__ = ["RIMS", "Progress", "Rim", "Shoe", "ShoeBuild", "Sides", "build_shoe", "built_sides", "sides_of"]
 
 Sides = Literal["left", "right", "both"]
 """Which shoes to build."""
@@ -77,6 +77,7 @@ class ShoeBuild:
         load_share: Share of the load that the taxels carry.
         retention: What holds them; None where only the layout was asked for.
         notes: What was detected, assumed and decided.
+        kind: "shoe", or "insole": a flat sheet without walls, see `shoes.insole`.
     """
 
     foot: Foot
@@ -86,6 +87,7 @@ class ShoeBuild:
     load_share: LoadShare
     retention: Retention | None = None
     notes: tuple[str, ...] = ()
+    kind: Literal["shoe", "insole"] = "shoe"
 
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
@@ -141,13 +143,13 @@ def build_shoe(
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
         [('left', 21), ('right', 21)]
     """
-    if side not in ("left", "right", "both"):
-        raise InputError(f"side is {side!r}; allowed: left, right, both")
+    sides = sides_of(side)
+    if parameters is not None and parameters.material == "TPU":
+        raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
     if rim not in RIMS:
         raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
     if rim == "fine" and taxels is not None:
         raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
-    sides: tuple[Side, ...] = SIDES if side == "both" else (side,)
     tell = progress or (lambda fraction, text: None)
     p = parameters or ShoeParameters()
     if not 0.0 <= overhang <= p.overhang_max:
@@ -183,11 +185,42 @@ def build_shoe(
         return ShoeBuild(foot, fit, p, tuple(Shoe(plan) for plan in plans), share, notes=notes)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
+    shoes = built_sides(left, steps, p, sides, tell)
+    return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note))
+
+
+def sides_of(side: Sides) -> tuple[Side, ...]:
+    """Which sides are built.
+
+    Raises:
+        InputError: If it is none of left, right, both.
+    """
+    if side not in ("left", "right", "both"):
+        raise InputError(f"side is {side!r}; allowed: left, right, both")
+    return SIDES if side == "both" else (side,)
+
+
+def built_sides(
+    left: ShoePlan, steps: tuple[Step, ...], parameters: ShoeParameters, sides: tuple[Side, ...], tell: Progress
+) -> tuple[Shoe, ...]:
+    """The solids of the sides asked for, each with its mark.
+
+    Args:
+        left: The left plan.
+        steps: The left body.
+        parameters: Dimensions as used.
+        sides: Which of the two.
+        tell: Receives fraction and text.
+
+    Returns:
+        The shoes.
+    """
+    p = parameters
     tell(0.1, "loading the CAD kernel")
     load_cadquery()
     shoes = []
     for i, which in enumerate(sides):
-        tell(0.4 + 0.6 * i / len(sides), f"building the {which} shoe")
+        tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
         plan = left if which == "left" else mirrored_plan(left)
         mark = tuple(
             Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in mark_outline(plan, p, which).geoms
@@ -195,5 +228,5 @@ def build_shoe(
         own = steps if which == "left" else mirrored_steps(steps)
         solid = build_solid((*own, Step("cut", "mark", mark)))
         shoes.append(Shoe(plan, solid, surface_of(solid)))
-    tell(1.0, "shoes built")
-    return ShoeBuild(foot, fit, p, tuple(shoes), share, retention, (*notes, retention.note))
+    tell(1.0, "all sides built")
+    return tuple(shoes)

@@ -1,7 +1,7 @@
 """Printed materials: what the strength check and the masses need of them.
 
-Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG and PLA: filament);
-a part that carries a person or an expensive robot deserves the data of its own maker.
+Values are typical of the materials' data sheets (PA12: multi-jet fusion and laser sintering; PETG, PLA and TPU of
+95 Shore A: filament); a part that carries a person or an expensive robot deserves the data of its own maker.
 """
 
 from __future__ import annotations
@@ -44,6 +44,7 @@ MATERIALS: dict[str, Material] = {
         Material("PA12", "powder bed", 1.01, 1700.0, 48.0, 0.85, 0.040),
         Material("PETG", "filament", 1.27, 2000.0, 45.0, 0.55, 0.025),
         Material("PLA", "filament", 1.24, 3000.0, 50.0, 0.50, 0.015),
+        Material("TPU", "filament", 1.21, 30.0, 30.0, 0.80, 0.0),
     )
 }
 """The printed materials by name."""

@@ -41,7 +41,7 @@ class FootSource:
 
 @dataclass(frozen=True)
 class ShoeOrder:
-    """What is built for the foot; `build_shoe` takes these by name, and checks them.
+    """What is built for the foot; `shoes.ordered.build_ordered` checks it.
 
     Example:
         >>> ShoeOrder().cell_area
@@ -54,8 +54,16 @@ class ShoeOrder:
         None, "Number of taxels; may reach beyond the sole as far as needed. Default: as many as fit."
     )
     overhang: float = _option(0.0, "How far taxels may reach beyond the sole, in mm.")
-    rim: str = _option(
-        "whole", "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most."
+    rim: str | None = _option(
+        None,
+        "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most. "
+        "Default: whole; of an insole fine.",
     )
     name: str | None = _option(None, "Name of the shoe. Default: that of the file or robot.")
+    insole: float | None = _option(
+        None,
+        "Make a flat insole for a person's foot instead of a shoe, so thick in mm (4 to 15), pad included.",
+        metavar="MM",
+    )
+    coupon: bool = _option(False, "Only a print to try the fit of one cell and one clip or lug, in the same sizes.")
     layout_only: bool = _option(False, "Write only the layouts (under 2 s).")

@@ -55,7 +55,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
             "solid",
             "build",
         ),
-        *("checks", "papers", "found_foot"),
+        *("insole", "checks", "papers", "coupon", "ordered", "found_foot"),
     ),
 }
 """The rooms of a package (folders, and files beside them) in their order: a room imports only those before it."""

@@ -30,6 +30,7 @@ __all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
+_EVEN_SHARE = 0.80  # of an even pressure on an insole, which no plate spreads
 
 Array = NDArray[np.float64]
 
@@ -65,7 +66,7 @@ class ShoeCheck:
         reach_mm: How far any of the shoe does: lugs and the board's holder too.
         print_hours: Estimate of the time to print it.
         printing: The build directions, the chosen first.
-        mounting: The gaps between foot and shoe.
+        mounting: The gaps between foot and shoe; None of an insole.
         load: The load case.
         members: Stresses under it.
         load_share: Share of the load that the taxels carry.
@@ -83,7 +84,7 @@ class ShoeCheck:
     reach_mm: float
     print_hours: float
     printing: tuple[Printing, ...]
-    mounting: Mounting
+    mounting: Mounting | None
     load: LoadCase
     members: tuple[Member, ...]
     load_share: LoadShare
@@ -117,11 +118,13 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
     watertight = bool(mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0)
     volume = float(step.Volume())
     difference = 100.0 * abs(float(mesh.volume) / volume - 1.0) if volume > 0.0 else math.inf
+    shoe_kind = build.kind == "shoe"
     engraved = ((p.bottom - 0.01, p.bottom + p.scribe + 0.01), (p.thickness - p.mark_depth - 0.01, p.thickness + 0.01))
     wall = thinnest_wall(surface, engraved)
     printing = choose_direction(surface, p)
-    mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p)
+    mounting = check_mounting(build.foot, shoe.side, surface, build.retention, p) if shoe_kind else None
     load, members = check_strength(build.foot, build.shoes[0].plan.contact if shoe.side == "left" else _left(shoe), p)
+    members = members if shoe_kind else ()  # an insole bends with the foot and has no wall
     share = build.load_share
     weights = weigh(shoe, build, volume)
     retention = build.retention
@@ -132,7 +135,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         Check("thinnest wall, mm", wall >= p.wall_min - 1e-2, round(wall, 3), f"{p.wall_min:g} or more"),
         *_layout_checks(shoe, p, step),
         *_rim_checks(shoe.plan, build),
-        *_mounting_checks(mounting, reach, shoe.plan.overhang, build),
+        *(_insole_checks(shoe, surface, p) if mounting is None else _mounting_checks(mounting, reach, shoe, build)),
         *_share_checks(share),
         *(() if held is None else _holding_checks(held)),
         *_strength_checks(load, members, build, len(shoe.layout)),
@@ -193,8 +196,30 @@ def _rim_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
         yield Check("blind rim beyond the taxels' centres, mm", blind <= most, round(blind, 2), f"{most:g} or less")
 
 
-def _mounting_checks(m: Mounting, reach: float, overhang: float, build: ShoeBuild) -> Iterator[Check]:
-    p = build.parameters
+def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
+    """An insole's thickness, its place within the foot's outline, and what its cells carry below a soft foot."""
+    import shapely
+
+    high = float(surface[..., 2].max())
+    yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
+    beyond = float(_beyond(shoe.plan.foot, surface))
+    yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
+    sole = shoe.plan.foot
+    covered = 100.0 * float(shapely.union_all(shoe.plan.cells).intersection(sole).area / sole.area)
+    least = 100.0 * _EVEN_SHARE
+    yield Check("even pressure that the taxels carry, %", covered >= least, round(covered, 1), f"{least:g} or more")
+
+
+def _beyond(outline: Any, surface: Array) -> float:
+    """How far any corner of a surface lies beyond an outline, in mm."""
+    import shapely
+
+    points = np.unique(surface.reshape(-1, 3)[:, :2].round(4), axis=0)
+    return float(outline.distance(shapely.points(points)).max())
+
+
+def _mounting_checks(m: Mounting, reach: float, shoe: Shoe, build: ShoeBuild) -> Iterator[Check]:
+    p, overhang = build.parameters, shoe.plan.overhang
     assert build.retention is not None
     least = p.clearance - 0.05
     yield Check("gap between foot and wall, mm", m.gap >= least, round(m.gap, 3), f"{least:g} or more")

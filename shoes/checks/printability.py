@@ -48,7 +48,7 @@ class Printing:
 
 
 def choose_direction(triangles: Array, parameters: ShoeParameters) -> tuple[Printing, ...]:
-    """How a part lies on the bed, the best first: that fits, has the least overhang and then the least height.
+    """How a part lies on the bed, the best first: that fits, has the least overhang, height and area of bridges.
 
     Args:
         triangles: Closed surface (n, 3, 3), outward counter-clockwise.
@@ -58,7 +58,7 @@ def choose_direction(triangles: Array, parameters: ShoeParameters) -> tuple[Prin
         Every direction.
     """
     found = [_printing(name, triangles, parameters) for name in BUILD_DIRECTIONS]
-    return tuple(sorted(found, key=lambda f: (not f.fits, round(f.overhang, 0), f.size[2])))
+    return tuple(sorted(found, key=lambda f: (not f.fits, round(f.overhang, 0), f.size[2], round(f.bridges, 0))))
 
 
 def _printing(name: str, triangles: Array, p: ShoeParameters) -> Printing:

@@ -51,16 +51,19 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     p, plan, side = build.parameters, shoe.plan, shoe.side
     low_x, low_y, high_x, high_y = plan.contact.bounds
     outline = f"{high_x - low_x:.1f} x {high_y - low_y:.1f}"
+    flat = build.kind == "insole"
+    size = f"{outline} x {p.thickness - p.bottom:g} mm" if flat else f"{outline} x {p.rim_top - p.bottom:g} mm and more"
     parts = [
         Part(
-            f"shoe, {side}", 1, p.material, f"{outline} x {p.rim_top - p.bottom:g} mm and more", weights.printed,
-            f"printed from shoe_{side}.stl, .3mf or .step",
+            f"{build.kind}, {side}", 1, p.material, size, weights.printed,
+            f"printed from {build.kind}_{side}.stl, .3mf or .step",
         )
     ]  # fmt: skip
     if p.pad_thickness > 0.0:
         parts.append(
             Part(
-                f"pad, {side}", 1, f"silicone, about {p.pad_hardness:g} Shore A", f"{outline} x {p.pad_thickness:g} mm", weights.pad,
+                f"pad, {side}", 1, f"silicone, about {p.pad_hardness:g} Shore A",
+                f"{outline} x {p.pad_thickness + p.pad_rim_height:g} mm", weights.pad,
                 f"cast, or cut from sheet and rim, to pad_{side}.stl; glued to the taxels, replaced when worn",
             )
         )  # fmt: skip

@@ -54,7 +54,7 @@ def draw_shoe(
     top.plot([low[0] - 4.0, high[0] + 4.0], [cut_y, cut_y], color=COLOURS["reference"], lw=0.8, ls="-.")
     top.text(high[0] + 6.0, cut_y, "A", va="center", fontsize=8)
     figure.suptitle(
-        f"{shoe.layout.name}, {shoe.side} shoe   |   {p.material}, {len(shoe.layout)} taxels of "
+        f"{shoe.layout.name}, {shoe.side} {build.kind}   |   {p.material}, {len(shoe.layout)} taxels of "
         f"{build.fit.cell_area:g} mm², "
         f"{100 * build.fit.covered_area_ratio:.0f} % of the sole covered   |   mm",
         fontsize=10,
@@ -89,8 +89,10 @@ def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
         axes.plot([starts[0, 0], plan.heel.x], [starts[0, 1], plan.heel.y], color=COLOURS["cop"], lw=1.2)
     flip = np.array([1.0, 1.0 if shoe.side == "left" else -1.0])
     axes.plot(*_closed(ring(plan.contact)).T, color=colour, lw=2.0, label="contact face (pad)")
-    axes.plot(*_closed(ring(plan.rim)).T, color=colour, lw=0.8, label="wall")
-    axes.plot(*_closed(ring(plan.cavity)).T, color=COLOURS["reference"], lw=0.8, ls="--", label="inside of the wall")
+    if build.kind == "shoe":
+        inside = {"color": COLOURS["reference"], "lw": 0.8, "ls": "--", "label": "inside of the wall"}
+        axes.plot(*_closed(ring(plan.rim)).T, color=colour, lw=0.8, label="wall")
+        axes.plot(*_closed(ring(plan.cavity)).T, **inside)
     axes.plot(
         *_closed(ring(build.foot.sole) * flip).T, color=COLOURS["truth"], lw=0.9, ls=":", label="sole of the foot"
     )
@@ -142,7 +144,7 @@ def _section(
             heights = (p.pad_thickness, p.pad_thickness + p.pad_rim_height)
             axes.fill_between(ends, *heights, facecolor=COLOURS["reference"], alpha=0.6, lw=0)
     foot = shoe.plan.foot.intersection(line).bounds
-    top = min(p.rim_top + 14.0, p.thickness + build.foot.height)
+    top = min(p.rim_top + 14.0 if build.kind == "shoe" else 2.0 * p.thickness, p.thickness + build.foot.height)
     axes.fill_between((foot[across], foot[across + 2]), p.thickness, top, facecolor=COLOURS["truth"], alpha=0.06, lw=0)
     for part in getattr(cut, "geoms", [cut]):
         shape = shapely.geometry.polygon.orient(part)
@@ -151,15 +153,17 @@ def _section(
         for hole in rings[1:]:
             axes.fill(*hole.T, facecolor="white", edgecolor=COLOURS["truth"], lw=_THIN)
     low, high = cut.bounds[0], cut.bounds[2]
-    for place, (bottom, upper) in enumerate(((0.0, p.thickness), (0.0, p.rim_top))):
+    flat = build.kind == "insole"
+    for place, upper in enumerate((p.thickness,) if flat else (p.thickness, p.rim_top)):
         x = high + 8.0 + 9.0 * place
-        _dimension(axes, (x, bottom), (x, upper), f"{upper - bottom:g}")
+        _dimension(axes, (x, 0.0), (x, upper), f"{upper:g}")
     _dimension(axes, (low - 8.0, p.bottom), (low - 8.0, p.ceiling), f"{p.ceiling - p.bottom:g}")
     _dimension(axes, (low - 16.0, 0.0), (low - 16.0, p.bottom), f"{p.bottom:g}")
     letter, seen = ("y", "the right") if axis == 1 else ("x", "the toes")
     axes.set_title(
-        f"{name}, {letter} = {at:.1f}, seen from {seen}: pad {p.pad_thickness:g}, taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
-        f"floor {p.floor:g}, wall {p.rim_thickness:g}, clearance {p.clearance:g}",
+        f"{name}, {letter} = {at:.1f}, seen from {seen}: pad {p.pad_thickness:g}, "
+        f"taxels {p.taxel_protrusion:g} + {p.pocket_depth:g}, "
+        f"floor {p.floor:g}" + ("" if flat else f", wall {p.rim_thickness:g}, clearance {p.clearance:g}"),
         fontsize=9,
         loc="left",
     )

@@ -59,6 +59,7 @@ class ShoeReport:
         build, fit, first = self.build, self.build.fit, self.build.shoes[0]
         out: dict[str, Any] = {
             "name": first.layout.name,
+            "kind": build.kind,
             "taxels": len(first.layout),
             "whole_taxels": fit.whole,
             "whole_taxels_bound": fit.bound,
@@ -191,7 +192,7 @@ def _write_solids(shoe: Shoe, build: ShoeBuild, target: Path) -> tuple[NDArray[n
     """Write a shoe's STL, STEP and 3MF and its pad; gives the triangles and the shape as read back, and the names."""
     assert shoe.surface is not None
     side, p = shoe.side, build.parameters
-    names = [f"shoe_{side}.stl", f"shoe_{side}.step", f"shoe_{side}.3mf"]
+    names = [f"{build.kind}_{side}.stl", f"{build.kind}_{side}.step", f"{build.kind}_{side}.3mf"]
     try:
         write_stl(shoe.surface, target / names[0])
         write_step(shoe.solid, str(target / names[1]))
@@ -211,7 +212,7 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     side, p = shoe.side, build.parameters
     names = [f"cells_{side}.dxf", f"assembly_{side}.3mf"]
     bodies = [
-        NamedBody(f"shoe {side}", p.material, "#4C72B0", shoe.surface),
+        NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
         *(
             NamedBody(f"taxel {k}", "skin", "#55A868", surface)
             for k, surface in zip(shoe.layout.ids.tolist(), taxel_surfaces(shoe.plan, p), strict=True)
@@ -230,6 +231,6 @@ def _draw(shoe: Shoe, build: ShoeBuild, surface: NDArray[np.float64], target: Pa
     side, p = shoe.side, build.parameters
     drawn = draw_shoe(shoe, build, surface, [target / f"drawing_{side}.png", target / f"drawing_{side}.svg"])
     pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
-    title = f"{shoe.layout.name}, {side} shoe"
+    title = f"{shoe.layout.name}, {side} {build.kind}"
     drawn.append(draw_picture(surface, pad, title, target / f"picture_{side}.png"))
     return [path.name for path in drawn]

@@ -24,7 +24,7 @@ from shoes.plan.block import moved_edges
 from shoes.plan.heel import Heel, find_heel
 from shoes.units import to_m, to_mm
 
-__all__ = ["ShoePlan", "mirrored_plan", "plan_shoe"]
+__all__ = ["ShoePlan", "mirrored_plan", "plan_face", "plan_shoe"]
 
 _TOUCH = 1e-3  # mm between cells that share an edge
 _PASSABLE = 6.0  # mm of a shared edge: a port in a shorter one is narrow for a cable
@@ -141,13 +141,39 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
     shape = rim.union(grown(walls, fit.border))
     contact = single_outline(shape, shape.convex_hull, detail=0.0)
+    return plan_face(outline, contact, cavity, rim, fit, parameters, name=name or foot.name)
+
+
+def plan_face(
+    outline: Any, contact: Any, cavity: Any, rim: Any, fit: TaxelFit, parameters: ShoeParameters, *, name: str
+) -> ShoePlan:
+    """Plan pockets, layout and cable of a contact face.
+
+    Args:
+        outline: The foot's outline.
+        contact: The contact face.
+        cavity: Inside of the wall at its upper edge.
+        rim: Outside of the wall.
+        fit: The cells.
+        parameters: Dimensions.
+        name: Name that the layout takes.
+
+    Returns:
+        The left plan.
+
+    Raises:
+        FootError: If the cells are so small that no pocket is left between the ribs.
+    """
+    import shapely
+
+    cells = tuple(shapely.Polygon(c) for c in fit.cells)
     pockets = tuple(_pocket(c, parameters.rib) for c in cells)
     if any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
         raise FootError(
             f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
             "use larger cells or a thinner rib"
         )
-    layout = _layout(contact, fit, name or foot.name)
+    layout = _layout(contact, fit, name)
     heel, note = find_heel(rim, outline, parameters)
     connectors, route = _route(layout, (heel.x, heel.y))
     if parameters.port_width <= 0.0:

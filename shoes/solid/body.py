@@ -16,7 +16,7 @@ from shoes.plan.wiring import pocket_outlines, wiring_steps
 from shoes.solid.lettering import lettering
 from shoes.solid.retention import Retention, retention_steps
 
-__all__ = ["LEVELS", "cavity_levels", "mark_outline", "mirrored_steps", "shoe_steps"]
+__all__ = ["LEVELS", "cavity_levels", "insole_steps", "mark_outline", "mirrored_steps", "shoe_steps"]
 
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
 """Shares of the wall's height at which the foot's outline is taken."""
@@ -50,15 +50,36 @@ def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: Sho
     bevel = tapered(levels[-1][2], -0.02, p.lead_in, p.rim_top - p.lead_in, p.rim_top + 0.02) if p.lead_in > 0 else None
     if bevel is not None:
         place.append(bevel)
-    pockets = [Block(outline, p.bottom - 1.0, p.ceiling) for outline in pocket_outlines(plan, p)]
     return (
         Step("add", "plate, wall and what stands on them", body),
         Step("add", "fillet between wall and plate", tuple(_fillet(plan, p)), within=plan.contact),
         Step("cut", "the foot's place", tuple(place)),
-        Step("cut", "pockets", tuple(pockets)),
-        Step("cut", "border of the cells", tuple(_scribe(c, p) for c in plan.cells) if p.scribe > 0.0 else ()),
+        *_cell_steps(plan, p),
         *after,
         *holes,
+    )
+
+
+def insole_steps(plan: ShoePlan, parameters: ShoeParameters) -> tuple[Step, ...]:
+    """The left insole's body: a plate with pockets, without its mark.
+
+    Args:
+        plan: The left insole.
+        parameters: Dimensions.
+
+    Returns:
+        The steps, in order; the first adds.
+    """
+    plate = Block(plan.contact, parameters.bottom, parameters.thickness)
+    return (Step("add", "plate", (plate,)), *_cell_steps(plan, parameters))
+
+
+def _cell_steps(plan: ShoePlan, p: ShoeParameters) -> tuple[Step, Step]:
+    """Pockets with the cable's way, and the groove that marks the cells."""
+    pockets = [Block(outline, p.bottom - 1.0, p.ceiling) for outline in pocket_outlines(plan, p)]
+    return (
+        Step("cut", "pockets", tuple(pockets)),
+        Step("cut", "border of the cells", tuple(_scribe(c, p) for c in plan.cells) if p.scribe > 0.0 else ()),
     )
 
 

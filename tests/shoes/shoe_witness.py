@@ -44,6 +44,48 @@ def _even(segments: Array, x: float, ys: Array) -> NDArray[np.bool_]:
     return np.asarray((at[None] > ys[:, None]).sum(axis=1) % 2 == 0)
 
 
+def _inside(x: Array, y: Array, polygon: Array) -> NDArray[np.bool_]:
+    """Whether points lie in a polygon (k, 2), by the edges that a ray to the right crosses."""
+    out = np.zeros(len(x), dtype=bool)
+    for (ax, ay), (bx, by) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        if ay != by:
+            out ^= ((ay > y) != (by > y)) & (x < ax + (y - ay) / (by - ay) * (bx - ax))
+    return out
+
+
+def _area(polygon: Array) -> float:
+    x, y = polygon.T
+    return float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+
+
+def _length(polygon: Array) -> float:
+    return float(np.hypot(*(np.roll(polygon, -1, axis=0) - polygon).T).sum())
+
+
+def _modulus(hardness: float, area: float, around: float, thick: float) -> float:
+    """Of a rubber layer that does not slide, MPa: Gent's of the hardness, and Gent and Lindley's of the shape."""
+    free = 0.0981 * (56.0 + 7.62336 * hardness) / (0.137505 * (254.0 - 2.54 * hardness))
+    k = float(np.interp(hardness, (30, 40, 50, 60, 70), (0.93, 0.85, 0.73, 0.57, 0.53)))
+    return free * (1.0 + 2.0 * k * (area / (around * thick)) ** 2)
+
+
+def _share(at: Array, k: Array, gap: Array, taxel: NDArray[np.bool_], force: float) -> float:
+    """Share of a force in the points' middle that the taxels' springs carry, by scipy's root of the balance."""
+    from scipy.optimize import least_squares
+
+    u = np.column_stack([np.ones(len(at)), (at - at.mean(axis=0)) / 100.0])
+    wanted = np.array([force, 0.0, 0.0])
+    start = np.array([force / k[taxel].sum(), 0.0, 0.0])
+
+    def off(place: Array) -> Array:
+        return np.asarray((u.T @ (k * np.maximum(u @ place - gap, 0.0)) - wanted) / force)
+
+    place = least_squares(off, start, x_scale=np.maximum(abs(start[0]), 1e-3), xtol=1e-12, ftol=1e-12, gtol=1e-12).x
+    assert np.abs(off(place)).max() < 1e-4
+    way = k * np.maximum(u @ place - gap, 0.0)
+    return float(way[taxel].sum() / way.sum())
+
+
 @dataclass
 class Witness:
     """The files of a left shoe in a folder, and the foot in its sole frame.
@@ -57,11 +99,14 @@ class Witness:
     foot: Array
 
     def __post_init__(self) -> None:
-        self.mesh: Any = trimesh.load(self.folder / "shoe_left.stl", force="mesh")
+        told = json.loads((self.folder / "check.json").read_text())
+        self.kind: str = told["kind"]
+        self.mesh: Any = trimesh.load(self.folder / f"{self.kind}_left.stl", force="mesh")
         self.pad: Any = trimesh.load(self.folder / "pad_left.stl", force="mesh")
         self.triangles = np.asarray(self.mesh.triangles)
         self.layout = json.loads((self.folder / "layout_left.json").read_text())
-        self.p = json.loads((self.folder / "check.json").read_text())["parameters"]
+        self.p = told["parameters"]
+        self.told = told["sides"]["left"]
         self.bottom = self.p["pad_thickness"] + self.p["taxel_protrusion"]
         self.ceiling = self.bottom + self.p["pocket_depth"]
         self.floor = self.ceiling + self.p["floor"]
@@ -70,20 +115,53 @@ class Witness:
 
     def problems(self) -> list[str]:
         """What a buyer would complain about; empty for a good shoe."""
-        return [
-            f"{name}: {text}"
-            for name, text in (
-                ("solid", self._solid()),
-                ("pockets", self._pockets()),
-                ("floor", self._floor()),
-                ("place", self._place()),
-                ("way on", self._way_on()),
-                ("cable", self._cable()),
-                ("wall", self._wall()),
-                ("pad", self._pad()),
-            )
-            if text
+        fit = [("place", self._place), ("way on", self._way_on)]
+        checks = [
+            ("solid", self._solid),
+            ("pockets", self._pockets),
+            ("floor", self._floor),
+            *(fit if self.kind == "shoe" else [("outline", self._outline)]),
+            ("cable", self._cable),
+            ("wall", self._wall),
+            ("pad", self._pad),
+            ("load", self._load),
         ]
+        return [f"{name}: {text}" for name, check in checks if (text := check())]
+
+    def _outline(self) -> str:
+        """An insole lies within the foot, and its upper face is as high as its parameters add up to."""
+        beyond = self.mesh.bounds[:, :2] - np.array([self.foot[..., :2].min((0, 1)), self.foot[..., :2].max((0, 1))])
+        flat = abs(self.mesh.bounds[1, 2] - self.floor) < 1e-3
+        inside = bool((beyond[0] > 0.0).all() and (beyond[1] < 0.0).all())
+        return "" if inside and flat else f"reaches {beyond.tolist()} beyond the foot, top at {self.mesh.bounds[1, 2]}"
+
+    def _load(self) -> str:
+        """The taxels' share of the load case, by springs of a grid under a plate that sinks and tilts (bisected)."""
+        x, y = self.mesh.bounds[:, 0], self.mesh.bounds[:, 1]
+        step = 4.0
+        px, py = (v.ravel() for v in np.meshgrid(np.arange(x[0], x[1], step), np.arange(y[0], y[1], step)))
+        corners = 1e3 * np.array(self.layout["vertices"])[:, :2]
+        cells = [corners[t["corners"]] for t in self.layout["taxels"]]
+        outline = np.array(self.layout["outline"])[:, :2] * 1e3
+        taxel = np.any([_inside(px, py, c) for c in cells], axis=0)
+        face = _inside(px, py, outline)
+        area, around = np.median([(_area(c), _length(c)) for c in cells], axis=0)
+        soft = self.p["taxel_protrusion"] + self.p["pocket_depth"]
+        bed = soft / _modulus(self.p["taxel_hardness"], area, around, soft)
+        bed += self.p["pad_thickness"] / _modulus(self.p["pad_hardness"], area, around, self.p["pad_thickness"])
+        beside = face & ~taxel
+        rim = self.p["pad_thickness"] + self.p["taxel_protrusion"] - self.p["pad_relief"]
+        # as stiff as a rim can be: bonded over all of the face's area
+        hard = _modulus(self.p["pad_hardness"], _area(outline), _length(outline), rim) / rim
+        k = np.where(taxel, 1.0 / bed, np.where(beside, hard, 0.0)) * step**2
+        gap = np.where(taxel, 0.0, self.p["pad_relief"])
+        force = self.told["load"]["force"]
+        held = face & (px < 0.5 * (outline[:, 0].min() + outline[:, 0].max()))
+        bad = []
+        for what, on, least in (("flat", face, 0.95), ("heel", held, 0.80)):
+            share = _share(np.column_stack([px, py])[on], k[on], gap[on], taxel[on], force)
+            bad += [f"{what} {share:.2f}"] if share < least else []
+        return "the taxels carry " + ", ".join(bad) if bad else ""
 
     def _solid(self) -> str:
         good = self.mesh.is_watertight and self.mesh.is_winding_consistent and self.mesh.body_count == 1

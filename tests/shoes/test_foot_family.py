@@ -53,6 +53,8 @@ def test_the_witness_agrees_with_a_good_shoe_and_sees_bad_ones(
     assert witness.problems() == []
     wide = Witness(folder, foot * np.array([1.1, 1.0, 1.0])).problems()
     assert any("within the print" in text for text in wide)
+    witness.p["pad_relief"] = 0.0
+    assert any("the taxels carry flat" in text for text in witness.problems())
     witness.ceiling += 1.0
     assert any("ceilings" in text for text in witness.problems())
 

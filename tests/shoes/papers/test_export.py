@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ import trimesh
 from plantar import read_layout
 from plantar.errors import InputError
 from shoes import Foot, ShoeReport, build_shoe, export_shoe
+from shoes.checks import check
 from shoes.foot.mesh_file import read_mesh
 from shoes.parameters import ShoeParameters, read_parameters
 from shoes.solid.tray import read_step
@@ -105,3 +107,23 @@ def test_only_layouts_are_written_where_only_they_were_asked_for(small_foot: Foo
 def test_a_missing_folder_is_refused(small_foot: Foot, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="cannot write"):
         export_shoe(build_shoe(small_foot, layout_only=True), tmp_path / "none")
+
+
+def test_every_figure_of_a_report_has_its_unit_limit_and_source_in_the_docs(
+    exported: tuple[ShoeReport, Path], repository: Path
+) -> None:
+    """The names of all checks, and of all other figures, stand in the tables of docs/shoes.md."""
+    _, folder = exported
+    text = (repository / "docs" / "shoes.md").read_text()
+    part = text.split("### What `check.json` states")[1].split("### The table `shoe`")[0]
+    rows = [[c.strip() for c in line.split("|")[1:-1]] for line in part.splitlines() if line.startswith("|")]
+    assert all(len(row) in (3, 4) and all(row) for row in rows)
+    named = " ".join(row[0] for row in rows)
+    names = re.findall(r'Check\(\s*f?"([^"]+)"', Path(check.__file__).read_text())
+    assert len(names) > 25
+    for name in names:  # the words before the unit, and before what differs from shoe to shoe
+        words = name.split("{")[0].removesuffix(" the ").split(",")[0].strip()
+        assert words in named, name
+    figures = json.loads((folder / "check.json").read_text())
+    for key in (*figures, *figures["sides"]["left"]):
+        assert f"`{key}`" in named, key

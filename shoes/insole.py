@@ -1,0 +1,76 @@
+"""From the outline of a person's foot to a pair of insoles: fit, plan and solid in one call."""
+
+from __future__ import annotations
+
+from plantar.errors import InputError
+from shoes.build import RIMS, Progress, Rim, Shoe, ShoeBuild, Sides, built_sides, sides_of
+from shoes.foot.foot import Foot
+from shoes.parameters import ShoeParameters
+from shoes.plan.insole_plan import fit_insole, insole_parameters, plan_insole
+from shoes.plan.load_share import check_load_share, relieved
+from shoes.plan.shoe_plan import mirrored_plan
+from shoes.plan.strength import load_case
+from shoes.solid.body import insole_steps
+from shoes.solid.retention import Retention
+
+__all__ = ["build_insole"]
+
+_NOTE = "an insole of {:g} mm lies in the wearer's shoe, below the foot; nothing holds it"
+
+
+def build_insole(
+    foot: Foot,
+    thickness: float,
+    *,
+    side: Sides = "both",
+    cell_area: float = 691.0,
+    rim: Rim = "fine",
+    parameters: ShoeParameters | None = None,
+    name: str | None = None,
+    layout_only: bool = False,
+    progress: Progress | None = None,
+) -> ShoeBuild:
+    """Fit taxels to the outline of a foot and build a flat insole around them.
+
+    Args:
+        foot: The left foot: of a scan, of a last, or of an outline.
+        thickness: From the ground's face of the pad to the face below the foot, in mm.
+        side: "left", "right" or "both"; the right insole mirrors the left.
+        cell_area: Area of a taxel in mm^2.
+        rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
+        parameters: Dimensions; None takes the defaults.
+        name: Name of the layout; None takes the foot's.
+        layout_only: Leave the solid out, and with it cadquery.
+        progress: Receives fraction and text.
+
+    Returns:
+        The insoles with their layouts and solids.
+
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If the foot cannot carry the taxels.
+
+    Example:
+        >>> from shoes.foot.foot import foot_from_dimensions
+        >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
+        >>> build = build_insole(foot, 6.0, layout_only=True)
+        >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
+        ('insole', 6.0, 0.94)
+    """
+    sides = sides_of(side)
+    if rim not in RIMS:
+        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
+    tell = progress or (lambda fraction, text: None)
+    p, notes = insole_parameters(foot, thickness, parameters or ShoeParameters())
+    tell(0.0, "fitting the taxels to the sole")
+    fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine")
+    left = plan_insole(foot, fit, p, name=name)
+    load = load_case(foot, p)
+    p, lowered = relieved(left, load, p)
+    share = check_load_share(left, load, p)
+    told = (*foot.notes, *notes, *fit.notes, *lowered, *left.notes, _NOTE.format(thickness))
+    if layout_only:
+        shoes = tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
+        return ShoeBuild(foot, fit, p, shoes, share, notes=told, kind="insole")
+    shoes = built_sides(left, insole_steps(left, p), p, sides, tell)
+    return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), told, kind="insole")

@@ -1,0 +1,47 @@
+"""Tests of coupons: pieces of the shoe, met by rays where the shoe is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+
+from plantar.errors import InputError
+from shoes import Foot, ShoeReport, build_shoe
+from shoes.coupon import build_coupons, write_coupons
+
+from .shoe_witness import hits
+
+
+def test_coupons_are_what_rays_meet_in_the_shoe(exported: tuple[ShoeReport, Path], tmp_path: Path) -> None:
+    report, folder = exported
+    whole = np.asarray(trimesh.load(folder / "shoe_left.stl", force="mesh").triangles)
+    coupons = build_coupons(report.build)
+    assert [c.name for c in coupons] == ["cell", "lug"]
+    assert write_coupons(coupons, tmp_path) == ("coupon_cell.stl", "coupon_lug.stl")
+    chance, up = np.random.default_rng(3), np.array([0.0, 0.0, 1.0])
+    mark = report.build.parameters.thickness
+    for coupon in coupons:
+        mesh = trimesh.load(tmp_path / f"coupon_{coupon.name}.stl", force="mesh")
+        assert mesh.is_watertight
+        assert mesh.body_count == 1
+        within = coupon.window.buffer(-0.1)
+        met = 0
+        for point in chance.uniform(within.bounds[:2], within.bounds[2:], (150, 2)):
+            if not within.contains(shapely.Point(point)):
+                continue
+            start = np.array([*point, -1.0])
+            mine, shoes = hits(np.asarray(mesh.triangles), start, up), hits(whole, start, up)
+            shoes = np.where(np.abs(shoes - 1.0 - mark) < 1.0, mark + 1.0, shoes)  # the mark is not in a coupon
+            assert len(mine) == len(shoes)
+            assert mine == pytest.approx(shoes, abs=2e-3)
+            met += len(mine) > 0
+        assert met > 40
+
+
+def test_a_coupon_is_of_the_left_shoe(small_foot: Foot) -> None:
+    with pytest.raises(InputError, match="a coupon is a piece of the left shoe"):
+        build_coupons(build_shoe(small_foot, side="right", layout_only=True))
