@@ -192,6 +192,12 @@ def build_shoe(
 def sides_of(side: Sides) -> tuple[Side, ...]:
     """Which sides are built.
 
+    Args:
+        side: "left", "right" or "both".
+
+    Returns:
+        The sides, left first.
+
     Raises:
         InputError: If it is none of left, right, both.
     """

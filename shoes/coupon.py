@@ -82,7 +82,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
 
 def _cell(plan: Any) -> int:
     """The largest cell that the cable runs through, the nearest to the middle."""
-    joined = {i for pair in plan.route for i in pair} or set(range(len(plan.cells)))
+    joined: set[int] = {i for pair in plan.route for i in pair} or set(range(len(plan.cells)))
     middle = plan.contact.centroid
     return min(joined, key=lambda i: (-round(plan.cells[i].area, 1), plan.cells[i].centroid.distance(middle)))
 
@@ -138,7 +138,14 @@ def _limited(steps: tuple[Step, ...], window: Any) -> tuple[Step, ...]:
 
 
 def write_coupons(coupons: tuple[Coupon, ...], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Write each coupon as `coupon_<name>.stl` into an existing folder; gives the files' names.
+    """Write each coupon as `coupon_<name>.stl`.
+
+    Args:
+        coupons: The coupons.
+        folder: An existing folder.
+
+    Returns:
+        The files' names.
 
     Raises:
         InputError: If a file cannot be written.
