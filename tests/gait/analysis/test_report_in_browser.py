@@ -93,7 +93,8 @@ const wide = document.documentElement.scrollWidth - document.documentElement.cli
 const audit = typeof axe === 'undefined' ? [] : (await axe.run(document, {resultTypes: ['violations']})).violations;
 return {weak, texts, wide, outline, axe: audit.map(v => [v.impact, v.id, v.nodes[0].html]),
   background: getComputedStyle(document.body).backgroundColor,
-  unnamed: [...document.querySelectorAll('a, button, input, select, [role]')].filter(e => !named(e)).map(e => e.id)};
+  unnamed: [...document.querySelectorAll('a, button, input, select, [role]:not([role=alert]:empty)')]
+    .filter(e => !named(e)).map(e => e.id)};
 """
 )
 
