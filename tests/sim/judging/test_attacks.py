@@ -157,11 +157,10 @@ def test_a_moved_step_is_told_with_its_reason() -> None:
     assert {(m["step"], m["reason"]) for m in summary["moved_steps"]} >= {(4, "foothold refused")}
 
 
-def test_joints_that_are_faster_than_they_can_be_do_not_count() -> None:
+def test_joints_that_are_faster_than_they_can_be_do_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     """Servos without speed limits, as they were."""
-    simulation = Simulation(load_scene("obstacle", ["settle=0.3"]))
-    simulation.servos._per_limit = None
-    summary = simulation.run()
+    monkeypatch.setattr("sim.run.servos._SPEED_SHARE", 1e6)
+    summary = Simulation(load_scene("obstacle", ["settle=0.3"])).run()
     assert criteria(summary) == {"joint_speed"}
     assert summary["joint_speed"]["share_of_limit"] > 1.2
     assert "knee was faster than its limit" in summary["reasons"][0]["text"]

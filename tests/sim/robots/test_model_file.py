@@ -167,7 +167,7 @@ def test_unstable_physics_is_an_error_that_leaves_no_log(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     # It stands, and the servos' set-points diverge as it walks.
-    monkeypatch.setattr(LegServos, "drive", lambda servos: servos._controls.fill(1e11))
+    monkeypatch.setattr(LegServos, "drive", lambda servos: servos._world.data.ctrl.fill(1e11))
     with pytest.raises(SceneError, match="unstable"):
         run_scene(load_scene("flat", ["steps=2"], robot=str(own)))
     assert capfd.readouterr().err == ""
@@ -333,8 +333,13 @@ def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
     (own.parent / "own.xml").write_text(spec.to_xml())
     robot = load_robot(own)
     world, legs = build_world(robot, Ground((), 0.0, 0.8)), build_leg_model(robot)
-    servos = LegServos(world, legs, 0.005)
-    np.testing.assert_allclose(servos._velocity_gain - world.damping, [0, 0, 0, 30.0, *[0] * 8])
+    setpoints = LegServos(world, legs, 0.005)._setpoints
+    still, speed = np.zeros(12), np.full(12, 0.1)
+    setpoints.hold(still, still)
+    setpoints.go_to(0.005 * speed)
+    setpoints.load(still)
+    gain = world.stiffness * (np.asarray(setpoints.setpoint) - 0.005 * speed) / speed
+    np.testing.assert_allclose(gain - world.damping, [0, 0, 0, 30.0, *[0] * 8], atol=1e-9)
 
 
 def test_a_foot_frame_that_is_turned_against_its_sole_walks_as_one_that_is_not(own: Path) -> None:
