@@ -10,21 +10,30 @@ import math
 import re
 import warnings
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
+from plantar.files.xml_file import XML_MOST
 from plantar.optional_library import optional_library
-from shoes.foot.mesh_file import read_mesh
+from shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from shoes.foot.urdf_text import urdf_for_mujoco
 from shoes.geometry.primitives import primitive
 
-__all__ = ["BodyPlace", "ModelSource", "read_model_source"]
+__all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
+
+_MOST_PARTS = 2000  # shapes, or bodies: MuJoCo's reader takes a time that grows with their square
+_LARGEST = 100e6  # bytes of a mesh
+FARTHEST = 1e6
+"""Distance in m beyond which no shape reaches."""
 
 _LEAST = 1e-9  # kg and kg m^2: MuJoCo wants bodies that move to have some
 _READ_BY_MUJOCO = (".stl", ".obj", ".msh")
@@ -85,6 +94,8 @@ class ModelSource:
             )
         except Exception as error:  # MuJoCo raises ValueError, OSError and its own
             raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
+        _delete(spec, [geom for geom in spec.geoms if geom.hfieldname])
+        _delete(spec, list(spec.hfields))
         for material in spec.materials:
             material.textures = [""] * len(material.textures)
         for part in _NOT_NEEDED:
@@ -188,6 +199,7 @@ class ModelSource:
         for mesh in [m for m in spec.meshes if m.name not in fitted]:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # is there for open and flat surfaces, too
         model, data = self._placed(spec)
+        self._few_enough(model, name)
         origin = data.xpos[mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)]
         drawn: list[Array] = []
         colliding: list[Array] = []
@@ -198,6 +210,18 @@ class ModelSource:
             turn = data.geom_xmat[g].reshape(3, 3)
             (drawn if model.geom_group[g] == _DRAWN else colliding).append(local @ turn.T + data.geom_xpos[g] - origin)
         return drawn, colliding
+
+    def _few_enough(self, model: Any, name: str) -> None:
+        """Refuse shapes of too many triangles before they are made: a mesh may be used many times."""
+        meshes = model.geom_dataid >= 0
+        faces = np.zeros(model.ngeom, dtype=np.int64)
+        faces[meshes] = model.mesh_facenum[model.geom_dataid[meshes]]
+        drawn = model.geom_group == _DRAWN
+        count = int(faces[drawn].sum() if drawn.any() else faces.sum())
+        if count > MOST_TRIANGLES:
+            raise FootError(
+                f"{self.file}: body '{name}' has {count} triangles; allowed: up to {MOST_TRIANGLES}; reduce its meshes"
+            )
 
     def _give_meshes(self, spec: Spec, read_all: bool) -> None:
         """Take out meshes that no shape is made of; hand those to MuJoCo that it does not read itself."""
@@ -211,6 +235,7 @@ class ModelSource:
             path = self._path(spec, mesh)
             kind = path.suffix.lower()
             if kind == ".msh" or (kind in _READ_BY_MUJOCO and not read_all):
+                check_input(path, FootError, _LARGEST)
                 mesh.file = str(path.resolve())
             else:
                 triangles = read_mesh(path)[0]
@@ -253,6 +278,7 @@ def read_model_source(file: Path) -> ModelSource:
         FootError: If it is neither, or names files that lie where they may not.
     """
     root = parsed_model(file, FootError)
+    _few_parts(file, root)
     if root.tag == "robot":
         text, names = urdf_for_mujoco(root)
         if text is None:
@@ -265,8 +291,28 @@ def read_model_source(file: Path) -> ModelSource:
         for key, text in element.attrib.items():
             if key not in ("name", "class") and "nan" in text.lower().split():
                 raise FootError(f"{file}: <{element.tag}>: {key} is '{text[:40]}'; allowed: finite numbers")
-    attached = (file.parent / e.get("file", "") for e in root.iter("model"))
+    attached = [file.parent / e.get("file", "") for e in root.iter("model") if e.get("file")]
+    for path in attached:
+        check_input(path, FootError, XML_MOST)
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
+
+
+def _few_parts(file: Path, root: Element) -> None:
+    """Refuse a model of more shapes or bodies than any robot has, replicas counted."""
+    counts = {"shapes": 0.0, "bodies": 0.0}
+    kinds = dict.fromkeys(("geom", "visual", "collision"), "shapes") | dict.fromkeys(("body", "link"), "bodies")
+    left = [(root, 1.0)]
+    while left:
+        element, times = left.pop()
+        if element.tag in kinds:
+            counts[kinds[element.tag]] += times
+        if element.tag == "replicate":
+            with suppress(ValueError):  # of what is no number MuJoCo tells
+                times *= max(0.0, float(element.get("count", "1")))
+        left += [(child, times) for child in element]
+    for what, count in counts.items():
+        if count > _MOST_PARTS:
+            raise FootError(f"{file}: has {count:.0f} {what}; allowed: up to {_MOST_PARTS} of a robot's model")
 
 
 def _compiler(spec: Spec, element: Any) -> Any:
@@ -308,6 +354,8 @@ def _surface(model: Any, geom: int, where: str) -> Array:
     import mujoco
 
     kind = mujoco.mjtGeom(int(model.geom_type[geom]))
+    if not (np.abs(model.geom_size[geom]) < FARTHEST).all():
+        raise FootError(f"{where} reaches farther than {FARTHEST:g} m")
     if kind in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF):
         mesh = int(model.geom_dataid[geom])
         start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])

@@ -29,7 +29,7 @@ OUTLINE_FORMATS: tuple[str, ...] = (".dxf", ".svg", ".geojson", ".json")
 """File endings of drawings that are read."""
 
 _LARGEST, _LARGEST_DXF = 10e6, 4e6  # bytes
-_MEMORY, _SECONDS = 300e6, 6.0  # of the process that reads a DXF
+_MEMORY, _SECONDS = 300e6, 3.0  # of the process that reads a DXF; loading ezdxf takes one of them
 _MEMORY_PER_BYTE, _SECONDS_PER_BYTE = 20.0, 0.25e-6
 _FARTHEST = 1e9  # in the drawing's unit
 _MEETINGS = 50  # segments that one meets, on average

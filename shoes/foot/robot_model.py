@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.foot.mesh_file import MOST_TRIANGLES
-from shoes.foot.model_source import BodyPlace, read_model_source
+from shoes.foot.model_source import FARTHEST, BodyPlace, read_model_source
 
 __all__ = ["MODEL_FORMATS", "BodyGeometry", "read_foot_body", "side_of_name"]
 
@@ -24,7 +23,6 @@ MODEL_FORMATS: tuple[str, ...] = (".xml", ".mjcf", ".urdf")
 _SHOWN = 14  # names in a message
 _WORDS = ("foot|feet|sole", "ank", "toe")  # in names of bodies that are a foot, or hold one
 _MOST_SHAPES = 200  # of a foot's body
-_FARTHEST = 1e6  # m
 
 Array = NDArray[np.float64]
 
@@ -118,9 +116,7 @@ def _called_foot(name: str) -> int:
 
 def _together(shapes: list[Array], where: str) -> Array:
     """Triangles of all shapes."""
-    if (count := sum(map(len, shapes))) > MOST_TRIANGLES:
-        raise FootError(f"{where} has {count} triangles; allowed: up to {MOST_TRIANGLES}; reduce its meshes")
     triangles = np.concatenate(shapes)
-    if not (np.abs(triangles) < _FARTHEST).all():
-        raise FootError(f"{where} reaches farther than {_FARTHEST:g} m")
+    if not (np.abs(triangles) < FARTHEST).all():
+        raise FootError(f"{where} reaches farther than {FARTHEST:g} m")
     return triangles
