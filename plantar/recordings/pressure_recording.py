@@ -269,7 +269,8 @@ def _checked_times(
     tied = in_order and measured is not None and bool((steps == 0.0).any())
     if tied:  # a clock that is coarser than the frames, or frames that were written twice
         without_gaps = forward[forward <= _GAP * np.median(forward)]
-        measured = (len(steps) - len(forward) + len(without_gaps)) / float(without_gaps.sum())
+        until = int(np.flatnonzero(steps > 0.0)[-1]) + 1  # how many frames share the last time is not known
+        measured = (until - len(forward) + len(without_gaps)) / float(without_gaps.sum())
     rate = measured or stated
     if rate is None:
         raise FormatError("the frames have no times that increase, and no rate is stated")
