@@ -28,6 +28,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "cadquery": "cadquery",
         "ezdxf": "ezdxf",
         "fonttools": "fontTools",
+        "pycollada": "collada",
         "trimesh": "trimesh",
         "scipy": "scipy",
     },

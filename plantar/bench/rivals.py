@@ -289,7 +289,15 @@ def parallelogram_around_numpy(polygon: Array) -> float:
 
 
 def circle_shapely(polygon: Array, tolerance: float | None = None) -> float:
-    """Radius in m of the largest circle in a polygon: GEOS, to a share of its size, or as GEOS does by default."""
+    """Largest circle in a polygon: GEOS.
+
+    Args:
+        polygon: Corners (k, 2) in m.
+        tolerance: Error that is allowed, as a share of the polygon's size; what GEOS takes by itself where None.
+
+    Returns:
+        Radius in m.
+    """
     import shapely
 
     shape: Any = shapely.Polygon(polygon)

@@ -627,8 +627,8 @@ def _plane(sole: SoleLayout) -> ground_plane.GroundPlane:
 
 def _of_batches(sole: SoleLayout) -> list[Call]:
     n = len(sole)
-    frames = Argument(_reading(sole, frames=True).value, ("f", n), "force", nan=True)
-    far = Argument(_far(sole, frames=True).value, ("f", n), "distance", nan=True)
+    frames = Argument(_reading(sole, frames=True).value, (..., n), "force", nan=True)
+    far = Argument(_far(sole, frames=True).value, (..., n), "distance", nan=True)
     return [
         Call("batch.loads", lambda force_: batch.loads(sole, force_), {"force_": frames}),
         Call("batch.wrenches", lambda force_: batch.wrenches(sole, force_), {"force_": frames}),
