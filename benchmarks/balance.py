@@ -1,12 +1,11 @@
 """Skin against ankle force-torque sensors in the scene `balance`: the table of balance.md, and balance.png.
 
-`python benchmarks/outcomes.py` runs what is missing in balance.csv; `python benchmarks/balance.py` writes the table,
-`... balance.py picture` draws both ZMPs of one run.
+`python benchmarks/outcomes.py MINUTES balance` runs what is missing in balance.csv and writes the table; `python
+benchmarks/balance.py` draws both ZMPs of one run.
 """
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from pathlib import Path
 from statistics import median
@@ -80,7 +79,4 @@ def picture() -> None:
 BENCHMARK = Benchmark(FOLDER / "balance.csv", COLUMNS, CASES, figures)
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["picture"]:
-        picture()
-    else:
-        report()
+    picture()

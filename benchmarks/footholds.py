@@ -1,6 +1,6 @@
 """Count what the soles' view of a foothold is worth: the table of footholds.md, the map footholds_map.png.
 
-`python benchmarks/outcomes.py` runs what is missing in footholds.csv; this one writes table and map.
+`python benchmarks/outcomes.py MINUTES footholds` runs what is missing in footholds.csv and writes both.
 """
 
 from __future__ import annotations
@@ -150,6 +150,3 @@ def _draw_map(rows: list[dict[str, str]]) -> None:
 
 
 BENCHMARK = Benchmark(FOLDER / "footholds.csv", COLUMNS, cases(), figures)
-
-if __name__ == "__main__":
-    report()

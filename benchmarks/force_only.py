@@ -1,23 +1,21 @@
-"""Count walks by the forces of taxels alone: `python benchmarks/force_only.py [MINUTES]`, then `... report`.
+"""Count walks by the forces of taxels alone: `python benchmarks/outcomes.py MINUTES force_only`.
 
 Nothing sees the ground (`footholds=force`), and the taxels are an elastic layer, which the fit of edges does not know
-(`sensing.taxels=elastic`). Rows go to force_only.csv, one a run; stopped, it goes on where it was. Fresh seeds only,
-1000 to 1019, which nothing was tuned on; ablations get the first four of them.
+(`sensing.taxels=elastic`). Fresh seeds only, 1000 to 1019, which nothing was tuned on; ablations get the first four of
+them.
 """
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import FEW, Benchmark, Case, latest, rows_of, run_for, write_table
+from resumable import FEW, Benchmark, Case, latest, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("steps_taken", "sim_time_s", "tilt_max_deg", "replans", "foothold_error_median_m", "foothold_error_p95_m")
-SEEDS = range(1000, 1020)
+SEEDS = 20
 FORCE = ("footholds=force", "sensing.taxels=elastic")
 ERRORS = ("plant.taxel_gain=0.15", "plant.crosstalk=0.1")
 # name, scene, settings
@@ -41,7 +39,7 @@ VARIANTS: list[tuple[str, tuple[str, ...], bool, tuple[str, ...]]] = [
 ]
 ROBOTS = ("h1", "hrp2kai")
 CASES = [
-    Case(f"{name}{what}", scene, robot, (*settings, *more), 0, aside)
+    Case(f"{name}{what}", scene, robot, (*settings, *more), 0, aside, fresh=FEW if aside else SEEDS)
     for name, scene, settings in WALKS
     for what, more, aside, walks in VARIANTS
     if name in walks
@@ -62,16 +60,6 @@ def figures(simulation: Any, out: dict[str, Any]) -> dict[str, Any]:
 BENCHMARK = Benchmark(FOLDER / "force_only.csv", COLUMNS, CASES, figures)
 
 
-def missing() -> Iterator[tuple[tuple[int, bool, int], Case, int]]:
-    """Runs that are missing, each with its rank: seed by seed over all walks, beams first; comparisons of a
-    seed with the next one."""
-    done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(BENCHMARK.path)}
-    for place, case in enumerate(CASES):
-        for i, seed in enumerate(SEEDS):
-            if (case.name, case.robot, seed) not in done and not (case.aside and i >= FEW):
-                yield (i + case.aside, case.scene != "beam", place), case, seed
-
-
 def report() -> None:
     """Write the table between its markers in force_only.md."""
     rows = latest(rows_of(BENCHMARK.path))
@@ -88,12 +76,4 @@ def report() -> None:
         errors = [1e3 * float(r["foothold_error_median_m"]) for r in mine if r["foothold_error_median_m"]]
         middle = f"{median(errors):.1f}" if errors else "-"
         lines.append(f"| {case.name} | {case.robot} | {good}/{len(mine)} | {short or '-'} | {middle} |")
-    left = sum(not case.aside for _, case, _ in missing())
-    made = ", ".join(sorted({r["commit"] for r in rows}))
-    write_table(FOLDER / "force_only.md", [*lines, "", f"Runs of {made}. Still to be run: {left}, and comparisons."])
-
-
-if __name__ == "__main__":
-    if sys.argv[1:] != ["report"]:
-        run_for(BENCHMARK, missing(), float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
-    report()
+    write_table(FOLDER / "force_only.md", [*lines, "", origin(BENCHMARK)])

@@ -1,23 +1,19 @@
 """Count how robots walk of which `plantar robot` had the model and nothing else: the table of introduced_robots.md.
 
-`python benchmarks/introduced_robots.py [MINUTES]` introduces the robots of `PLANTAR_REAL_DATA`, runs what is missing in
-introduced_robots.csv, one run after the other, and writes the table; stopped, it goes on where it was. A row's commit
-is what is checked out, so run it in a worktree that nobody changes. Names of robots or scenes after the minutes leave
-the others out. `... introduced_robots.py report` writes the table.
+`python benchmarks/outcomes.py MINUTES introduced_robots` introduces the robots of `PLANTAR_REAL_DATA` and runs what is
+missing. Fresh seeds only, from 1000 on, which nothing was tuned on.
 """
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
+from resumable import Benchmark, Case, latest, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 MADE = FOLDER.parent / "out" / "introduced"
@@ -33,8 +29,7 @@ MODELS = {
 SCENES: dict[str, tuple[str, ...]] = {"flat": (), "push": ("push.dv=0.15",), "beam": (), "uneven": ()}
 """Scenes, shortest first, with their settings: pushes of 0.15 m/s for every robot."""
 
-SEEDS = range(1000, 1020)
-"""Seeds that nothing was tuned on."""
+SEEDS = 20
 
 COLUMNS = ("fell", "steps_taken", "tilt_final_deg", "tilt_max_deg", "impact_median", "impact_max", "torque_limit_share")
 
@@ -63,7 +58,7 @@ BENCHMARK = Benchmark(
     FOLDER / "introduced_robots.csv",
     COLUMNS,
     [
-        Case(scene, scene, name, settings, 0, file=str(robot_file(name)))
+        Case(scene, scene, name, settings, 0, file=str(robot_file(name)), fresh=SEEDS)
         for (scene, settings), name in product(SCENES.items(), MODELS)
     ],
     figures,
@@ -79,22 +74,6 @@ def introduce(data: Path) -> None:
     for name, model in MODELS.items():
         command = [sys.executable, "cli.py", "robot", str(data / model), "-o", str(robot_file(name).parent)]
         subprocess.run(command, cwd=FOLDER.parent, check=True, stdout=subprocess.DEVNULL)
-
-
-def missing(names: Sequence[str] = ()) -> Iterator[tuple[Case, int]]:
-    """Runs that have no row yet, in the order of the cases.
-
-    Args:
-        names: Robots, scenes or both that are run; all where it names none.
-
-    Yields:
-        Case and seed.
-    """
-    done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(BENCHMARK.path)}
-    robots, scenes = set(names) & set(MODELS) or set(MODELS), set(names) & set(SCENES) or set(SCENES)
-    for case, seed in product(BENCHMARK.cases, SEEDS):
-        if case.robot in robots and case.name in scenes and (case.name, case.robot, seed) not in done:
-            yield case, seed
 
 
 def report() -> None:
@@ -121,25 +100,4 @@ def report() -> None:
             f"{median(float(r['impact_median']) for r in mine):.2f}, {most('impact_max'):.2f} | "
             f"{100.0 * most('torque_limit_share', mine):.1f} % |"
         )
-    made = ", ".join(sorted({r["commit"] for r in rows}))
-    write_table(FOLDER / "introduced_robots.md", [*lines, "", f"Runs were made at {made}; all are in the CSV file."])
-
-
-def main(minutes: float, names: Sequence[str]) -> None:
-    """Run what is missing for some minutes, and write the table."""
-    odd = [n for n in names if n not in MODELS and n not in SCENES]
-    if odd:
-        sys.exit(f"no robot or scene is called '{odd[0]}'; there are {', '.join([*MODELS, *SCENES])}")
-    data = os.environ.get("PLANTAR_REAL_DATA")
-    if not data:
-        sys.exit("PLANTAR_REAL_DATA is not set; it names the folder that holds the models")
-    introduce(Path(data))
-    run_for(BENCHMARK, ((rank, *job) for rank, job in enumerate(missing(names))), minutes)
-    report()
-
-
-if __name__ == "__main__":
-    if sys.argv[1:] == ["report"]:
-        report()
-    else:
-        main(float(sys.argv[1]) if len(sys.argv) > 1 else 1e6, sys.argv[2:])
+    write_table(FOLDER / "introduced_robots.md", [*lines, "", origin(BENCHMARK)])

@@ -1,56 +1,86 @@
-"""Run what the tables of outcomes still lack: `python benchmarks/outcomes.py [MINUTES]`, then `... outcomes.py report`.
+"""Make the tables of outcomes: `python benchmarks/outcomes.py MINUTES [TABLE...]`.
 
-Partial footholds (footholds.md), unknown ground (unknown_ground.md), pushes (push.md) and skin against ankles
-(balance.md): the runs that tell most first, one process, a row a run; stopped, it goes on where it was. A row's
-commit is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`.
+Runs what the tables still lack, a row of TABLE.csv a run, the runs that tell most first, and writes the tables;
+stopped, it goes on where it was. `... anew TABLE...` first drops the rows that were made at another commit than the one
+that is checked out; `... report [TABLE...]` only writes the tables. Without names it means all of them. A row's commit
+is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`. Several processes
+share the work when each has tables of its own. Robots that are not built in come from `PLANTAR_REAL_DATA`; without it
+their rows wait.
 """
 
 from __future__ import annotations
 
+import csv
+import os
 import sys
 import time
+from collections.abc import Iterator, Sequence
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
 
-import balance
-import footholds
-import push
-import unknown_ground
-from resumable import Benchmark, Case, add_row, commit, show, wanted
+from introduced_robots import introduce
+from resumable import Benchmark, Case, add_row, commit, rows_of, wanted
 
-SCRIPTS = (push, footholds, unknown_ground, balance)
-TELLING = ("`stones`", "`partial-third`", "`pebbles` level, 5 mm", "feasibility-2, skin", "feasibility-3, skin")
-TELLING += ("25 N s, feedback on", "30 N s, feedback on")
-"""Cases that are neither always nor never completed, or were thought to be: four runs for each one of the others."""
-
-
-def steps(case: Case) -> int:
-    """How many steps a case walks, by which it takes its time."""
-    from sim.run.scene import load_scene
-
-    return load_scene(case.scene, case.settings, case.robot).walk.steps
+TABLES = ("push_steps", "push", "footholds", "stones", "unknown_ground", "force_only", "velocity", "introduced_robots")
+TABLES += ("guide", "balance", "reactive_options", "survival_map", "plant")
 
 
-def missing() -> list[tuple[Benchmark, Case, int]]:
-    """All runs that are missing, the most telling first."""
-    jobs = []
-    for script in SCRIPTS:
-        for rank, case, seed in wanted(script.BENCHMARK):
-            order = rank // 4 if case.name in TELLING else rank
-            jobs.append(((order, steps(case) > 30), script.BENCHMARK, case, seed))
-    jobs.sort(key=lambda job: job[0])
-    return [job[1:] for job in jobs]
+def missing(script: ModuleType) -> Iterator[tuple[int, Case, int]]:
+    """Runs that a table lacks, each with its rank; those of robots without a file are left out."""
+    lacks = script.missing() if hasattr(script, "missing") else wanted(script.BENCHMARK)
+    return (job for job in lacks if not job[1].file or Path(job[1].file).exists())
+
+
+def drop_other_commits(benchmark: Benchmark, made: str) -> int:
+    """Keep only the rows that were made at a commit; return how many are dropped."""
+    rows = rows_of(benchmark.path)
+    kept = [r for r in rows if r["commit"] == made]
+    if rows:
+        with benchmark.path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(kept)
+    return len(rows) - len(kept)
+
+
+def run(scripts: Sequence[ModuleType], minutes: float) -> None:
+    """Run what is missing for some minutes; a run that has begun is ended."""
+    began, made, done = time.monotonic(), commit(), 0
+    while True:
+        # Asked again now and then: what a bisection lacks depends on what it has found.
+        jobs = sorted(((job, s) for s in scripts for job in missing(s)), key=lambda found: found[0][0])
+        if not jobs:
+            return
+        for i, ((_, case, seed), script) in enumerate(jobs[:50]):
+            if time.monotonic() > began + 60.0 * minutes:
+                return
+            row = add_row(script.BENCHMARK, case, seed, made)
+            done += 1
+            hours = (len(jobs) - i - 1) * (time.monotonic() - began) / done / 3600.0
+            told = f"{row['completed']} {row['failed']}".strip()
+            place = f"[{len(jobs) - i - 1} to come, {hours:.1f} h]"
+            print(f"{place} {script.__name__}: {case.name} {case.robot} {seed}: {told}", file=sys.stderr, flush=True)
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Do what the command line says."""
+    first, names = (arguments[0], arguments[1:] or TABLES) if arguments else ("", ())
+    odd = [name for name in names if name not in TABLES]
+    if odd or (first not in ("anew", "report") and not first.replace(".", "", 1).isdigit()):
+        sys.exit(f"outcomes.py: minutes, `anew` or `report`, then tables of {', '.join(TABLES)}; got {list(arguments)}")
+    scripts = [import_module(name) for name in names]
+    if first == "anew":
+        for script in scripts:
+            print(f"{script.__name__}: {drop_other_commits(script.BENCHMARK, commit())} rows dropped")
+        return
+    if first != "report":
+        if data := os.environ.get("PLANTAR_REAL_DATA"):
+            introduce(Path(data))
+        run(scripts, float(first))
+    for script in scripts:
+        script.report()
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] != ["report"]:
-        end = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
-        made = commit()
-        while time.monotonic() < end:
-            jobs = missing()  # again after each round: a verdict that changed asks for more
-            for benchmark, case, seed in jobs:
-                if time.monotonic() > end:
-                    break
-                show(add_row(benchmark, case, seed, made))
-            if not jobs:
-                break
-    for script in SCRIPTS:
-        script.report()
+    main(sys.argv[1:])

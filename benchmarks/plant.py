@@ -1,19 +1,16 @@
 """Count what a plant that differs from the controller's model does to walks: the tables of plant.md and plant.png.
 
 Each item of `[plant]` is drawn alone at growing levels, and all that a robot has that was built with care together at
-level 2 in every walk that is built in. `python benchmarks/plant.py MINUTES [WORD...]` runs what is missing in plant.csv
-(only cases whose name and robot hold all words), one process, a row a run; stopped, it goes on where it was. Without
-minutes it writes the tables and the figure.
+level 2 in every walk that is built in: `python benchmarks/outcomes.py MINUTES plant`.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from resumable import Benchmark, Case, latest, origin, rows_of, run_for, wanted, write_table
+from resumable import Benchmark, Case, latest, origin, rows_of, write_table
 
 from sim.plant.draw import RANGES
 from sim.plant.settings import RANDOM, Plant
@@ -145,24 +142,4 @@ def report() -> None:
         draw(rows, FOLDER / "plant.png")
 
 
-def run(minutes: float, words: Sequence[str]) -> None:
-    """Run what is missing of the cases whose name and robot hold all words, the most telling first.
-
-    Args:
-        minutes: For how long.
-        words: The words.
-    """
-    jobs = [
-        (rank, case, seed)
-        for rank, case, seed in wanted(BENCHMARK)
-        if all(word in f"{case.name} {case.robot}".split() or word in case.name for word in words)
-    ]
-    run_for(BENCHMARK, jobs, minutes)
-
-
 BENCHMARK = Benchmark(FOLDER / "plant.csv", COLUMNS, _cases(), figures)
-
-if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        run(float(sys.argv[1]), sys.argv[2:])
-    report()

@@ -1,6 +1,6 @@
 """Count what feedback, and steps that move, are worth under pushes: the table of push.md and its bars push.png.
 
-`python benchmarks/outcomes.py` runs what is missing in push.csv; `python benchmarks/push.py` writes table and bars.
+`python benchmarks/outcomes.py MINUTES push` runs what is missing in push.csv and writes both.
 """
 
 from __future__ import annotations
@@ -85,6 +85,3 @@ def report() -> None:
 
 
 BENCHMARK = Benchmark(FOLDER / "push.csv", COLUMNS, _cases(), figures)
-
-if __name__ == "__main__":
-    report()

@@ -1,8 +1,8 @@
 """Outcomes of scenes over seeds, by runs that may be stopped: a row a run, appended as it ends, never changed.
 
-A case is counted on two sets of seeds: those from 0 on, which gains and thresholds were chosen by, and ten from 1000
-on, which nothing was ever tuned on. Every row names the commit that it was made at. Where a seed has more rows than
-one, the last one counts.
+A case is counted on two sets of seeds: those from 0 on, which gains and thresholds were chosen by, and fresh ones from
+1000 on, which nothing was ever tuned on. Every row names the commit that it was made at. Where a seed has more rows
+than one, the last one counts.
 """
 
 from __future__ import annotations
@@ -10,16 +10,14 @@ from __future__ import annotations
 import csv
 import os
 import subprocess
-import sys
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 __all__ = [
+    "FEW",
     "FRESH",
-    "OLD",
     "Benchmark",
     "Case",
     "add_row",
@@ -28,23 +26,15 @@ __all__ = [
     "latest",
     "origin",
     "rows_of",
-    "run_for",
-    "show",
     "wanted",
     "write_table",
 ]
 
-FRESH = range(1000, 1010)
-"""Seeds that nothing was tuned on."""
-
-OLD = "4ef602d"
-"""Rows of this commit are from before steps were counted by place, legs collided and joints kept their speed limits."""
-
-AGAIN = 4
-"""So many of an old case's first seeds are run again; all of them where a verdict changed."""
+FRESH = 1000
+"""The first of the seeds that nothing was tuned on."""
 
 FEW = 4
-"""So many fresh seeds a case gets that is there for comparison only."""
+"""So many seeds of either set come early of a case that is there for comparison only."""
 
 
 class Case(NamedTuple):
@@ -56,8 +46,9 @@ class Case(NamedTuple):
         robot: Robot.
         settings: Settings of the scene.
         seeds: How many seeds from 0 on.
-        aside: Whether it is there for comparison only, as the walk without the feature.
+        aside: Whether it is there for comparison only, as the walk without the feature; its runs come last.
         file: File of a robot that is not built in; empty for one that is.
+        fresh: How many seeds from 1000 on.
     """
 
     name: str
@@ -67,6 +58,7 @@ class Case(NamedTuple):
     seeds: int
     aside: bool = False
     file: str = ""
+    fresh: int = 10
 
 
 class Benchmark(NamedTuple):
@@ -110,31 +102,21 @@ def latest(rows: Iterable[dict[str, str]]) -> list[dict[str, str]]:
 def wanted(benchmark: Benchmark) -> Iterator[tuple[int, Case, int]]:
     """Runs that are missing, each with its rank: the lower, the more it tells.
 
-    Fresh seeds of all cases and old seeds once more come first, and all seeds of cases whose verdict changed; cases for
-    comparison come last.
+    Ten fresh seeds of all cases come first, then all the others, then cases for comparison.
     """
-    rows = rows_of(benchmark.path)
-    verdicts: dict[tuple[str, str, int], list[tuple[str, bool]]] = {}
-    for r in rows:
-        key = (r["case"], r["robot"], int(r["seed"]))
-        verdicts.setdefault(key, []).append((r["commit"], r["completed"] == "True"))
+    done = {(r["case"], r["robot"], int(r["seed"])) for r in rows_of(benchmark.path)}
     for case in benchmark.cases:
+        for first, seeds in ((FRESH, case.fresh), (0, case.seeds)):
+            for i in range(seeds):
+                if (case.name, case.robot, first + i) not in done:
+                    yield rank(case, first, i), case, first + i
 
-        def runs(seed: int, case: Case = case) -> list[tuple[str, bool]]:
-            return verdicts.get((case.name, case.robot, seed), [])
 
-        def is_old(seed: int) -> bool:
-            return all(made == OLD for made, _ in runs(seed))
-
-        changed = any(len({good for _, good in runs(seed)}) > 1 for seed in range(case.seeds))
-        later = 100 if case.aside else 0
-        for i, seed in enumerate(FRESH):
-            if not runs(seed) and not (case.aside and i >= FEW):
-                yield later + i, case, seed
-        for seed in range(case.seeds):
-            never = not runs(seed) and not case.aside  # of a comparison some seeds are enough
-            if is_old(seed) and (seed < AGAIN or (changed and runs(seed)) or never):
-                yield later + (seed if seed < AGAIN or changed else 20 + seed), case, seed
+def rank(case: Case, first: int, i: int) -> int:
+    """Place in the order of runs of a case's i-th seed, counted from `first`."""
+    if case.aside:
+        return (60 if i < FEW else 80) + i
+    return i if first == FRESH else 10 + i
 
 
 def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
@@ -178,48 +160,26 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
     return row
 
 
-def run_for(benchmark: Benchmark, jobs: Iterable[tuple[Any, Case, int]], minutes: float) -> None:
-    """Run what is missing for some minutes, the lowest rank first.
+def count(rows: Sequence[dict[str, str]], fresh: bool) -> str:
+    """How many runs were completed of those on fresh seeds, or on the others, for a table."""
+    mine = [r for r in latest(rows) if (int(r["seed"]) >= FRESH) == fresh]
+    return f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}" if mine else "-"
+
+
+def origin(benchmark: Benchmark, missing: int | None = None) -> str:
+    """Which commits the rows that count were made at, and how many are still to come, for under a table.
 
     Args:
         benchmark: What is counted.
-        jobs: Runs that are missing, each with its rank.
-        minutes: For how long; a run that has begun is ended.
+        missing: How many runs are missing, where the benchmark's cases do not tell.
     """
-    end, made = time.monotonic() + 60.0 * minutes, commit()
-    for _, case, seed in sorted(jobs, key=lambda job: job[0]):
-        if time.monotonic() > end:
-            break
-        show(add_row(benchmark, case, seed, made))
-
-
-def count(rows: Sequence[dict[str, str]], fresh: bool) -> str:
-    """How many runs were completed of those on fresh seeds, or on the others, for a table.
-
-    Old rows of which some seeds were run again are marked with how many; fresh seeds that are not run yet with a plus.
-    """
-    mine = [r for r in latest(rows) if (int(r["seed"]) >= FRESH.start) == fresh]
-    if not mine:
-        return "-"
-    text = f"{sum(r['completed'] == 'True' for r in mine)}/{len(mine)}"
-    if fresh:
-        return text
-    again = sum(r["commit"] != OLD for r in mine)
-    return text if again == len(mine) else f"{text} ({again} again)" if again else f"{text} (old)"
-
-
-def origin(benchmark: Benchmark) -> str:
-    """Which commits the rows that count were made at, and how many fresh seeds are still to come, for under a table."""
     rows = latest(rows_of(benchmark.path))
     made: dict[str, int] = {}
     for r in rows:
         made[r["commit"]] = made.get(r["commit"], 0) + 1
-    text = ", ".join(
-        f"{n} of {c}{' or before' if c == OLD else ''}" for c, n in sorted(made.items(), key=lambda m: -m[1])
-    )
-    missing = [seed for _, _, seed in wanted(benchmark)]
-    fresh = sum(seed >= FRESH.start for seed in missing)
-    return f"Runs by commit: {text}. Still to be run: {fresh} on fresh seeds, {len(missing) - fresh} on the others."
+    text = ", ".join(f"{n} of {c}" for c, n in sorted(made.items(), key=lambda m: -m[1]))
+    left = sum(1 for _ in wanted(benchmark)) if missing is None else missing
+    return f"Runs by commit: {text or 'none'}. Still to be run: {left or 'none'}."
 
 
 def write_table(path: Path, lines: Sequence[str], name: str = "table") -> None:
@@ -228,10 +188,3 @@ def write_table(path: Path, lines: Sequence[str], name: str = "table") -> None:
     before, marker, rest = text.partition(f"<!-- {name} -->\n")
     after = rest.partition("<!-- end -->\n")[2]
     path.write_text(before + marker + "\n".join(lines) + f"\n<!-- end -->\n{after}", encoding="utf-8")
-
-
-def show(row: dict[str, Any]) -> None:
-    """Say what came out of a run."""
-    print(
-        f"{row['case']} {row['robot']} {row['seed']}: {row['completed']} {row['failed']}", file=sys.stderr, flush=True
-    )

@@ -1,13 +1,12 @@
 """The largest push that H1 survives in each direction and phase of a step, beside what any controller could capture:
-`python benchmarks/survival_map.py [MINUTES]`.
+`python benchmarks/outcomes.py MINUTES survival_map`.
 
 Hands push with a half sine of 0.1 s at the height of the CoM, in 8 directions at 8 phases of a step (its double
 support, then its single one), in place and at 0.2 m/s. Each cell is bisected over impulses of 5 to 60 N s, first with
 85 % of the bound; a row of survival_map.csv is a run, appended as it ends, and a run that was stopped goes on where it
 was. The bound is `sim.judging.capture_limit` with the controller's own limits: region and acceleration of the swing
 foot, times of a step, and the soles. Where the 85 % fail with a joint at its torque limit, the run is repeated with
-that joint's motor four times as strong, and if that fails, too, with all motors. `... report` writes the table and
-draws survival_map.png.
+that joint's motor four times as strong, and if that fails, too, with all motors.
 """
 
 from __future__ import annotations
@@ -15,15 +14,13 @@ from __future__ import annotations
 import functools
 import math
 import shutil
-import sys
-import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from tempfile import gettempdir
 from typing import Any, NamedTuple
 
 import numpy as np
-from resumable import Benchmark, Case, latest, rows_of, run_for, write_table
+from resumable import Benchmark, Case, latest, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 DIRECTIONS = tuple(range(0, 360, 45))
@@ -254,9 +251,8 @@ def report() -> None:
                 told_shares = {(c.angle, c.phase): s for c, s in zip(asked, shares, strict=True)}
                 figure.colorbar(draw(axis, walk, told_shares, missed), ax=axis, shrink=0.8)
     save_figure(figure, FOLDER / "survival_map.png")
-    commits = sorted({r["commit"] for r in rows})
     left = sum(1 for _ in missing())
-    lines += ["", f"{len(known)} runs of {', '.join(commits)}; cells with runs still to come: {left}."]
+    lines += ["", f"{origin(BENCHMARK, left)} That counts cells with runs still to come."]
     write_table(FOLDER / "survival_map.md", lines)
 
 
@@ -276,14 +272,3 @@ def draw(axis: Any, walk: str, shares: dict[tuple[int, float], float], missed: s
             words = ("" if share is None else f"{share:.2f}") + (" x" if (angle, phase) in missed else "")
             axis.text(i, j, words, ha="center", va="center", fontsize=7)
     return mesh
-
-
-if __name__ == "__main__":
-    if sys.argv[1:] != ["report"]:
-        end = time.monotonic() + 60.0 * (float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
-        while time.monotonic() < end:
-            jobs = sorted(missing(), key=lambda job: job[0])[:8]
-            if not jobs:
-                break
-            run_for(BENCHMARK, jobs, (end - time.monotonic()) / 60.0)
-    report()

@@ -1,12 +1,11 @@
 """Count what preemptive foot compliance and step feasibility are worth: the table, its bars and forces.
 
-`python benchmarks/outcomes.py` runs what is missing in unknown_ground.csv; `python benchmarks/unknown_ground.py` writes
-the table and the bars, `... unknown_ground.py forces` draws the forces on the slab.
+`python benchmarks/outcomes.py MINUTES unknown_ground` runs what is missing in unknown_ground.csv and writes table and
+bars; `python benchmarks/unknown_ground.py` draws the forces on the slab.
 """
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -148,7 +147,4 @@ def forces() -> None:
 BENCHMARK = Benchmark(FOLDER / "unknown_ground.csv", COLUMNS, CASES, figures)
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["forces"]:
-        forces()
-    else:
-        report()
+    forces()

@@ -1,17 +1,15 @@
-"""Count walks at commanded velocities: `python benchmarks/velocity.py [MINUTES]`, then `... velocity.py report`.
+"""Count walks at commanded velocities: `python benchmarks/outcomes.py MINUTES velocity`.
 
 Both robots walk for 60 s at velocities that the seed draws anew every 6 s, with sensor noise, and are told to stop.
-Rows go to velocity.csv, one a run; stopped, it goes on where it was.
 """
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from statistics import median
 from typing import Any
 
-from resumable import Benchmark, Case, count, latest, rows_of, run_for, wanted, write_table
+from resumable import Benchmark, Case, count, latest, origin, rows_of, write_table
 
 FOLDER = Path(__file__).parent
 COLUMNS = ("speed_ratio", "turn_ratio", "walked_m", "turned_deg", "steps", "steps_after_stop", "tilt_deg", "wall_s")
@@ -49,14 +47,8 @@ def report() -> None:
             f"| {case.robot} | {count(mine, False)} | {count(mine, True)} | {ranges[0]} | {ranges[1]} "
             f"| at most {most} | at most {tilt:.2f} |"
         )
-    write_table(FOLDER / "velocity.md", lines)
+    write_table(FOLDER / "velocity.md", [*lines, "", origin(BENCHMARK)])
 
 
 def _range(values: list[float]) -> str:
     return f"{median(values):.3f} ({min(values):.3f} to {max(values):.3f})"
-
-
-if __name__ == "__main__":
-    if sys.argv[1:] != ["report"]:
-        run_for(BENCHMARK, wanted(BENCHMARK), float(sys.argv[1]) if len(sys.argv) > 1 else 1e6)
-    report()

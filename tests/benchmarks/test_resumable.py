@@ -24,7 +24,7 @@ def resumable(monkeypatch: pytest.MonkeyPatch) -> Any:
     return module
 
 
-def row(seed: int, completed: bool, commit: str, case: str = "a") -> dict[str, Any]:
+def row(seed: int, completed: bool, commit: str = "made", case: str = "a") -> dict[str, Any]:
     return {"case": case, "robot": "h1", "seed": seed, "completed": completed, "failed": "", "commit": commit}
 
 
@@ -37,38 +37,38 @@ def benchmark(resumable: Any, path: Path, rows: list[dict[str, Any]], aside: boo
     return resumable.Benchmark(path, (), [case], lambda *_: {})
 
 
-def test_fresh_seeds_and_four_old_ones_are_asked_for(resumable: Any, tmp_path: Path) -> None:
-    old = [row(k, True, resumable.OLD) for k in range(6)]
-    runs = [(rank, seed) for rank, _, seed in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", old))]
-    assert sorted(runs) == sorted([(k, 1000 + k) for k in range(10)] + [(k, k) for k in range(4)])
-    aside = resumable.wanted(benchmark(resumable, tmp_path / "a.csv", old, aside=True))
-    assert sorted(seed for _, _, seed in aside) == [0, 1, 2, 3, 1000, 1001, 1002, 1003]
+def test_what_is_missing_is_asked_for_and_fresh_seeds_come_first(resumable: Any, tmp_path: Path) -> None:
+    runs = list(resumable.wanted(benchmark(resumable, tmp_path / "a.csv", [])))
+    assert [seed for _, _, seed in sorted(runs, key=lambda r: r[0])] == [*range(1000, 1010), *range(6)]
+    some = [row(k, True) for k in (0, 3, 1001)]
+    left = [seed for _, _, seed in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", some))]
+    assert sorted(left) == sorted({*range(1000, 1010), *range(6)} - {0, 3, 1001})
 
 
-def test_a_verdict_that_changed_asks_for_the_whole_row(resumable: Any, tmp_path: Path) -> None:
-    rows = [row(k, True, resumable.OLD) for k in range(6)]
-    same = [*rows, *(row(k, True, "new") for k in (0, 1, 2, 3, *resumable.FRESH))]
-    assert not list(resumable.wanted(benchmark(resumable, tmp_path / "a.csv", same)))
-    other = [*rows, *(row(k, k != 2, "new") for k in (0, 1, 2, 3, *resumable.FRESH))]
-    assert [seed for _, _, seed in resumable.wanted(benchmark(resumable, tmp_path / "a.csv", other))] == [4, 5]
+def test_comparisons_come_last_a_few_of_each_first(resumable: Any, tmp_path: Path) -> None:
+    aside = benchmark(resumable, tmp_path / "a.csv", [], aside=True)
+    ranks = {seed: rank for rank, _, seed in resumable.wanted(aside)}
+    whole = max(rank for rank, *_ in resumable.wanted(benchmark(resumable, tmp_path / "b.csv", [])))
+    assert min(ranks.values()) > whole
+    few = {*range(resumable.FEW), *range(1000, 1000 + resumable.FEW)}
+    assert max(ranks[s] for s in few) < min(ranks[s] for s in set(ranks) - few)
 
 
-def test_the_last_row_of_a_seed_counts_and_old_ones_are_marked(resumable: Any) -> None:
-    rows = [{k: str(v) for k, v in row(s, True, resumable.OLD).items()} for s in range(3)]
-    assert resumable.count(rows, fresh=False) == "3/3 (old)"
-    assert resumable.count(rows, fresh=True) == "-"
-    rows.append({k: str(v) for k, v in row(1, False, "new").items()})
-    assert resumable.count(rows, fresh=False) == "2/3 (1 again)"
-    rows += [{k: str(v) for k, v in row(s, True, "new").items()} for s in (0, 2, 1000, 1001)]
-    assert resumable.count(rows, fresh=False) == "2/3"
-    assert resumable.count(rows, fresh=True) == "2/2"
+def test_the_last_row_of_a_seed_counts(resumable: Any, tmp_path: Path) -> None:
+    rows = [row(0, True), row(1, True), row(1, False, "new"), row(1000, True, "new")]
+    told = [{k: str(v) for k, v in r.items()} for r in rows]
+    assert resumable.count(told, fresh=False) == "1/2"
+    assert resumable.count(told, fresh=True) == "1/1"
+    assert resumable.count(told[:2], fresh=True) == "-"
+    made = resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
+    assert made == "Runs by commit: 2 of new, 1 of made. Still to be run: 13."
 
 
 def test_every_case_of_the_tables_is_a_scene_that_loads(resumable: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(FOLDER))
     from sim.run.scene import load_scene
 
-    for name in ("balance", "footholds", "push", "unknown_ground"):
+    for name in ("balance", "footholds", "push", "unknown_ground", "velocity", "stones", "guide", "force_only"):
         monkeypatch.delitem(sys.modules, name, raising=False)
         script = __import__(name)
         names = [(case.name, case.robot) for case in script.BENCHMARK.cases]
