@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from gait.analysis.pages.heading import facts_of_image
-from gait.analysis.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from gait.analysis.prints.regions import REGIONS
+from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 
 __all__ = ["footprint_page"]
 

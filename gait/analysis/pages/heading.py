@@ -6,9 +6,9 @@ import html
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gait.analysis.pages.page import number
 from plantar import __version__
 from plantar.gravity import GRAVITY
+from plantar.pages.page import number
 
 __all__ = ["facts_of", "facts_of_image"]
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Mapping, Sequence
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from gait.analysis.measures import MEASURES
 from gait.analysis.pages.heading import facts_of
-from gait.analysis.pages.page import Section, asset, embedded, figures_of, number, page, warning_list
 from gait.analysis.pages.tables import comparison_table, measures_table, regions_tables, steps_table
 from plantar.gravity import GRAVITY
+from plantar.pages.page import Section, embedded, figures_of, number, page, warning_list
 
 __all__ = ["comparison_page", "report_page", "summary_text"]
 
@@ -57,8 +58,13 @@ def report_page(
     sections += _with_figures("sides", "Left and right", "", figures, ("symmetry",))
     sections += _with_figures("wrench", "Wrench", "", figures, ("wrench",))
     sections += _with_figures("steps", "Each step", steps_table(metrics), (), ())
-    script = "" if player is None else f"<script>{asset('report.js')}</script>"
-    return page(f"Gait analysis: {title}", facts_of(metrics, title), sections, script)
+    script, style = ("", "") if player is None else (f"<script>{_asset('report.js')}</script>", _asset("report.css"))
+    return page(f"Gait analysis: {title}", facts_of(metrics, title), sections, script, style)
+
+
+def _asset(name: str) -> str:
+    """Text of a file that stands beside this one."""
+    return files("gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
 
 
 def _with_figures(

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from gait.analysis.measures import MEASURES, REGION_MEASURES, Measure, raw_name
-from gait.analysis.pages.page import group_row, number, row, scaled, table, titled
 from gait.analysis.prints.regions import REGIONS
 from plantar.gravity import GRAVITY
+from plantar.pages.page import group_row, number, row, scaled, table, titled
 
 __all__ = ["EACH_STEP", "comparison_table", "measures_table", "regions_tables", "steps_table"]
 

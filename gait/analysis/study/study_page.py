@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from gait.analysis.measures import MEASURES, full_title
-from gait.analysis.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 from gait.analysis.steps.steady import FEWEST_STEPS
 from gait.analysis.study.compare_conditions import Comparison
 from gait.analysis.study.one_recording import RecordingResult
 from gait.analysis.study.statistics import Effect
+from plantar.pages.page import Section, figures_of, number, page, row, scaled, table, titled, warning_list
 
 __all__ = ["study_page"]
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
 
-from gait.analysis.pages.page import Section, number, page, row, table
+from plantar.pages.page import Section, number, page, row, table
 from sim.bench.page.charts import Point, bar, scatter
 from sim.bench.room_times import ROOMS
 from sim.bench.scenes.scene_row import NOISE

@@ -1,4 +1,4 @@
-"""What every page of a report is made of: its frame, sections, tables and figures, and how numbers are written."""
+"""What every page that is written is made of: its frame, sections, tables and figures, and how numbers are written."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 __all__ = [
     "Section",
-    "asset",
     "embedded",
     "figures_of",
     "group_row",
@@ -60,7 +59,7 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f'<link rel="icon" href="data:,"><title>{html.escape(title)}</title>'
-        f"<style>{asset('report.css')}{style}</style></head>\n"
+        f"<style>{_style()}{style}</style></head>\n"
         '<body><a class="skip" href="#content">Skip to content</a>\n'
         f"<header><h1>{html.escape(title)}</h1>{about}"
         f'<nav aria-label="Sections"><ul>{menu}</ul></nav></header>\n'
@@ -68,9 +67,8 @@ def page(title: str, about: str, sections: Sequence[Section], script: str = "", 
     )
 
 
-def asset(name: str) -> str:
-    """Text of a file that stands beside this one."""
-    return files("gait.analysis.pages").joinpath(name).read_text(encoding="utf-8")
+def _style() -> str:
+    return files("plantar.pages").joinpath("page.css").read_text(encoding="utf-8")
 
 
 def figures_of(figures: Iterable[tuple[Path, str]]) -> Section:
