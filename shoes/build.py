@@ -25,7 +25,18 @@ from shoes.solid.body import mark_outline, mirrored_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
 
-__all__ = ["RIMS", "Progress", "Rim", "Shoe", "ShoeBuild", "Sides", "build_shoe", "built_sides", "sides_of"]
+__all__ = [
+    "RIMS",
+    "Progress",
+    "Rim",
+    "Shoe",
+    "ShoeBuild",
+    "Sides",
+    "build_shoe",
+    "built_sides",
+    "planned_sides",
+    "sides_of",
+]
 
 Sides = Literal["left", "right", "both"]
 """Which shoes to build."""
@@ -143,11 +154,9 @@ def build_shoe(
         >>> [(shoe.side, len(shoe.layout)) for shoe in build.shoes]
         [('left', 21), ('right', 21)]
     """
-    sides = sides_of(side)
+    sides = sides_of(side, rim)
     if parameters is not None and parameters.material == "TPU":
         raise InputError("a shoe of TPU would bend under the robot; allowed: PA12, PETG, PLA (TPU is for insoles)")
-    if rim not in RIMS:
-        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
     if rim == "fine" and taxels is not None:
         raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
     tell = progress or (lambda fraction, text: None)
@@ -180,30 +189,37 @@ def build_shoe(
     notes = foot.notes + fit.notes + raised + lowered + left.notes + _blind_note(left, fit)
     share = check_load_share(left, load_case(foot, p), p)
     if layout_only:
-        plans = [left if which == "left" else mirrored_plan(left) for which in sides]
         tell(1.0, "layouts fitted")
-        return ShoeBuild(foot, fit, p, tuple(Shoe(plan) for plan in plans), share, notes=notes)
+        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
     shoes = built_sides(left, steps, p, sides, tell)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note))
 
 
-def sides_of(side: Sides) -> tuple[Side, ...]:
-    """Which sides are built.
+def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
+    """Which sides are built, where side and rim are what shoes and insoles know.
 
     Args:
         side: "left", "right" or "both".
+        rim: Cells along the edge.
 
     Returns:
         The sides, left first.
 
     Raises:
-        InputError: If it is none of left, right, both.
+        InputError: If one of them is unknown.
     """
     if side not in ("left", "right", "both"):
         raise InputError(f"side is {side!r}; allowed: left, right, both")
+    if rim not in RIMS:
+        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
     return SIDES if side == "both" else (side,)
+
+
+def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
+    """The sides asked for, of a left plan, without their solids."""
+    return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
 
 
 def built_sides(
@@ -225,9 +241,9 @@ def built_sides(
     tell(0.1, "loading the CAD kernel")
     load_cadquery()
     shoes = []
-    for i, which in enumerate(sides):
+    for i, shoe in enumerate(planned_sides(left, sides)):
+        plan, which = shoe.plan, shoe.side
         tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
-        plan = left if which == "left" else mirrored_plan(left)
         mark = tuple(
             Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in mark_outline(plan, p, which).geoms
         )

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from plantar.errors import InputError
-from shoes.build import RIMS, Progress, Rim, Shoe, ShoeBuild, Sides, built_sides, sides_of
+from shoes.build import Progress, Rim, ShoeBuild, Sides, built_sides, planned_sides, sides_of
 from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
 from shoes.plan.insole_plan import fit_insole, insole_parameters, plan_insole
 from shoes.plan.load_share import check_load_share, relieved
-from shoes.plan.shoe_plan import mirrored_plan
 from shoes.plan.strength import load_case
 from shoes.solid.body import insole_steps
 from shoes.solid.retention import Retention
@@ -57,9 +55,7 @@ def build_insole(
         >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
         ('insole', 6.0, 0.94)
     """
-    sides = sides_of(side)
-    if rim not in RIMS:
-        raise InputError(f"rim is {rim!r}; allowed: {', '.join(RIMS)}")
+    sides = sides_of(side, rim)
     tell = progress or (lambda fraction, text: None)
     p, notes = insole_parameters(foot, thickness, parameters or ShoeParameters())
     tell(0.0, "fitting the taxels to the sole")
@@ -70,7 +66,6 @@ def build_insole(
     share = check_load_share(left, load, p)
     told = (*foot.notes, *notes, *fit.notes, *lowered, *left.notes, _NOTE.format(thickness))
     if layout_only:
-        shoes = tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
-        return ShoeBuild(foot, fit, p, shoes, share, notes=told, kind="insole")
+        return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=told, kind="insole")
     shoes = built_sides(left, insole_steps(left, p), p, sides, tell)
     return ShoeBuild(foot, fit, p, shoes, share, Retention("none", (), 0.0, 0.0, ""), told, kind="insole")

@@ -19,6 +19,7 @@ from shoes.checks.weights import Weights, weigh
 from shoes.geometry.outline import ring
 from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
+from shoes.plan.insole_plan import EVEN_SHARE, even_share
 from shoes.plan.load_share import LoadShare
 from shoes.plan.pull_off import SNAP_MOST, PullOff
 from shoes.plan.shoe_plan import ShoePlan
@@ -30,7 +31,6 @@ __all__ = ["Check", "ShoeCheck", "check_shoe", "corner_errors"]
 
 _OVERHANG_SHARE = 0.02  # of the contact face: what may hang over without support on a printer that lays lines
 _FLAT_SHARE, _HALF_SHARE = 0.95, 0.80  # of the load: what goes past the taxels is an error of every force read
-_EVEN_SHARE = 0.80  # of an even pressure on an insole, which no plate spreads
 
 Array = NDArray[np.float64]
 
@@ -198,15 +198,11 @@ def _rim_checks(plan: ShoePlan, build: ShoeBuild) -> Iterator[Check]:
 
 def _insole_checks(shoe: Shoe, surface: Array, p: ShoeParameters) -> Iterator[Check]:
     """An insole's thickness, its place within the foot's outline, and what its cells carry below a soft foot."""
-    import shapely
-
     high = float(surface[..., 2].max())
     yield Check("thickness, mm", abs(high - p.thickness) <= 0.05, round(high, 3), f"{p.thickness:g} within 0.05")
     beyond = float(_beyond(shoe.plan.foot, surface))
     yield Check("beyond the foot's outline, mm", beyond <= 1e-2, round(beyond, 3), "0")
-    sole = shoe.plan.foot
-    covered = 100.0 * float(shapely.union_all(shoe.plan.cells).intersection(sole).area / sole.area)
-    least = 100.0 * _EVEN_SHARE
+    covered, least = 100.0 * even_share(shoe.plan.cells, shoe.plan.foot), 100.0 * EVEN_SHARE
     yield Check("even pressure that the taxels carry, %", covered >= least, round(covered, 1), f"{least:g} or more")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from shoes.build import Shoe, ShoeBuild
 from shoes.solid.pad import pad_surface, volume_of
@@ -34,6 +34,10 @@ class Weights:
     def total(self) -> float:
         """All together."""
         return self.printed + self.pad + self.skin + self.board
+
+    def as_dict(self) -> dict[str, float]:
+        """Each mass and their `total`, in g."""
+        return asdict(self) | {"total": round(self.total, 2)}
 
 
 def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:

@@ -89,11 +89,7 @@ class ShoeReport:
                 "print_hours": max(c.print_hours for c in all_checks),
                 "retention": build.retention.kind if build.retention else "none",
                 "holds": self.holds,
-                "sides": {
-                    side: _plain(c)
-                    | {"weights_g": asdict(self.weights[side]) | {"total": round(self.weights[side].total, 2)}}
-                    for side, c in self.checks.items()
-                },
+                "sides": {side: _plain(c) | {"weights_g": c.weights.as_dict()} for side, c in self.checks.items()},
                 "parts": {side: [asdict(part) for part in bill] for side, bill in self.bills.items()},
             }
         return out | {"parameters": build.parameters.as_dict(), "files": list(self.files)}
@@ -108,7 +104,9 @@ def _extent(shoe: Shoe) -> NDArray[np.float64]:
 def _plain(value: Any) -> Any:
     """Plain JSON values of a record; a measure that is not finite becomes null."""
     if isinstance(value, ShoeCheck):
-        return _plain(asdict(value)) | {"holds": value.holds}
+        told = asdict(value) | {"holds": value.holds}
+        del told["weights"]  # stated with their unit and sum
+        return _plain(told)
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):

@@ -6,6 +6,7 @@ go up to the edge therefore, and the share of the sole that they cover is the sh
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import fields, replace
 from typing import Any
 
@@ -17,10 +18,21 @@ from shoes.geometry.outline import tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.shoe_plan import ShoePlan, plan_face
 
-__all__ = ["INSOLE_THICKNESS", "fit_insole", "insole_parameters", "person_mass", "plan_insole"]
+__all__ = [
+    "EVEN_SHARE",
+    "INSOLE_THICKNESS",
+    "even_share",
+    "fit_insole",
+    "insole_parameters",
+    "person_mass",
+    "plan_insole",
+]
 
 INSOLE_THICKNESS = (4.0, 15.0)
 """Least and greatest thickness of an insole in mm, with its pad."""
+
+EVEN_SHARE = 0.80
+"""Least share of an even pressure that an insole's cells carry."""
 
 _SHARES = {"pad_thickness": 1 / 6, "taxel_protrusion": 1 / 6, "pocket_depth": 1 / 4}  # the rest is the floor
 _STATURE, _BODY_MASS_INDEX = 6.6, 24.0  # body height over foot length; kg/m^2
@@ -99,12 +111,37 @@ def fit_insole(foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine
         The cells.
 
     Raises:
-        FootError: If none fit.
+        FootError: If none fit, or they would carry less than `EVEN_SHARE` of an even pressure.
     """
     room = _within(foot, parameters.clearance + parameters.border)
     if fine:
-        return fit_fine_rim(room, cell_area=cell_area, overhang=0.0, border=parameters.border)
-    return replace(fit_taxels(room, cell_area=cell_area), border=parameters.border)
+        fit = fit_fine_rim(room, cell_area=cell_area, overhang=0.0, border=parameters.border)
+    else:
+        fit = replace(fit_taxels(room, cell_area=cell_area), border=parameters.border)
+    share = even_share(fit.cells, foot.sole)
+    if share < EVEN_SHARE:
+        what, way = ("cells with a fine rim", "") if fine else ("whole cells", "a fine rim (--rim fine) or ")
+        raise FootError(
+            f"{foot.name}: {what} of {cell_area:g} mm^2 cover {100.0 * share:.0f} % of the foot's outline; an insole "
+            f"needs {100.0 * EVEN_SHARE:g} %, as it spreads no load over them: use {way}smaller cells (--cell-area)"
+        )
+    return fit
+
+
+def even_share(cells: Iterable[Any], sole: Any) -> float:
+    """Share of an even pressure below a soft foot that cells carry: that of the sole which they cover.
+
+    Args:
+        cells: Polygons, or their corners (k, 2), in mm.
+        sole: Outline of the sole, a shapely polygon in mm.
+
+    Returns:
+        The share, 0..1.
+    """
+    import shapely
+
+    covered = shapely.union_all([shapely.Polygon(c) for c in cells]).intersection(sole)
+    return float(covered.area / sole.area)
 
 
 def _within(foot: Foot, distance: float) -> Any:

@@ -148,7 +148,7 @@ def check_load_share(plan: ShoePlan, load: LoadCase, parameters: ShoeParameters)
     shares = {name: springs.share(held, load.force)[0] for name, held in halves.items()}
     worst = min(shares, key=lambda name: shares[name])
     beside = float((~springs.taxel).sum()) / max(1, int(springs.taxel.sum()))
-    stiffness = (1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
+    stiffness = max(0.0, 1.0 - flat) / (flat * beside) if flat > 0.0 and beside > 0.0 else 0.0
     return LoadShare(flat, shares[worst], worst, sunk, stiffness)
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 from gait.analysis.analyse import analyse, with_layout
 from plantar import Percept, Reading, read_layout
-from plantar.errors import InputError
+from plantar.errors import FootError, InputError
 from shoes import ShoeParameters, export_shoe
 from shoes.foot.foot import Foot, foot_from_dimensions
 from shoes.insole import build_insole
@@ -47,6 +48,16 @@ def test_what_cannot_be_an_insole_is_refused() -> None:
     ):
         with pytest.raises(InputError, match=reason):
             build_insole(PERSON, thickness, parameters=ShoeParameters(**change), layout_only=True)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("length", "width"), [(0.24, 0.09), (0.29, 0.105)])
+def test_whole_cells_that_miss_too_much_of_the_pressure_are_refused(length: float, width: float) -> None:
+    foot = foot_from_dimensions("person", length=length, width=width, corner_radius=0.035)
+    with pytest.raises(FootError, match=r"whole cells of 691 mm\^2 cover 7\d % of the foot's outline; .*--rim fine"):
+        build_insole(foot, 6.0, rim="whole", layout_only=True)
+    build = build_insole(foot, 6.0, rim="whole", cell_area=150.0, layout_only=True)
+    cells = shapely.union_all(build.shoes[0].plan.cells)
+    assert cells.intersection(foot.sole).area > 0.8 * foot.sole.area
 
 
 def walk(weights: dict[str, np.ndarray], steps: int = 8) -> dict[str, np.ndarray]:
