@@ -218,7 +218,15 @@ def sides_of(side: Sides, rim: Rim) -> tuple[Side, ...]:
 
 
 def planned_sides(left: ShoePlan, sides: tuple[Side, ...]) -> tuple[Shoe, ...]:
-    """The sides asked for, of a left plan, without their solids."""
+    """The sides asked for, without their solids.
+
+    Args:
+        left: The left plan.
+        sides: Which of the two.
+
+    Returns:
+        A shoe each.
+    """
     return tuple(Shoe(left if which == "left" else mirrored_plan(left)) for which in sides)
 
 
