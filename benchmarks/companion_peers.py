@@ -3,6 +3,7 @@ r"""One tick of the companion beside mink (velocities) and tsid on pinocchio (ac
 The same robot, state and tasks for each: two strict levels, since the peers have no more. Above, what has to be met
 (hand, centre of mass, feet where it stands on them), below a posture. First what comes out is compared, then the time.
 A tick is everything between the state of the joints and the torques: kinematics, dynamics, tasks and fusion.
+`python benchmarks/companion_peers.py` measures it; its head says how tsid gets an environment of its own.
 
     OMP_NUM_THREADS=1 python benchmarks/companion_peers.py        (writes benchmarks/companion_peers.md)
 

@@ -27,9 +27,9 @@ def follow(page: Path, folder: Path) -> None:
     scripts = Path(sys.executable).parent
     env = os.environ | {"PATH": f"{scripts}{os.pathsep}{os.environ.get('PATH', '')}"}
     names: dict[str, object] = {"__name__": "page"}
-    content = page.read_text(encoding="utf-8").replace("tcp://192.0.2.1:8786", f"tcp://127.0.0.1:{free_port()}")
+    port = str(free_port())
+    content = page.read_text(encoding="utf-8").replace("tcp://192.0.2.1:8786", f"tcp://127.0.0.1:{port}")
     content = content.replace("--nworkers 8", "--nworkers 1").replace("--seeds 20", "--seeds 1")
-    [port] = set(re.findall(r"tcp://127.0.0.1:(\d+)", content)) or {"0"}
     with ExitStack() as servers:
         for language, text in BLOCK.findall(content):
             if language == "python":

@@ -39,7 +39,6 @@ def main() -> None:
         (PAGES / "examples" / f"{example.stem}.md").write_text(f"# {example.stem}\n\n```python\n{code}```\n")
     (PAGES / "settings.md").write_text(settings_page(), encoding="utf-8")
     (PAGES / "errors.md").write_text(errors_page(), encoding="utf-8")
-    (PAGES / "benchmarks.md").write_text(benchmarks_page(), encoding="utf-8")
     write_api()
     for page in PAGES.rglob("*.md"):
         page.write_text(linked(page), encoding="utf-8")
@@ -150,16 +149,6 @@ def errors_page() -> str:
         meaning = (ast.get_docstring(node) or "").splitlines()[0]
         text.append(f"| `{node.name}` | {meaning} | {WHAT_TO_DO[node.name]} |")
     return "\n".join(text) + "\n"
-
-
-def benchmarks_page() -> str:
-    """A list of what was counted and measured."""
-    lines = []
-    for page in sorted((ROOT / "benchmarks").glob("*.md")):
-        title = page.read_text(encoding="utf-8").splitlines()[0].lstrip("# ")
-        lines.append(f"- [{title}](benchmarks/{page.name})")
-    head = "# Benchmarks\n\nWhat was counted over seeds that nothing was tuned on, and what was measured.\n\n"
-    return head + "\n".join(lines) + "\n"
 
 
 def write_api() -> None:

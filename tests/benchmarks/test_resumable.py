@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,15 @@ def test_the_last_row_of_a_seed_counts(resumable: Any, tmp_path: Path) -> None:
     assert resumable.count(told[:2], fresh=True) == "-"
     made = resumable.origin(benchmark(resumable, tmp_path / "a.csv", rows))
     assert made == "Runs by commit: 2 of new, 1 of made. Still to be run: 13."
+
+
+def test_the_index_names_every_page_and_every_page_its_command() -> None:
+    index = (FOLDER / "README.md").read_text(encoding="utf-8")
+    pages = {p.name for p in FOLDER.glob("*.md")} - {"README.md"}
+    assert pages == set(re.findall(r"\]\((\w+\.md)\)", index))
+    for page in pages:
+        text = (FOLDER / page).read_text(encoding="utf-8")
+        assert re.search(r"plantar (bench|sweep)|make bench|python\s+benchmarks/\w+\.py", text), page
 
 
 def test_every_case_of_the_tables_is_a_scene_that_loads(resumable: Any, monkeypatch: pytest.MonkeyPatch) -> None:
