@@ -13,7 +13,7 @@ from gait.analysis.options import AnalysisOptions
 from gait.analysis.prints.platform import PlatformPrint
 from gait.analysis.prints.regions import REGIONS
 from gait.analysis.steps.cop_path import averaged_path
-from gait.analysis.steps.events import Contact, find_contacts, force_levels
+from gait.analysis.steps.events import Contact, Levels, find_contacts, force_levels, run_together
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.pressure_measures import region_measures
 from gait.analysis.steps.stated import stated_contacts
@@ -170,6 +170,14 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
             "of the "
             "sole's length"
         )
+    for contact in gait.contacts if gait.levels is not None else ():
+        steps = run_together(gait.foot.vertical_force, recording.rate_hz, cast(Levels, gait.levels), contact)
+        if steps > 1:
+            begin, end = (float(recording.time[i]) for i in (contact.begin, contact.end - 1))
+            out.append(
+                f"the {side} foot seems to be on the ground from {begin:.1f} to {end:.1f} s, but lands {steps} times "
+                "in that: its sensor's offset joins these steps, which are in no mean that can be trusted"
+            )
     travel = _travel_of_steps(gait)
     if len(gait.steps) >= 2 and travel and float(np.median(travel)) < BACKWARDS:
         out.append(

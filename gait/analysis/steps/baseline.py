@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.analysis.steps.events import MINIMUM_SWING, smoothed
+from gait.analysis.steps.swing_levels import SwingLevels, swing_levels, true_runs
 from plantar.recordings.let_go import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 
@@ -50,6 +51,10 @@ _LONGEST_CONTACT, _QUICK, _FEW_SHARE = 2.0, 0.2, 0.95
 passes the lower half of its force (0.03 to 0.15 s in walking, 0.3 s and more where weight is shifted), and largest
 share of the time in swing."""
 
+FOLLOWED = 0.025
+"""Where the level of a single swing lies farther from the usual one, as a share of the range, each swing has a level of
+its own: events lie at 5 % of the range."""
+
 _FRAMES = 4000
 """Frames in swing from which a cell's reading is averaged: enough for 2 % of its noise."""
 
@@ -62,11 +67,13 @@ class RestingLevel:
         level: Its level (n,) in each frame, in the force's unit.
         swing: Frames (n,) in which the foot is at that level for longer than `MINIMUM_SWING`.
         span: Range of the force above the level.
+        each: The single swings, where the level is followed from one to the next; else None.
     """
 
     level: NDArray[np.float64]
     swing: NDArray[np.bool_]
     span: float
+    each: SwingLevels | None = None
 
 
 def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
@@ -77,7 +84,8 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
         rate: Frames a second.
 
     Returns:
-        The level; None where the force returns to no flat level, as in standing.
+        The level; None where the force returns to no flat level, as in standing. Where it changes, it is that of each
+        swing, as far as these are found.
 
     Example:
         >>> time = np.arange(0.0, 12.0, 0.01)
@@ -85,6 +93,17 @@ def resting_level(force: NDArray[np.float64], rate: float) -> RestingLevel | Non
         >>> float(resting_level(walk, 100.0).level[0]), resting_level(500.0 + 20.0 * np.sin(time), 100.0)
         (300.0, None)
     """
+    usual, each = _usual_level(force, rate), swing_levels(force, rate)
+    if each is None:
+        return usual
+    level = 0.0 if usual is None else float(np.median(usual.level))
+    if np.abs(each.level - level)[each.swing].max() <= FOLLOWED * each.span:
+        return usual
+    return RestingLevel(each.level, each.swing, each.span, each)
+
+
+def _usual_level(force: NDArray[np.float64], rate: float) -> RestingLevel | None:
+    """The level of stretches of ten strides or five."""
     n = len(force)
     tried = []
     for window in _WINDOWS:
@@ -120,7 +139,7 @@ def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArr
     above = measured & ~near & (course <= low + _ABOVE * (high - low))
     if above.sum() > _SPARSE * near.sum():
         return None
-    runs = [(a, b) for a, b in _runs(near) if b - a >= MINIMUM_SWING * rate]
+    runs = [(a, b) for a, b in true_runs(near) if b - a >= MINIMUM_SWING * rate]
     inner = [(a, b) for a, b in runs if a > 0 and b < len(force)]
     swing = np.zeros(len(force), dtype=bool)
     for a, b in runs:
@@ -138,19 +157,13 @@ def _level(force: NDArray[np.float64], rate: float) -> tuple[float, float, NDArr
 def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float, span: float, rate: float) -> bool:
     """Whether contacts between flat stretches are steps: a foot lands and lifts at once, weight is shifted slowly."""
     flanks = []
-    for a, b in _runs(~near):
+    for a, b in true_runs(~near):
         part = course[a:b] - low
         if a == 0 or b == len(course) or part.max() < 0.5 * span or b - a > _LONGEST_CONTACT * rate:
             continue
         half = np.flatnonzero(part > 0.5 * span)
         flanks += [half[0] / rate, (b - a - 1 - half[-1]) / rate]
     return len(flanks) > 0 and max(flanks) <= _QUICK
-
-
-def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First frame of each run of true values, and the frame after its last one."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def without_baselines(recording: PressureRecording) -> PressureRecording:
@@ -170,9 +183,9 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
         if rest is None:
             continue
         offset = float(np.median(rest.level))
-        if np.abs(rest.level).max() > OFFSET * rest.span:
+        drift = float(np.ptp(rest.level))
+        if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span:
             feet[side] = _without_offset(foot, rest)
-            drift = float(np.ptp(rest.level))
             unit = "counts" if recording.raw else "N"
             moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""
             notes.append(
@@ -227,16 +240,9 @@ def _without_offset(foot: FootRecording, rest: RestingLevel) -> FootRecording:
     total = None if foot.total is None else foot.total - rest.level
     if foot.force.shape[1] == 0:
         return replace(foot, total=total)
-    n = len(rest.level)
-    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
-    stretches = np.unique(np.linspace(0, n, 1 + (max(1, n // max(1, _per_stretch(rest))) if drifts else 1)).astype(int))
-    middles, means = [], []
-    for a, b in pairwise(stretches.tolist()):
-        frames = a + _frames(rest.swing[a:b])
-        if len(frames):
-            middles.append(0.5 * (a + b))
-            means.append(_in_swing(foot, frames))
-    at, table = np.array(middles), np.array(means)
+    places, stretches = _stretches(rest)
+    means = [_in_swing(foot, a + _frames(rest.swing[a:b])) for a, b in stretches]
+    at, table = np.array(places), np.array(means)
     force = room(*foot.force.shape)
     for rows in blocks_of_frames(foot.force):
         force[rows] = foot.force[rows] - _between(np.arange(rows.start, rows.stop), at, table)
@@ -251,6 +257,18 @@ def _between(index: NDArray[np.int64], at: NDArray[np.float64], table: NDArray[n
     after = np.clip(np.searchsorted(at, index), 1, len(at) - 1)
     share = np.clip((index - at[after - 1]) / (at[after] - at[after - 1]), 0.0, 1.0)[:, None]
     return np.asarray((1.0 - share) * table[after - 1] + share * table[after])
+
+
+def _stretches(rest: RestingLevel) -> tuple[list[float], list[tuple[int, int]]]:
+    """Places (frames) at which cells have a baseline of their own, and the stretch of frames that each is of."""
+    if rest.each is not None:
+        return rest.each.places.tolist(), [(int(a), int(b)) for a, b in rest.each.spans]
+    n = len(rest.level)
+    drifts = float(np.ptp(rest.level)) > 0.05 * rest.span
+    count = max(1, n // max(1, _per_stretch(rest))) if drifts else 1
+    edges = np.unique(np.linspace(0, n, 1 + count).astype(int)).tolist()
+    stretches = [(a, b) for a, b in pairwise(edges) if rest.swing[a:b].any()]
+    return [0.5 * (a + b) for a, b in stretches], stretches
 
 
 def _per_stretch(rest: RestingLevel) -> int:

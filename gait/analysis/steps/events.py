@@ -30,6 +30,7 @@ __all__ = [
     "Levels",
     "find_contacts",
     "force_levels",
+    "run_together",
     "smoothed",
 ]
 
@@ -71,6 +72,10 @@ _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
 
 _MEDIAN_OF_NORMAL = 0.6745
 """Median of the magnitude of a normal variable, in standard deviations."""
+
+_LONGEST_STEP, _DEEP, _LANDING = 1.5, 0.5, 0.25
+"""Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
+within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly."""
 
 _FEWEST_STEPS = 20
 """Steps between swing samples from which their noise is judged."""
@@ -310,3 +315,37 @@ def _crossing(
     f0, f1 = force[frame - 1], force[frame]
     share = 0.5 if f0 == f1 or abs(f1 - f0) > jump else float(np.clip((level - f0) / (f1 - f0), 0.0, 1.0))
     return float(time[frame - 1] + share * (time[frame] - time[frame - 1]))
+
+
+def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contact: Contact) -> int:
+    """How many steps a contact seems to hold: one, or several that the sensor's offset joins.
+
+    Args:
+        force: Vertical force (n,) of the foot in N.
+        rate: Frames a second.
+        levels: The foot's levels.
+        contact: One of its contacts.
+
+    Returns:
+        How often the foot lands in it; 0 where the contact is short.
+
+    Example:
+        >>> time = np.arange(0.0, 10.0, 0.01)
+        >>> force = 200.0 + 700.0 * ((time % 1.0 > 0.4) & (time > 1.0))
+        >>> found = Contact(0.0, None, 0, 1000)
+        >>> run_together(force, 100.0, Levels(0.0, 900.0, 45.0, 90.0, 0.0, 90.0), found)
+        9
+    """
+    part = force[contact.begin : contact.end]
+    part = part[np.isfinite(part)]
+    if len(part) < _LONGEST_STEP * rate:
+        return 0
+    course = smoothed(part)
+    low, high = (float(v) for v in np.percentile(course, (3.0, 92.0)))
+    if high - low < _DEEP * (levels.peak - levels.rest):
+        return 0
+    share = (course - low) / (high - low)
+    edges = np.flatnonzero(np.diff((share > 0.5).astype(np.int8)) == 1)
+    reach = max(1, round(0.5 * _LANDING * rate))
+    lands = (share[max(0, i - reach) : i + 1].min() < 0.2 and share[i : i + reach + 2].max() > 0.8 for i in edges)
+    return int(sum(lands))

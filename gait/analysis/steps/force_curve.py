@@ -95,7 +95,8 @@ def _first_hump(force: NDArray[np.float64], least: float) -> int:
     even = np.convolve(np.pad(force, width // 2, mode="edge"), np.full(width, 1.0 / width), mode="valid")
     start = 0
     while start < len(even):
-        falls = np.flatnonzero(even[start:] < (1.0 - _DEPTH) * np.maximum.accumulate(even[start:]))
+        most = np.maximum.accumulate(even[start:])  # below zero where a sensor's offset is
+        falls = np.flatnonzero(even[start:] < most * np.where(most > 0.0, 1.0 - _DEPTH, 1.0 + _DEPTH))
         if len(falls) == 0:
             break
         top = start + int(np.argmax(even[start : start + falls[0]]))
