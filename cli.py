@@ -22,6 +22,7 @@ from plantar.errors import InputError
 from plantar.optional_library import need_libraries
 from plantar.sides import SIDES
 from shoes.order import FootSource, ShoeOrder
+from sim.libraries import LIBRARIES
 
 app = typer.Typer(
     name="plantar",
@@ -30,9 +31,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-
-_SIM = ("mujoco", "scipy", "daqp")
-"""What every module of the simulator imports of its extra."""
 
 
 def _print_version(wanted: bool) -> None:
@@ -299,7 +297,7 @@ def robot(
     Example: plantar robot check out/mine/robot.toml --scene beam
     """
     os.environ.setdefault("MUJOCO_GL", "egl")
-    need_libraries("sim", *_SIM)
+    need_libraries("sim", *LIBRARIES)
     if (str(model) == "check") != (robot_file is not None) or (robot_file is None and scene is not None):
         raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
     if robot_file is not None:
@@ -355,7 +353,7 @@ def sim(
             raise InputError(f"{option} {file} needs a name that ends in {ending}")
     if video is not None:
         os.environ.setdefault("MUJOCO_GL", "egl")
-    need_libraries("sim", *_SIM)
+    need_libraries("sim", *LIBRARIES)
     from sim.run.scene_kind import open_scene, run_opened_to_files, summary_text
 
     loaded = open_scene(scene, settings or [], robot)
@@ -433,7 +431,7 @@ def sweep(
     Example: plantar sweep push --random impulse=10:50 --random friction=0.3:1 --seeds 100 -o out/map
     """
     os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here; MuJoCo would look for a display
-    need_libraries("sim", *_SIM)
+    need_libraries("sim", *LIBRARIES)
     from sim.sweep import SweepStopped, plan_from_texts, run_sweep
     from sim.sweep.sweep_text import sweep_errors, sweep_text
 
@@ -462,7 +460,7 @@ def demo(
 
     Example: plantar demo -o out
     """
-    need_libraries("sim", *_SIM)
+    need_libraries("sim", *LIBRARIES)
     from gait.analysis.analyse import analyse_recording
     from plantar.atomic import output_folder, write_text
     from plantar.layouts.layout_file import read_layout
@@ -581,80 +579,11 @@ def bench(
 
     Example: plantar bench kernels --stress --readings 20000 --json
     """
-    if what not in ("kernels", "contact", "scenes", "skip", "stress", "all"):
-        raise InputError(f"cannot measure '{what}'; allowed: kernels, contact, scenes, skip, stress, all")
-    if (scene or robot) and what != "scenes":
-        raise InputError(f"--scene and --robot are for scenes, not '{what}': plantar bench scenes --scene flat")
-    if quick and what not in ("scenes", "all"):
-        raise InputError(f"--quick is for scenes and all, not '{what}': plantar bench all --quick")
-    if stress:
-        if what != "kernels":
-            raise InputError(f"--stress is for kernels, not '{what}': plantar bench kernels --stress")
-        from plantar.bench.stress.stress_command import stress_command
+    from sim.bench.kinds import BenchOptions, measure
 
-        stress_command(readings, seed, as_json)
-        return
-    if what == "stress":
-        need_libraries("sim", *_SIM)
-        from sim.bench.stress.stress_sweep import measure_stress, stress_loop_text
-
-        with progress_bar() as tell:
-            told = measure_stress(output, scenarios, first, tell)
-        faults = [f"{len(told['failures'])} of {scenarios} scenarios failed"] if told["failures"] else []
-        end_command(told, as_json, stress_loop_text(told), faults, bool(faults))
-        return
-    if what == "scenes":
-        need_libraries("sim", *_SIM)
-        from sim.bench.scenes.measure_scenes import measure_scenes
-        from sim.bench.scenes.scenes_page import scenes_text
-
-        with progress_bar() as tell:
-            told = measure_scenes(output, tell, scene or (), robot or (), quick)
-        told["files"] = [str(output / name) for name in told["files"]]
-        end_command(told, as_json, scenes_text(told) + "\n" + file_lines(told["files"]))
-        return
-    from plantar.atomic import output_folder, write_text
-
-    result: dict[str, Any] = {}
-    texts = []
-    with output_folder(output) as folder, progress_bar() as tell:
-        parts = ("kernels", "contact", "skip", "scenes", "papers") if what == "all" else (what,)
-        told_of = {part: part_of(tell, i / len(parts), 1 / len(parts)) for i, part in enumerate(parts)}
-        if "kernels" in parts:
-            from plantar.bench.kernel_text import kernel_text
-            from plantar.bench.report import measure_kernels
-
-            need_libraries("sim", "scipy", "cv2")
-            result["kernels"] = measure_kernels(folder, told_of["kernels"], rounds=3 if quick else 9)
-            texts.append(kernel_text(result["kernels"]))
-        if "contact" in parts:
-            need_libraries("sim", *_SIM)
-            from sim.contact_models import measure_contact
-            from sim.contact_models.contact_text import contact_text
-
-            result["contact"] = measure_contact(folder, layout, told_of["contact"])
-            texts.append(contact_text(result["contact"]))
-        if "skip" in parts:
-            need_libraries("sim", *_SIM)
-            from sim.bench.skip_page import skip_text
-            from sim.bench.skipping import SCENES, measure_skipping
-
-            few = SCENES[:1] if quick else SCENES
-            result["skip"] = measure_skipping(folder, told_of["skip"], few, 1 if quick else 3)
-            texts.append(skip_text(result["skip"]))
-        if "papers" in parts:
-            from sim.bench.page.measure_page import measure_page
-
-            result |= measure_page(folder, output, (told_of["scenes"], told_of["papers"]), result, quick)
-        result["files"] = [str(output / name) for part in list(result.values()) for name in part.pop("files")]
-        result["files"].append(str(output / "bench.json"))
-        write_text(folder / "bench.json", json.dumps(result, indent=1) + "\n")
-    failures = []
-    if "contact" in result and not result["contact"]["holds"]:
-        failures.append("the chosen contact model is not as right as it must be")
-    if "skip" in result and not result["skip"]["same_motion"]:
-        failures.append("a run that skips what its scene does not need moves otherwise than one that does not")
-    end_command(result, as_json, "\n".join(texts) + file_lines(result["files"]), failures, bool(failures))
+    walks = tuple(scene or ()), tuple(robot or ())
+    told = measure(what, BenchOptions(layout, stress, readings, seed, scenarios, first, *walks, quick), output)
+    end_command(told.result, as_json, told.text, told.failures, bool(told.failures))
 
 
 @app.command()

@@ -38,7 +38,18 @@ ROOMS: dict[str, tuple[str, ...]] = {
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (
-        *("terrain", "robots", "plant", "model", "judging", "sensing", "body_skin", "contact_models", "figures"),
+        *(
+            "libraries",
+            "terrain",
+            "robots",
+            "plant",
+            "model",
+            "judging",
+            "sensing",
+            "body_skin",
+            "contact_models",
+            "figures",
+        ),
         *("companion", "arms", "partner", "run", "bench", "survey", "sweep"),
     ),
     "shoes": (

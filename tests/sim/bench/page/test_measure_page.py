@@ -79,7 +79,17 @@ def test_all_ends_in_a_page(
     assert json.loads((out / "bench.json").read_text())["papers"] == RESULT["papers"]
 
 
-@pytest.mark.parametrize("words", [("kernels", "--quick"), ("all", "--scene", "flat"), ("skip", "--robot", "h1")])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("kernels", "--quick"),
+        ("all", "--scene", "flat"),
+        ("skip", "--robot", "h1"),
+        ("contact", "--scenarios", "3"),
+        ("kernels", "--readings", "3"),
+        ("stress", "--layout", "sole.json"),
+    ],
+)
 def test_options_of_other_parts_are_refused(
     words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
