@@ -14,6 +14,7 @@ import os
 import re
 import shutil
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -152,15 +153,12 @@ def errors_page() -> str:
 
 
 def write_api() -> None:
-    """A page for each room of each package, and their list."""
+    """A page for each room of each package, one for each folder inside of it, and their list."""
     (PAGES / "api").mkdir()
     index = ["# API", "", "A package is laid out by question, one folder (a room) or one file each.", ""]
     for package in PACKAGES:
         index += [f"## {package}", "", "| room | what it is |", "|---|---|"]
-        for path in sorted((ROOT / package).iterdir()):
-            room = f"{package}.{path.stem}"
-            if room in HIDDEN or path.name.startswith("_") or not (path.is_dir() or path.suffix == ".py"):
-                continue
+        for room, path in _rooms(ROOT / package, package):
             modules = _modules(path, room)
             if not modules:
                 continue
@@ -171,16 +169,24 @@ def write_api() -> None:
     (PAGES / "api" / "index.md").write_text("\n".join(index), encoding="utf-8")
 
 
+def _rooms(folder: Path, name: str) -> Iterator[tuple[str, Path]]:
+    """Rooms of a package with their folders or files, each before the folders inside of it."""
+    for path in sorted(folder.iterdir()):
+        room = f"{name}.{path.stem}"
+        if room in HIDDEN or path.name.startswith("_"):
+            continue
+        if path.is_dir():
+            yield room, path
+            yield from ((inner, place) for inner, place in _rooms(path, room) if place.is_dir())
+        elif path.suffix == ".py":
+            yield room, path
+
+
 def _modules(path: Path, room: str) -> list[str]:
-    """Modules of a room that have public names of their own."""
+    """Modules of a room that have public names of their own, without those of folders inside of it."""
     if path.suffix == ".py":
         return [room]
-    found = []
-    for file in sorted(path.rglob("*.py")):
-        inside = file.relative_to(path).with_suffix("")
-        if not any(part.startswith("_") for part in inside.parts):
-            found.append(".".join([room, *inside.parts]))
-    return found
+    return [f"{room}.{file.stem}" for file in sorted(path.glob("*.py")) if not file.stem.startswith("_")]
 
 
 def _summary(file: Path) -> str:
