@@ -4,6 +4,7 @@ VENV := .venv
 PYTHON_IN_VENV := $(VENV)/bin/python
 PLANTAR := $(VENV)/bin/plantar
 INSTALLED := $(VENV)/.installed
+DOCS_INSTALLED := $(VENV)/.docs
 OUT ?= out
 BENCH_OPTIONS ?=
 # All cores; a file stays on one of them, since some of its tests share what is slow to make. Files come in the order of
@@ -21,7 +22,7 @@ help:
 	@echo "make test      run the tests, without the long ones"
 	@echo "make test-all  run every test"
 	@echo "make bench     measure run time against error, and show it on a page (into $(OUT)/bench/); BENCH_OPTIONS=--quick"
-	@echo "make docs      build the site (into $(OUT)/site/)"
+	@echo "make docs      build the site (into $(OUT)/site/), and open every page of it in Chromium"
 	@echo "make lint      ruff, mypy and the layering test"
 	@echo "make format    let ruff format the code"
 	@echo "make setup     only create .venv (about 2.5 GB: cadquery brings VTK)"
@@ -41,10 +42,12 @@ test-all: $(BUILT)
 bench: $(BUILT)
 	$(PLANTAR) bench all $(BENCH_OPTIONS) -o $(OUT)/bench
 
-docs: $(BUILT)
-	@$(PYTHON_IN_VENV) -m pip install --quiet --editable '.[docs]' --no-build-isolation
+# The check of the pages opens Chromium; without one the site is built all the same, and that is said.
+docs: $(DOCS_INSTALLED)
 	$(PYTHON_IN_VENV) tools/docs_pages.py
-	$(PYTHON_IN_VENV) -m mkdocs build --strict
+	$(PYTHON_IN_VENV) -m mkdocs build --strict --quiet
+	@sh tools/fetch-axe $(VENV)/axe || echo "axe-core cannot be fetched: it does not check the pages" >&2
+	$(PYTHON_IN_VENV) tools/check_site.py --axe $(VENV)/axe/axe.min.js || [ $$? = 2 ]
 
 lint: $(BUILT)
 	$(PYTHON_IN_VENV) -m ruff check .
@@ -68,4 +71,9 @@ $(INSTALLED): pyproject.toml setup.py constraints.txt
 # The editable install compiles the kernels; a change to one of them compiles it again. No compiler is no error.
 $(BUILT): $(INSTALLED) $(KERNELS)
 	@$(PYTHON_IN_VENV) setup.py --quiet build_ext --inplace
+	@touch $@
+
+# What builds the site stays out of what runs Plantar.
+$(DOCS_INSTALLED): $(BUILT)
+	@$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --editable '.[docs]' --no-build-isolation
 	@touch $@

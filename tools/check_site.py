@@ -4,12 +4,14 @@
 
 Each page is opened light and dark, at the width of a desk and of a telephone. Findings, one a line: of axe-core where
 `sh tools/fetch-axe .venv/axe` fetched it, requests to other servers, errors of scripts, links to what is not there, and
-text that makes the page wider than the window. Exit code 1 where there is one, 2 without Chromium or site.
+text that makes the page wider than the window. Exit code 1 where there is one, 2 without Chromium or site. Pages
+without findings are noted beside the site (FOLDER.checked.json), and opened again when they or what they share change.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import re
 import shutil
@@ -25,8 +27,8 @@ from queue import Empty, Queue
 from threading import Thread
 
 ROOT = Path(__file__).resolve().parent.parent
-WIDTHS = (1200, 390)
-PAGE_TIMEOUT = 60.0
+WIDTHS = (1280, 390)
+PAGE_TIMEOUT = 300.0
 """Longest time in s between the results of two pages."""
 
 HARNESS = """<!doctype html><title>check</title><iframe id=page height=900></iframe><script>
@@ -41,7 +43,8 @@ async function look(page) {
     script.src = '/__axe.js';
     seen.head.append(script);
     await ready;
-    const result = await view.axe.run(seen, {resultTypes: ['violations']});
+    const options = {resultTypes: ['violations'], selectors: false, preload: false, iframes: false};
+    const result = await view.axe.run(seen, options);
     for (const rule of result.violations)
       for (const node of rule.nodes.slice(0, 3)) found.push(`axe ${rule.id}: ${node.html.slice(0, 160)}`);
   }
@@ -151,6 +154,18 @@ def broken_links(site: Path) -> Iterator[str]:
                 yield f"/{page.relative_to(site.resolve())}: leads to {link}, which is not there"
 
 
+def prints_of(site: Path, pages: list[str], axe: Path) -> dict[str, str]:
+    """A fingerprint of each page: its text with what is behind all of them, styles, scripts and this check."""
+    shared = sorted(p for p in site.rglob("*") if p.suffix in (".css", ".js"))
+    common = hashlib.sha256(b"".join(p.read_bytes() for p in (*shared, Path(__file__), axe) if p.exists()))
+    prints = {}
+    for page in pages:
+        whole = common.copy()
+        whole.update((site / page.lstrip("/") / "index.html" if page.endswith("/") else site / page[1:]).read_bytes())
+        prints[page] = whole.hexdigest()
+    return prints
+
+
 def main() -> int:
     """Check a site; the exit code."""
     asked = argparse.ArgumentParser(description="Open every page of the built site in Chromium.")
@@ -166,13 +181,20 @@ def main() -> int:
     if not options.axe.exists():
         print("axe-core is not here: sh tools/fetch-axe .venv/axe", file=sys.stderr)
     pages = pages_of(options.site, options.only)
-    seen = (findings(options.site, pages, options.axe, browser, dark=dark) for dark in (False, True))
-    count = 0
+    prints = prints_of(options.site, pages, options.axe)
+    notes = options.site.with_name(f"{options.site.name}.checked.json")
+    clean = json.loads(notes.read_text()) if notes.exists() else {}
+    left = [page for page in pages if clean.get(page) != prints[page]]
+    seen = (findings(options.site, left, options.axe, browser, dark=dark) for dark in (False, True) if left)
+    said = []
     for finding in chain(broken_links(options.site), *seen):
         print(f"\r\033[K{finding}", flush=True)
-        count += 1
-    print(f"\r\033[K{count or 'nothing'} found on {len(pages)} pages")
-    return 1 if count else 0
+        said.append(finding)
+    if not any(finding.startswith("no page") for finding in said):
+        faulty = {finding.partition(" at ")[0] for finding in said}
+        notes.write_text(json.dumps(clean | {page: prints[page] for page in left if page not in faulty}))
+    print(f"\r\033[K{len(said) or 'nothing'} found on {len(pages)} pages, {len(left)} of them opened")
+    return 1 if said else 0
 
 
 if __name__ == "__main__":
