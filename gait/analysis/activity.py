@@ -32,6 +32,12 @@ _ENDS, _FOREFOOT, _NO_HEEL, _DOWN, _BACKWARD = 0.12, 0.6, 0.55, 0.15, 0.3
 0.6 on the forefoot (the heads of the metatarsals are at 0.7; a heel strike is below 0.33), stays in front of 0.55 where
 the heel never carries, and comes back by 0.15 where it does; from toes to heel it goes by 0.3 or more."""
 
+_UP_LANDING, _UP_HUMPS, _UP_STANCE = 0.45, 1.1, 62.0
+"""Stairs up: the CoP lands in front of 0.45 of the sole (on the middle or front of the foot, as no heel strikes), the
+last hump of the force is at least 1.1 times the first one, and stance takes 62 % of the stride or more (McFadyen &
+Winter 1988, J. Biomech. 21:733; Riener et al. 2002, Gait Posture 15:32). One of these alone is also that of a slope or
+of a forefoot gait."""
+
 _CHI2 = -2.0 * math.log(0.05)
 """95 % quantile of the chi-squared distribution with two degrees of freedom."""
 
@@ -44,7 +50,8 @@ class Activity:
     """What somebody does in a recording.
 
     Attributes:
-        name: "walking", "running", "standing", "walking down stairs", "toe walking" or "unknown".
+        name: "walking", "running", "standing", "walking up stairs", "walking down stairs", "toe walking",
+            "walking without heel strike" (stairs up, a slope or a forefoot gait: it cannot be told which) or "unknown".
         why: What tells.
     """
 
@@ -61,8 +68,9 @@ def activity_of(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
 
     Returns:
         The activity. A foot that lands on its front and then lets the heel down walks down stairs (or on pointed toes);
-        one whose heel never carries walks on its toes. Stairs up, ramps and turns load the feet as walking does, and
-        are called so.
+        one whose heel never carries walks on its toes; one that lands in front of its heel, stands for long and
+        pushes off more than it lands walks up stairs. Ramps, turns, and stairs up on whole feet load the feet as
+        walking does, and are called so.
     """
     found = _by_times(recording, feet)
     return (_by_landing(recording, feet) or found) if found.name == "walking" else found
@@ -134,14 +142,29 @@ def _by_landing(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> 
     if len(rolls) < 3 or recording.kind != "insole":
         return None
     landing, end, hindmost = (float(v) for v in np.median(rolls, axis=0))
-    if landing < _FOREFOOT or end < _FOREFOOT:
+    if landing < _UP_LANDING or end < _FOREFOOT:
         return None
+    if landing < _FOREFOOT or not (hindmost > _NO_HEEL or hindmost < landing - _DOWN):
+        return _without_heel_strike(feet, landing)
     if hindmost > _NO_HEEL:
-        return Activity("toe walking", f"the CoP stays in front of {100.0 * hindmost:.0f} % of the sole's length")
-    if hindmost < landing - _DOWN:
-        why = f"the foot lands at {100.0 * landing:.0f} % of its length, then comes down to {100.0 * hindmost:.0f} %"
-        return Activity("walking down stairs", f"{why}, as on stairs down")
-    return None
+        why = f"the CoP stays in front of {100.0 * hindmost:.0f} % of the sole's length"
+        return Activity("toe walking", f"{why}, as it also does up stairs on the front of the foot")
+    why = f"the foot lands at {100.0 * landing:.0f} % of its length, then comes down to {100.0 * hindmost:.0f} %"
+    return Activity("walking down stairs", f"{why}, as on stairs down")
+
+
+def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activity:
+    """What steps that land in front of the heel are: up stairs where forces and times say so, too."""
+    rows = [[s["second_peak_N"] / s["first_peak_N"], s["stance_percent"]] for g in feet.values() for s in g.used]
+    known = [[v for v in column if np.isfinite(v)] for column in zip(*rows, strict=True)]
+    humps, stance = (float(np.median(v)) if v else float("nan") for v in known)
+    why = f"the foot lands at {100.0 * landing:.0f} % of its length, not on the heel"
+    if humps >= _UP_HUMPS and stance >= _UP_STANCE:
+        more = f"stands for {stance:.0f} % of its stride and pushes off with {humps:.2g} times its first peak"
+        return Activity("walking up stairs", f"{why}, {more}, as on stairs up")
+    return Activity(
+        "walking without heel strike", f"{why}: stairs up, a slope or a forefoot gait; pressure does not tell which"
+    )
 
 
 def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:

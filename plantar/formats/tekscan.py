@@ -81,6 +81,12 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             warnings.append(f"{int((steps - 1).sum())} frame(s) are missing in the file: a gap in time")
     else:
         time = np.arange(len(numbers)) / rate
+        if len(steps):
+            odd = int(np.flatnonzero(steps <= 0)[0])
+            warnings.append(
+                f"the frames' numbers do not rise (frame {numbers[odd + 1]} follows {numbers[odd]}): frames are "
+                "taken in the file's order, evenly spaced, which hides frames that are missing or written twice"
+            )
     time, rate, notes = sampling(time, rate)
     present = _measuring(table.rows)
     if not present.any():

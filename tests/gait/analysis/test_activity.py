@@ -45,7 +45,8 @@ def test_a_run_has_flight_and_a_walk_none(stride: float, stance: float, name: st
     ("name", "roll"),
     [
         ("walking", ((0.0, 0.15), (1.0, 0.85))),
-        ("walking", ((0.0, 0.4), (1.0, 0.85))),
+        ("walking", ((0.0, 0.35), (1.0, 0.85))),
+        ("walking without heel strike", ((0.0, 0.55), (0.3, 0.45), (1.0, 0.85))),
         ("walking down stairs", ((0.0, 0.9), (0.15, 0.8), (0.4, 0.2), (1.0, 0.85))),
         ("toe walking", ((0.0, 0.75), (1.0, 0.9))),
     ],
@@ -56,6 +57,38 @@ def test_where_the_foot_lands_names_the_walk(name: str, roll: tuple[tuple[float,
     feet = analyse_feet(recording)
     assert activity_of(recording, feet).name == name
     assert progression_doubts(recording, feet) == []
+
+
+def stairs_up(
+    seed: int,
+    stance: float | None = None,
+    landing: float | None = None,
+    peaks: tuple[float, float] | None = None,
+) -> PressureRecording:
+    """A walk up stairs as the literature describes it: front or middle of the foot first, slow, a strong push-off."""
+    random = np.random.default_rng(seed)
+    stances, landings, stride = random.uniform(0.645, 0.68), random.uniform(0.5, 0.62), random.uniform(1.3, 1.6)
+    first, second = (random.uniform(0.9, 1.0), random.uniform(1.12, 1.3)) if peaks is None else peaks
+    at = landings if landing is None else landing
+    return made_walk(
+        strides=5,
+        stride=stride,
+        stance=stances if stance is None else stance,
+        roll=((0.0, at), (0.35, at - 0.1), (1.0, 0.85)),
+        humps=(first, 0.7, second),
+        rate=50.0,
+    ).recording
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_stairs_up_take_three_evidences(seed: int) -> None:
+    def name(recording: PressureRecording) -> str:
+        return activity_of(recording, analyse_feet(recording)).name
+
+    assert name(stairs_up(seed)) == "walking up stairs"
+    assert name(stairs_up(seed, stance=0.57)) == "walking without heel strike"
+    assert name(stairs_up(seed, peaks=(1.1, 1.05))) == "walking without heel strike"
+    assert name(stairs_up(seed, landing=0.3)) == "walking"
 
 
 def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:

@@ -93,8 +93,9 @@ def test_frames_that_were_lost(tmp_path: Path) -> None:
     "changes", [{"sep": ",", "encoding": "utf-16"}, {"sep": ";", "comma": True, "end": "\r\n"}], ids=str
 )
 def test_tekscan(tmp_path: Path, changes: dict) -> None:
-    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(60, 21, 5.08e-3))
-    check(analysed(tmp_path / "walk.asf", tekscan(walk, replace(PLAIN, sides=("right",), **changes))), walk, ("right",))
+    walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(30, 11, 10.16e-3))
+    text = tekscan(walk, replace(PLAIN, sides=("right",), **changes), 30, 11, 10.16)
+    check(analysed(tmp_path / "walk.asf", text), walk, ("right",))
 
 
 @pytest.mark.parametrize("changes", [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True}, {"sep": "\t"}], ids=str)

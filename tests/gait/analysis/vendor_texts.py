@@ -95,9 +95,9 @@ def _matrices(walk: MadeWalk, side: Side, how: Writing, cells: int) -> NDArray[n
     return out
 
 
-def tekscan(walk: MadeWalk, how: Writing, rows: int = 60, columns: int = 21) -> bytes:
-    """A Tekscan export of one foot."""
-    side, pitch = how.sides[0], how.number(5.08)
+def tekscan(walk: MadeWalk, how: Writing, rows: int = 60, columns: int = 21, spacing: float = 5.08) -> bytes:
+    """A Tekscan export of one foot, of cells of a spacing in mm."""
+    side, pitch = how.sides[0], how.number(spacing)
     out = ["DATA_TYPE MOVIE", f"FILENAME {side}.fsx", f"ROWS {rows}", f"COLS {columns}", f"ROW_SPACING {pitch} mm"]
     out += [f"COL_SPACING {pitch} mm", f"SECONDS_PER_FRAME {how.number(1 / walk.recording.rate_hz)}"]
     out += [f"UNITS {how.unit}", "ASCII_DATA @@", ""]

@@ -54,6 +54,7 @@ def made_walk(
     slow_ends: float = 1.0,
     forefoot: float = 1.0,
     roll: Sequence[tuple[float, float]] = ((0.0, 0.15), (1.0, 0.85)),
+    humps: tuple[float, float, float] = (1.1, 0.75, 1.15),
     seed: int = 0,
     layouts: Mapping[Side, SoleLayout] | None = None,
 ) -> MadeWalk:
@@ -74,6 +75,7 @@ def made_walk(
         slow_ends: How many times longer the first and the last contact of each foot are.
         forefoot: Pressure of the front half relative to the hind half's.
         roll: Where the load is over the stance: shares of the stance, and of the sole's length from the heel.
+        humps: First peak, valley and second peak of the force in body weights.
         seed: Of noise and offsets.
         layouts: Other soles than 99-cell insoles, from the heel at x = 0 to the toes.
     """
@@ -95,7 +97,7 @@ def made_walk(
         for k, (on, last) in enumerate(zip(begin, lasts, strict=True)):
             frames = np.flatnonzero((time > on) & (time < on + last))
             share = (time[frames] - on) / last
-            total = weight * two_humps(share) * (1.0 if gains is None else gains[k])
+            total = weight * two_humps(share, *humps) * (1.0 if gains is None else gains[k])
             centre = length * np.interp(share, *zip(*roll, strict=True))
             near = np.exp(-0.5 * ((layout.positions[:, 0] - centre[:, None]) / (0.2 * length)) ** 2) * layout.areas
             near *= np.where(layout.positions[:, 0] > 0.5 * length, forefoot, 1.0)

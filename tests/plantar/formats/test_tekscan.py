@@ -149,6 +149,14 @@ def test_lost_damaged_and_cut_frames(tmp_path: Path, frames: np.ndarray) -> None
     assert any("1 damaged frame" in w for w in odd.warnings)
 
 
+@pytest.mark.parametrize("numbers", [[1] * 40, [*range(1, 21), *range(1, 21)], list(range(40, 0, -1))], ids=str)
+def test_frame_numbers_that_do_not_rise_are_told(tmp_path: Path, frames: np.ndarray, numbers: list[int]) -> None:
+    export(tmp_path / "walk.asf", frames, numbers=numbers)
+    recording = read_recording(tmp_path / "walk.asf")
+    assert recording.time == pytest.approx(np.arange(40) * 0.01)
+    assert any("numbers do not rise" in warning for warning in recording.warnings)
+
+
 def test_damage(tmp_path: Path, frames: np.ndarray) -> None:
     path = tmp_path / "walk.asf"
     export(path, frames)
