@@ -6,12 +6,15 @@ without the extensions and works the same, slower.
 """
 
 import os
+import re
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
-KERNELS = sorted(p for p in Path("plantar/kernels").glob("*.pxd") if p.stem != "__init__")
+KERNEL_FOLDER = Path("plantar/kernels")
+KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*.pxd") if p.stem != "__init__")
 BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 # What a builder asks for in CFLAGS comes last and counts.
@@ -31,14 +34,38 @@ def extensions() -> list[Extension]:
         Extension(f"plantar.kernels.{p.stem}", [str(p.with_suffix(".py"))], extra_compile_args=FLAGS, optional=True)
         for p in KERNELS
     ]
-    # Kernels that use each other's types do so by relative cimports, which Cython does not follow when it looks for
-    # what has changed.
-    types = max(p.stat().st_mtime for p in KERNELS)
-    stale = any(c.stat().st_mtime < types for c in Path(BUILD, "plantar/kernels").glob("*.c"))
+    for kernel in KERNELS:
+        made = Path(BUILD, kernel.with_suffix(".c"))
+        if made.exists() and made.stat().st_mtime < max(p.stat().st_mtime for p in types_of(kernel)):
+            made.unlink()
     found: list[Extension] = cythonize(
-        modules, build_dir=BUILD, language_level=3, quiet=True, compiler_directives=DIRECTIVES, force=stale
+        modules, build_dir=BUILD, language_level=3, quiet=True, compiler_directives=DIRECTIVES
     )
     return found
+
+
+def types_of(kernel: Path) -> set[Path]:
+    """The files with the types that a kernel is compiled with: its own, and those of kernels that these use in turn.
+
+    Kernels use each other's types by relative cimports, which Cython does not follow when it looks for changes.
+    """
+    found: set[Path] = set()
+    left = {kernel}
+    while left:
+        pxd = left.pop()
+        found.add(pxd)
+        for module, names in re.findall(r"^from \.(\w*) cimport (.+)$", pxd.read_text(encoding="utf-8"), re.MULTILINE):
+            used = [module] if module else re.findall(r"\w+", names)
+            left |= {pxd.with_name(f"{name}.pxd") for name in used} - found
+    return found
+
+
+def remove_extensions_without_source(folder: Path) -> None:
+    """Remove the extension modules of kernels that are there no more: Python would load them, a wheel hold them."""
+    names = {p.stem for p in KERNELS}
+    for path in [p for suffix in EXTENSION_SUFFIXES for p in folder.glob(f"*{suffix}")]:
+        if path.name.split(".")[0] not in names:
+            path.unlink(missing_ok=True)
 
 
 class BuildWherePossible(build_ext):
@@ -52,6 +79,12 @@ class BuildWherePossible(build_ext):
         super().finalize_options()
         if self.parallel is None:
             self.parallel = os.cpu_count() or 1
+
+    def run(self) -> None:
+        """Compile them, and clear away what former kernels left, in the checkout and where wheels are put together."""
+        for folder in (KERNEL_FOLDER, Path(self.build_lib, KERNEL_FOLDER)):
+            remove_extensions_without_source(folder)
+        super().run()
 
     def build_extension(self, ext: Extension) -> None:
         """Compile one extension; a failure is no error."""
