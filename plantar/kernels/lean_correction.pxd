@@ -1,9 +1,10 @@
 # C types of lean_correction.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport rotations
 
 @cython.locals(
-    k=Py_ssize_t, dx=double, dy=double, dz=double, xx=double, xy=double, xz=double, yx=double, yy=double, yz=double,
+    dx=double, dy=double, dz=double, xx=double, xy=double, xz=double, yx=double, yy=double, yz=double,
     zx=double, zy=double, zz=double, sx=double, sy=double, sz=double, tx=double, ty=double, tz=double, size=double,
     scale=double
 )

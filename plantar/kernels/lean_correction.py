@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+from . import rotations
+
 __all__ = ["correct"]
 
 
@@ -33,18 +35,8 @@ def correct(
         turn: Correction of the orientation (3,) in rad, moved on by one tick.
     """
     dx, dy, dz = place[0] - com_estimated[0], place[1] - com_estimated[1], place[2] - com_estimated[2]
-    # R_command R_estimated^T, row by row; only its antisymmetric part is a turn.
-    xy = xz = yx = yz = zx = zy = xx = yy = zz = 0.0
-    for k in range(3):
-        xx += command[0, k] * estimated[0, k]
-        xy += command[0, k] * estimated[1, k]
-        xz += command[0, k] * estimated[2, k]
-        yx += command[1, k] * estimated[0, k]
-        yy += command[1, k] * estimated[1, k]
-        yz += command[1, k] * estimated[2, k]
-        zx += command[2, k] * estimated[0, k]
-        zy += command[2, k] * estimated[1, k]
-        zz += command[2, k] * estimated[2, k]
+    # R_command R_estimated^T; only its antisymmetric part is a turn.
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations.between(command, estimated)
     sx = com_command[0] + (xx * dx + xy * dy + xz * dz) - position[0]
     sy = com_command[1] + (yx * dx + yy * dy + yz * dz) - position[1]
     sz = com_command[2] + (zx * dx + zy * dy + zz * dz) - position[2]

@@ -14,6 +14,13 @@ cpdef void turn_back(const double[:, ::1] rotation, const double[::1] vector, do
 cpdef void multiply(const double[:, ::1] a, const double[:, ::1] b, double[:, ::1] out) noexcept
 
 @cython.locals(
+    k=Py_ssize_t, xx=double, xy=double, xz=double, yx=double, yy=double, yz=double, zx=double, zy=double, zz=double
+)
+cpdef (double, double, double, double, double, double, double, double, double) between(
+    const double[:, :] a, const double[:, :] b
+) noexcept
+
+@cython.locals(
     angle=double, s=double, c=double, xx=double, yy=double, zz=double, xy=double, xz=double, yz=double
 )
 cpdef void exponential(double x, double y, double z, double[:, ::1] out) noexcept
@@ -22,7 +29,7 @@ cpdef void exponential(double x, double y, double z, double[:, ::1] out) noexcep
 cpdef void orthonormalise(const double[:, ::1] rotation, double[:, ::1] work, double[:, ::1] out) noexcept
 
 @cython.locals(
-    k=Py_ssize_t, xx=double, xy=double, xz=double, yx=double, yy=double, yz=double, zx=double, zy=double, zz=double
+    xx=double, xy=double, xz=double, yx=double, yy=double, yz=double, zx=double, zy=double, zz=double
 )
 cpdef bint missing_turn(const double[:, :] wanted, const double[:, :] actual, double[::1] out) noexcept
 

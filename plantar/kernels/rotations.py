@@ -9,9 +9,20 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["exponential", "missing_pose", "missing_turn", "multiply", "orthonormalise", "turn", "turn_back"]
+__all__ = [
+    "between",
+    "exponential",
+    "missing_pose",
+    "missing_turn",
+    "multiply",
+    "orthonormalise",
+    "turn",
+    "turn_back",
+]
 
-_SMALL = 1e-6  # rad; see `plantar.mechanics.rotation`
+# Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms of size
+# a^2, 4e-26.
+_SMALL = 1e-6
 
 
 def turn(rotation, vector, out):
@@ -43,6 +54,30 @@ def multiply(a, b, out):
     for i in range(3):
         for j in range(3):
             out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+
+
+def between(a, b):
+    """Product of a matrix and another's transpose, A B^T: for rotations to one frame, from B's frame to A's.
+
+    Args:
+        a: A (3, 3).
+        b: B (3, 3).
+
+    Returns:
+        The nine numbers of the product, row by row.
+    """
+    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
+    for k in range(3):
+        xx += a[0, k] * b[0, k]
+        xy += a[0, k] * b[1, k]
+        xz += a[0, k] * b[2, k]
+        yx += a[1, k] * b[0, k]
+        yy += a[1, k] * b[1, k]
+        yz += a[1, k] * b[2, k]
+        zx += a[2, k] * b[0, k]
+        zy += a[2, k] * b[1, k]
+        zz += a[2, k] * b[2, k]
+    return xx, xy, xz, yx, yy, yz, zx, zy, zz
 
 
 def exponential(x, y, z, out):
@@ -92,17 +127,7 @@ def missing_turn(wanted, actual, out):
     Returns:
         Whether it is no more than a quarter turn; beyond that the error is another one.
     """
-    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
-    for k in range(3):
-        xx += wanted[0, k] * actual[0, k]
-        xy += wanted[0, k] * actual[1, k]
-        xz += wanted[0, k] * actual[2, k]
-        yx += wanted[1, k] * actual[0, k]
-        yy += wanted[1, k] * actual[1, k]
-        yz += wanted[1, k] * actual[2, k]
-        zx += wanted[2, k] * actual[0, k]
-        zy += wanted[2, k] * actual[1, k]
-        zz += wanted[2, k] * actual[2, k]
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
     out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
     return xx + yy + zz >= 1.0
 

@@ -11,6 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels import rotations
+
 __all__ = [
     "heading",
     "level_rotation",
@@ -23,10 +25,6 @@ __all__ = [
 ]
 
 _THREE_HALVES = 1.5 * np.eye(3)
-_SMALL = 1e-6
-"""Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms of size
-a^2, 4e-26."""
-
 _NEAR_HALF_TURN = -0.9
 """Cosine below which the axis is taken from the rotation's symmetric part: its antisymmetric part vanishes there."""
 
@@ -45,14 +43,9 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
         [0.0, 1.0, 0.0]
     """
     x, y, z = vector.tolist()
-    angle = math.sqrt(x * x + y * y + z * z)
-    if angle < _SMALL:
-        s, c = 1.0, 0.5
-    else:
-        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
-    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
-    x, y, z = s * x, s * y, s * z
-    return np.array([[1.0 - yy - zz, xy - z, xz + y], [xy + z, 1.0 - xx - zz, yz - x], [xz - y, yz + x, 1.0 - xx - yy]])
+    out = np.empty((3, 3))
+    rotations.exponential(x, y, z, out)
+    return out
 
 
 def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
