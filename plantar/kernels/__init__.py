@@ -12,17 +12,22 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import nullcontext
 from importlib import import_module
 from importlib.machinery import EXTENSION_SUFFIXES, FileFinder, ModuleSpec, SourceFileLoader
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
-__all__ = ["KERNELS", "compiled", "is_compiled", "python_form"]
+__all__ = ["KERNELS", "compiled", "is_compiled", "python_form", "without_cython"]
 
 _FOLDER = Path(__file__).resolve().parent
 
 KERNELS: tuple[str, ...] = tuple(sorted(p.stem for p in _FOLDER.glob("*.py") if p.stem != "__init__"))
 """Names of the kernel modules."""
+
+without_cython = SimpleNamespace(nogil=nullcontext(), gil=nullcontext())
+"""What interpreted kernels find of the module `cython` where it is not installed: a lock is neither released nor taken
+again."""
 
 
 class _SourceFinder:

@@ -11,13 +11,13 @@ cdef double _NOISE
 @cython.locals(
     total=double, k=Py_ssize_t, i=Py_ssize_t, x0=double, y0=double, ax=double, ay=double, bx=double, by=double
 )
-cpdef double area(const double[:, :] polygon) noexcept
+cpdef double area(const double[:, :] polygon) noexcept nogil
 
 @cython.locals(
     k=Py_ssize_t, i=Py_ssize_t, x0=double, y0=double, total=double, cx=double, cy=double, mx=double, my=double,
     size=double, ax=double, ay=double, bx=double, by=double, cross=double
 )
-cpdef (double, double, double) area_and_centroid(const double[:, :] polygon) noexcept
+cpdef (double, double, double) area_and_centroid(const double[:, :] polygon) noexcept nogil
 
 @cython.locals(
     k=Py_ssize_t, i=Py_ssize_t, inside=bint, best=double, deepest=double, span=double, qx=double, qy=double, ax=double,

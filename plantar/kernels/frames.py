@@ -1,6 +1,14 @@
-"""Kernels over many readings of one sole: one pass over the forces, nothing kept but the results."""
+"""Kernels over many readings of one sole: one pass over the forces, nothing kept but the results.
+
+They release the interpreter lock: several threads at once may each do a part of the frames.
+"""
 
 from __future__ import annotations
+
+try:
+    import cython
+except ImportError:
+    from plantar.kernels import without_cython as cython
 
 __all__ = ["hulls", "loads", "wrenches"]
 
@@ -21,9 +29,17 @@ def wrenches(sole, force, threshold, saturation, out):
         saturation: Forces from this on are left out; in N.
         out: Receives the wrenches (frames, 6) about the sole frame's origin in N and N m.
     """
+    scratch = sole.borrow()
+    with cython.nogil:
+        _wrenches(sole, force, threshold, saturation, scratch.kept, out)
+    sole.give_back(scratch)
+
+
+def _wrenches(sole, force, threshold, saturation, kept, out):
+    """`wrenches` with room (n,) to work in."""
     frames, n = force.shape[0], sole.taxels
     columns = sole.columns
-    lever_x, lever_y, kept = sole.lever_x, sole.lever_y, sole.kept
+    lever_x, lever_y = sole.lever_x, sole.lever_y
     for k in range(frames):
         for i in range(n):
             f = force[k, i]
@@ -80,9 +96,17 @@ def loads(sole, force, threshold, saturation, out):
         saturation: Forces from this on are left out; in N.
         out: Receives (frames, 9): wrench about the sole frame's origin, area in m^2, CoP in m, NaN where there is none.
     """
+    scratch = sole.borrow()
+    with cython.nogil:
+        _loads(sole, force, threshold, saturation, scratch.kept, scratch.covered, out)
+    sole.give_back(scratch)
+
+
+def _loads(sole, force, threshold, saturation, kept, covered, out):
+    """`loads` with rooms (n,) to work in."""
     n = sole.taxels
     columns, areas = sole.columns, sole.areas
-    lever_x, lever_y, kept, covered = sole.lever_x, sole.lever_y, sole.kept, sole.covered
+    lever_x, lever_y = sole.lever_x, sole.lever_y
     for k in range(force.shape[0]):
         for i in range(n):
             f, part = force[k, i], areas[i]
@@ -118,7 +142,7 @@ def loads(sole, force, threshold, saturation, out):
             out[k, 7] = out[k, 8] = _NONE
 
 
-def hulls(sole, force, threshold, saturation, active, size, measure, points):
+def hulls(sole, force, threshold, saturation, size, measure, points):
     """Support polygon of each frame, with its area and centroid; reference and error as `SoleKernel.hull`.
 
     Args:
@@ -126,7 +150,6 @@ def hulls(sole, force, threshold, saturation, active, size, measure, points):
         force: Normal forces (frames, n) in N.
         threshold: Taxels up to this, and NaN, are not active; in N.
         saturation: Taxels from this on are not active; in N.
-        active: Scratch (n,).
         size: Receives the number of vertices (frames,).
         measure: Receives area in m^2 and centroid in m (frames, 3), NaN where there is no contact.
         points: Receives the vertices (room, 2) in m, one polygon after the other; of no length where none are wanted.
@@ -134,18 +157,26 @@ def hulls(sole, force, threshold, saturation, active, size, measure, points):
     Returns:
         Number of frames done: fewer than all where the room is used up.
     """
+    scratch = sole.borrow()
+    with cython.nogil:
+        done = _hulls(sole, force, threshold, saturation, scratch, size, measure, points)
+    sole.give_back(scratch)
+    return done
+
+
+def _hulls(sole, force, threshold, saturation, scratch, size, measure, points):
+    """`hulls` with arrays to work in."""
     filled = 0
     room = points.shape[0]
     for k in range(force.shape[0]):
-        for i in range(sole.taxels):
-            active[i] = (force[k, i] > threshold) & (force[k, i] < saturation)
-        found = sole.find_hull(active)
+        sole.activate(force[k], threshold, saturation, scratch.mask)
+        found = sole.find_hull(scratch.mask, scratch)
         if room:
             if filled + found > room:
                 return k
-            sole.copy_hull(found, points[filled:])
+            scratch.copy_hull(found, points[filled:])
             filled += found
         size[k] = found
-        area, x, y = sole.measure_hull(found)
+        area, x, y = scratch.measure_hull(found)
         measure[k, 0], measure[k, 1], measure[k, 2] = area, x, y
     return force.shape[0]

@@ -7,40 +7,49 @@ cdef double _INFINITE
 cdef int _DRAWS
 
 @cython.final
-cdef class GroundFit:
-    cdef const double[:, ::1] positions
-    cdef const double[:, ::1] normals
-    cdef Py_ssize_t taxels
+cdef class GroundScratch:
     cdef double[:, ::1] points
     cdef Py_ssize_t[::1] taxel
     cdef unsigned char[::1] kept
     cdef double[::1] miss
     cdef double[::1] plane
-    cdef dict triples
+    cdef const Py_ssize_t[:, ::1] triples
+    cdef Py_ssize_t triples_of
 
-    @cython.locals(k=Py_ssize_t)
+@cython.final
+cdef class GroundFit:
+    cdef const double[:, ::1] positions
+    cdef const double[:, ::1] normals
+    cdef Py_ssize_t taxels
+    cdef dict triples
+    cdef list free
+
+    @cython.locals(scratch=GroundScratch)
     cpdef frames(
         self, const double[:, :] distance, double reach, double tolerance, double[:, ::1] out,
         Py_ssize_t[::1] directions, unsigned char[:, ::1] inliers
     )
 
-    @cython.locals(
-        seen=Py_ssize_t, i=Py_ssize_t, d=double, directions=int, worst=double, total=double, used=Py_ssize_t
-    )
+    @cython.locals(k=Py_ssize_t)
+    cdef int _fit_each(
+        self, const double[:, :] distance, double reach, double tolerance, double[:, ::1] out,
+        Py_ssize_t[::1] directions, unsigned char[:, ::1] inliers, GroundScratch scratch
+    ) except -1 nogil
+
+    @cython.locals(scratch=GroundScratch, directions=int)
     cpdef int fit(
         self, const double[:] distance, double reach, double tolerance, double[::1] out, unsigned char[::1] inliers
     ) except -2
 
-    @cython.locals(worst=double, i=Py_ssize_t)
-    cdef double _misses(self, Py_ssize_t seen) noexcept
+    cdef GroundScratch _borrow(self)
 
     @cython.locals(
-        x=double, y=double, z=double, count=Py_ssize_t, i=Py_ssize_t, xx=double, xy=double, yy=double, xz=double,
-        yz=double, dx=double, dy=double, dz=double, middle=double, half=double, spread=double, large=double,
-        small=double, rise_x=double, rise_y=double, directions=int, angle=double, c=double, s=double, rise=double,
-        determinant=double
+        seen=Py_ssize_t, i=Py_ssize_t, d=double, directions=int, worst=double, total=double, used=Py_ssize_t
     )
-    cdef int _least_squares(self, Py_ssize_t seen) noexcept
+    cdef int _fit(
+        self, const double[:] distance, double reach, double tolerance, double[::1] out, unsigned char[::1] inliers,
+        GroundScratch scratch
+    ) except -2 nogil
 
     @cython.locals(
         table="const Py_ssize_t[:, ::1]", points="double[:, ::1]", miss="double[::1]", half=Py_ssize_t, best=double,
@@ -48,9 +57,22 @@ cdef class GroundFit:
         uy=double, uz=double, vx=double, vy=double, vz=double, nx=double, ny=double, nz=double, size=double,
         rise_x=double, rise_y=double, level=double, below=Py_ssize_t, i=Py_ssize_t, limit=double
     )
-    cdef bint _agree(self, Py_ssize_t seen, double tolerance) except -1
+    cdef bint _agree(self, Py_ssize_t seen, double tolerance, GroundScratch scratch) except -1 nogil
 
-    @cython.locals(
-        miss="double[::1]", low=Py_ssize_t, high=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, pivot=double
-    )
-    cdef double _ranked(self, Py_ssize_t seen, Py_ssize_t rank) noexcept
+    cdef int _find_triples(self, Py_ssize_t seen, GroundScratch scratch) except -1
+
+@cython.locals(worst=double, i=Py_ssize_t)
+cdef double _misses(Py_ssize_t seen, GroundScratch scratch) noexcept nogil
+
+@cython.locals(
+    x=double, y=double, z=double, count=Py_ssize_t, i=Py_ssize_t, xx=double, xy=double, yy=double, xz=double,
+    yz=double, dx=double, dy=double, dz=double, middle=double, half=double, spread=double, large=double,
+    small=double, rise_x=double, rise_y=double, directions=int, angle=double, c=double, s=double, rise=double,
+    determinant=double
+)
+cdef int _least_squares(Py_ssize_t seen, GroundScratch scratch) noexcept nogil
+
+@cython.locals(
+    miss="double[::1]", low=Py_ssize_t, high=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, pivot=double
+)
+cdef double _ranked(Py_ssize_t seen, Py_ssize_t rank, GroundScratch scratch) noexcept nogil

@@ -8,6 +8,30 @@ cdef int _NOT_LOWER
 cdef int _NOT_UPPER
 
 @cython.final
+cdef class SoleScratch:
+    cdef double[::1] kept
+    cdef double[::1] covered
+    cdef Py_ssize_t[::1] lowest
+    cdef Py_ssize_t[::1] highest
+    cdef Py_ssize_t[::1] way
+    cdef Py_ssize_t[::1] ring
+    cdef double[:, ::1] polygon
+    cdef list hulls
+    cdef object mask_room
+    cdef unsigned char[::1] mask
+    cdef object other_mask_room
+    cdef unsigned char[::1] other_mask
+    cdef object sums_room
+    cdef double[::1] sums
+    cdef double[:, :, ::1] rings
+    cdef double[:, ::1] lines
+
+    @cython.locals(i=Py_ssize_t)
+    cdef void copy_hull(self, Py_ssize_t size, double[:, ::1] out) noexcept nogil
+
+    cdef (double, double, double) measure_hull(self, Py_ssize_t size) noexcept nogil
+
+@cython.final
 cdef class SoleKernel:
     cdef public const double[:, ::1] columns
     cdef public const double[::1] lever_x
@@ -23,68 +47,53 @@ cdef class SoleKernel:
     cdef public Py_ssize_t corners
     cdef public double tolerance
     cdef public bint flat
-    cdef public double[::1] kept
-    cdef public double[::1] covered
     cdef const Py_ssize_t[::1] corner_level
     cdef const Py_ssize_t[::1] first_end
     cdef const Py_ssize_t[::1] last_begin
     cdef Py_ssize_t levels
-    cdef Py_ssize_t[::1] lowest
-    cdef Py_ssize_t[::1] highest
-    cdef Py_ssize_t[::1] way
-    cdef Py_ssize_t[::1] ring
-    cdef public double[:, ::1] polygon
-    cdef list hulls
-    cdef object mask_room
-    cdef unsigned char[::1] mask
-    cdef object other_mask_room
-    cdef unsigned char[::1] other_mask
-    cdef object sums_room
-    cdef double[::1] sums
-    cdef double[:, :, ::1] rings
-    cdef double[:, ::1] lines
+    cdef list free
+
+    cdef SoleScratch borrow(self)
+    cdef int give_back(self, SoleScratch scratch) except -1
 
     cdef int _check(self, const double[:] force) except -1
     cdef int _check_mask(self, const unsigned char[:] active) except -1
 
+    @cython.locals(scratch=SoleScratch)
     cpdef active(self, const double[:] force, double threshold, double saturation)
 
     @cython.locals(i=Py_ssize_t)
-    cdef void _activate(
+    cdef void activate(
         self, const double[:] force, double threshold, double saturation, unsigned char[::1] out
-    ) noexcept
+    ) noexcept nogil
 
-    @cython.locals(i=Py_ssize_t, finite=bint)
+    @cython.locals(scratch=SoleScratch, i=Py_ssize_t, finite=bint)
     cpdef faults(self, const double[:] force, double saturation)
 
+    @cython.locals(scratch=SoleScratch)
     cpdef loads(self, const double[:] force, const unsigned char[:] active)
 
     @cython.locals(
         columns="const double[:, ::1]", fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
         sx=double, sy=double, i=Py_ssize_t, f=double
     )
-    cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept
+    cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept nogil
 
-    @cython.locals(size=Py_ssize_t, area=double, x=double, y=double)
+    @cython.locals(scratch=SoleScratch, size=Py_ssize_t, area=double, x=double, y=double)
     cpdef hull(self, const unsigned char[:] active)
 
     @cython.locals(
-        corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, area=double, cx=double, cy=double, qx=double,
-        qy=double, _margin=double
+        scratch=SoleScratch, corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, area=double,
+        cx=double, cy=double, qx=double, qy=double, _margin=double
     )
     cpdef tick(
         self, const double[:] force, double threshold, double saturation, double offset, double x, double y
     )
 
     @cython.locals(
-        way="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", sign="const unsigned char[::1]",
+        way="Py_ssize_t[::1]", ring="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", sign="const unsigned char[::1]",
         level="const Py_ssize_t[::1]", lowest="Py_ssize_t[::1]", highest="Py_ssize_t[::1]", kind=int, at=Py_ssize_t,
         left=Py_ssize_t, right=Py_ssize_t, forth=Py_ssize_t, count=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t,
         last=Py_ssize_t, end=int, from_corner=Py_ssize_t, to_corner=Py_ssize_t, i=Py_ssize_t, c=Py_ssize_t, v=Py_ssize_t, size=Py_ssize_t
     )
-    cpdef Py_ssize_t find_hull(self, const unsigned char[:] active) noexcept
-
-    @cython.locals(i=Py_ssize_t)
-    cpdef void copy_hull(self, Py_ssize_t size, double[:, ::1] out) noexcept
-
-    cpdef (double, double, double) measure_hull(self, Py_ssize_t size) noexcept
+    cdef Py_ssize_t find_hull(self, const unsigned char[:] active, SoleScratch scratch) noexcept nogil

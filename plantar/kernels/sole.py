@@ -3,8 +3,8 @@
 What does not change from reading to reading is prepared once: columns to multiply the forces with, the corners of the
 cells, sorted, on which side of its cell each lies, and the rows of cells that are shifted copies of each other.
 
-A kernel has scratch memory of its own: compiled calls hold the interpreter lock and so follow each other; interpreted
-ones must not come from two threads at once.
+A call borrows the arrays that it works in, so that calls of one kernel from several threads do not meet in them: two
+calls of one thread never have different ones, and two at once never the same.
 """
 
 from __future__ import annotations
@@ -15,12 +15,58 @@ from plantar.errors import ReadingError
 
 from . import convex, hull
 
-__all__ = ["SoleKernel"]
+__all__ = ["SoleKernel", "SoleScratch"]
 
 _NONE = float("nan")
 _INFINITE = float("inf")
 _NOT_LOWER = 1  # bits of a corner: where its cell keeps it from being on the hull
 _NOT_UPPER = 2
+
+
+class SoleScratch:
+    """What one call works in at a time.
+
+    Args:
+        taxels: Number of taxels.
+        corners: Number of points that their cells have as corners.
+        levels: Number of x that those differ in.
+    """
+
+    def __init__(self, taxels, corners, levels):
+        self.kept = np.zeros(taxels)
+        self.covered = np.zeros(taxels)
+        self.lowest = np.full(levels, corners, dtype=np.intp)  # at each x, between calls; `find_hull` leaves it so
+        self.highest = np.full(levels, -1, dtype=np.intp)
+        self.way = np.zeros(2 * corners + 2, dtype=np.intp)
+        self.ring = np.zeros(2 * corners + 2, dtype=np.intp)
+        polygon = np.zeros((corners, 2))
+        self.polygon = polygon
+        self.hulls = [polygon[:size] for size in range(corners + 1)]  # a copy of one is the cheapest new array
+        self.mask_room = np.zeros(taxels, dtype=bool)
+        self.mask = self.mask_room
+        self.other_mask_room = np.zeros(taxels, dtype=bool)
+        self.other_mask = self.other_mask_room
+        self.sums_room = np.zeros(9)
+        self.sums = self.sums_room
+        self.rings = np.zeros((3, 2 * corners + 8, 3))
+        self.lines = np.zeros((corners, 3))
+
+    def copy_hull(self, size, out):
+        """Copy the hull that `SoleKernel.find_hull` left in `polygon`.
+
+        Args:
+            size: Number of its corners.
+            out: Receives them (size, 2) in m.
+        """
+        for i in range(size):
+            out[i, 0] = self.polygon[i, 0]
+            out[i, 1] = self.polygon[i, 1]
+
+    def measure_hull(self, size):
+        """Area in m^2 and centroid in m of that hull of `size` corners; NaN where it is empty."""
+        if size == 0:
+            return 0.0, _NONE, _NONE
+        return convex.area_and_centroid(self.polygon[:size])
 
 
 class SoleKernel:
@@ -86,28 +132,24 @@ class SoleKernel:
             [*(_signs(vertices[ring], rank[ring]) for ring in rings), np.empty(0)]
         ).astype(np.uint8)
         self.corner_start = np.array(starts, dtype=np.intp)
-        self.kept = np.zeros(self.taxels)
-        self.covered = np.zeros(self.taxels)
         new = np.ones(len(order), dtype=bool)  # x that differ, to the last bit: on a lattice few of them
         new[1:] = ordered[1:, 0] != ordered[:-1, 0]
         level = np.cumsum(new) - 1
         self.levels = int(new.sum())
         self.corner_level = np.ascontiguousarray(level[np.asarray(self.corner_rank)], dtype=np.intp)
-        self.lowest = np.full(self.levels, self.corners, dtype=np.intp)
-        self.highest = np.full(self.levels, -1, dtype=np.intp)
-        self.way = np.zeros(2 * len(order) + 2, dtype=np.intp)
-        self.ring = np.zeros(2 * len(order) + 2, dtype=np.intp)
-        polygon = np.zeros((len(order), 2))
-        self.polygon = polygon
-        self.hulls = [polygon[:size] for size in range(len(order) + 1)]  # a copy of one is the cheapest new array
-        self.mask_room = np.zeros(self.taxels, dtype=bool)
-        self.mask = self.mask_room
-        self.other_mask_room = np.zeros(self.taxels, dtype=bool)
-        self.other_mask = self.other_mask_room
-        self.sums_room = np.zeros(9)
-        self.sums = self.sums_room
-        self.rings = np.zeros((3, 2 * len(order) + 8, 3))
-        self.lines = np.zeros((len(order), 3))
+        self.free = [SoleScratch(self.taxels, self.corners, self.levels)]
+
+    def borrow(self):
+        """Arrays to work in, nobody else's until they are given back; those of a call that failed never are."""
+        try:
+            return self.free.pop()
+        except IndexError:
+            return SoleScratch(self.taxels, self.corners, self.levels)
+
+    def give_back(self, scratch):
+        """Take back what was borrowed."""
+        self.free.append(scratch)
+        return 0
 
     def active(self, force, threshold, saturation):
         """Active taxels (T 4.22), as `plantar.activation.active_taxels`.
@@ -121,8 +163,11 @@ class SoleKernel:
             Mask (n,).
         """
         self._check(force)
-        self._activate(force, threshold, saturation, self.mask)
-        return self.mask_room.copy()
+        scratch = self.borrow()
+        self.activate(force, threshold, saturation, scratch.mask)
+        mask = scratch.mask_room.copy()
+        self.give_back(scratch)
+        return mask
 
     def _check(self, force):
         """Refuse forces that are not one a taxel: a loop over the taxels would read past them."""
@@ -136,8 +181,8 @@ class SoleKernel:
             raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
         return 0
 
-    def _activate(self, force, threshold, saturation, out):
-        """`active` into an array."""
+    def activate(self, force, threshold, saturation, out):
+        """`active` into an array (n,)."""
         for i in range(self.taxels):
             out[i] = (force[i] > threshold) & (force[i] < saturation)
 
@@ -152,11 +197,14 @@ class SoleKernel:
             Masks (n,): taxels that read NaN or inf, and saturated ones.
         """
         self._check(force)
+        scratch = self.borrow()
         for i in range(self.taxels):
             finite = -_INFINITE < force[i] < _INFINITE
-            self.mask[i] = not finite
-            self.other_mask[i] = finite and force[i] >= saturation
-        return self.mask_room.copy(), self.other_mask_room.copy()
+            scratch.mask[i] = not finite
+            scratch.other_mask[i] = finite and force[i] >= saturation
+        masks = scratch.mask_room.copy(), scratch.other_mask_room.copy()
+        self.give_back(scratch)
+        return masks
 
     def loads(self, force, active):
         """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
@@ -173,8 +221,11 @@ class SoleKernel:
         """
         self._check(force)
         self._check_mask(active)
-        self._loads(force, active, self.sums)
-        return self.sums_room.copy()
+        scratch = self.borrow()
+        self._loads(force, active, scratch.sums)
+        sums = scratch.sums_room.copy()
+        self.give_back(scratch)
+        return sums
 
     def _loads(self, force, active, out):
         """`loads` into an array."""
@@ -212,9 +263,12 @@ class SoleKernel:
             Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
         """
         self._check_mask(active)
-        size = self.find_hull(active)
-        area, x, y = self.measure_hull(size)
-        return self.hulls[size].copy(), area, x, y
+        scratch = self.borrow()
+        size = self.find_hull(active, scratch)
+        area, x, y = scratch.measure_hull(size)
+        polygon = scratch.hulls[size].copy()
+        self.give_back(scratch)
+        return polygon, area, x, y
 
     def tick(self, force, threshold, saturation, offset, x, y):
         """What a controller needs of one foot, in one call: `active`, `loads`, `hull`, then the hull moved inwards and
@@ -233,15 +287,15 @@ class SoleKernel:
             polygon (m, 2) in m; the closest point (2,) in m. Coordinates are NaN without contact.
         """
         self._check(force)
-        self._activate(force, threshold, saturation, self.mask)
-        self._loads(force, self.mask, self.sums)
-        size = self.find_hull(self.mask)
-        area, cx, cy = self.measure_hull(size)
+        scratch = self.borrow()
+        self.activate(force, threshold, saturation, scratch.mask)
+        self._loads(force, scratch.mask, scratch.sums)
+        size = self.find_hull(scratch.mask, scratch)
+        area, cx, cy = scratch.measure_hull(size)
         if size == 0 or offset <= 0.0:
-            safe = np.empty((size, 2))
-            self.copy_hull(size, safe)
+            safe = scratch.hulls[size].copy()
         else:
-            safe = convex.offset(self.polygon[:size], offset, self.lines, self.rings)
+            safe = convex.offset(scratch.polygon[:size], offset, scratch.lines, scratch.rings)
         corners = safe
         nearest = np.empty(2)
         point = nearest
@@ -249,19 +303,22 @@ class SoleKernel:
         if size > 0:
             _margin, qx, qy = convex._nearest_of_any(corners, x, y)
         point[0], point[1] = qx, qy
-        return self.mask_room.copy(), self.sums_room.copy(), self.hulls[size].copy(), area, cx, cy, safe, nearest
+        felt = scratch.mask_room.copy(), scratch.sums_room.copy(), scratch.hulls[size].copy()
+        self.give_back(scratch)
+        return (*felt, area, cx, cy, safe, nearest)
 
-    def find_hull(self, active):
-        """Find the hull of the active cells and leave it in `polygon`.
+    def find_hull(self, active, scratch):
+        """Find the hull of the active cells and leave it in the scratch's `polygon`.
 
         Args:
             active: Mask (n,).
+            scratch: What was borrowed.
 
         Returns:
             Number of its corners.
         """
-        way, rank, sign, level = self.way, self.corner_rank, self.corner_sign, self.corner_level
-        lowest, highest = self.lowest, self.highest
+        rank, sign, level = self.corner_rank, self.corner_sign, self.corner_level
+        way, ring, lowest, highest = scratch.way, scratch.ring, scratch.lowest, scratch.highest
         left, right = self.levels, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
@@ -310,29 +367,12 @@ class SoleKernel:
             highest[left] = -1
         way[count] = way[0]
         count += 1
-        size = hull.hull_ring(self.points, way, forth, count, self.tolerance, self.ring)
+        size = hull.hull_ring(self.points, way, forth, count, self.tolerance, ring)
         for i in range(size):
-            v = self.ring[i]
-            self.polygon[i, 0] = self.points[v, 0]
-            self.polygon[i, 1] = self.points[v, 1]
+            v = ring[i]
+            scratch.polygon[i, 0] = self.points[v, 0]
+            scratch.polygon[i, 1] = self.points[v, 1]
         return size
-
-    def copy_hull(self, size, out):
-        """Copy the hull that `find_hull` left.
-
-        Args:
-            size: Number of its corners.
-            out: Receives them (size, 2) in m.
-        """
-        for i in range(size):
-            out[i, 0] = self.polygon[i, 0]
-            out[i, 1] = self.polygon[i, 1]
-
-    def measure_hull(self, size):
-        """Area in m^2 and centroid in m of the hull of `size` corners that `find_hull` left; NaN where it is empty."""
-        if size == 0:
-            return 0.0, _NONE, _NONE
-        return convex.area_and_centroid(self.polygon[:size])
 
 
 def _count(values):

@@ -4,17 +4,24 @@ The dimensions before the taxels are whatever there are, such as environments an
 Forces may be a memory-mapped array larger than memory. Rows that are float64 and contiguous are read where they are, in
 one pass; others are converted block by block (`BLOCK` frames), never as a whole. A taxel is active as in `Percept`:
 above the threshold, and below the layout's force limit where it saturates; a dead one (NaN) never is.
+
+`threads` lets several threads share the frames: the kernels release the interpreter lock. Each frame is computed by
+one of them as by a single one, so results are the same to the last bit.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.arguments import integer
 from plantar.arrays import held_numbers
 from plantar.errors import ReadingError
 from plantar.kernels import frames as _kernel
@@ -36,6 +43,11 @@ __all__ = [
 
 BLOCK = 4096
 """Frames that are looked at together where a conversion or an iterator cuts a recording into pieces."""
+
+_Done = TypeVar("_Done")
+
+_LEAST = 512
+"""Frames that are worth a hand-over to another thread."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +154,8 @@ def wrenches(
     force: ArrayLike,
     threshold: float | None = None,
     out: NDArray[np.float64] | None = None,
+    *,
+    threads: int | None = 1,
 ) -> NDArray[np.float64]:
     """Ground reaction wrench of every frame (T 4.23), at the speed of memory.
 
@@ -150,12 +164,14 @@ def wrenches(
         force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None, -inf to count every finite force.
         out: Where to write (..., 6), float64 and contiguous; a new array where None.
+        threads: How many threads share the frames; as many as this process has cores where None.
 
     Returns:
         Wrench (..., 6) about the sole frame's origin in N and N m.
 
     Raises:
         ReadingError: If the forces or `out` have another shape, or are not numeric.
+        InputError: If there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -172,24 +188,29 @@ def wrenches(
         )
     rows_out = out.reshape(-1, 6)
     low, high = _limits(layout, threshold)
-    for rows, part in _pieces(array):
-        _kernel.wrenches(layout.kernel, part, low, high, rows_out[rows])
+
+    def work(rows: slice) -> None:
+        _kernel.wrenches(layout.kernel, _doubles(array[rows]), low, high, rows_out[rows])
+
+    _shared(work, _pieces(array, threads), threads)
     return out
 
 
-def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) -> Loads:
+def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None, *, threads: int | None = 1) -> Loads:
     """Wrench, contact area and CoP of every frame, in one pass (T 4.21-4.23).
 
     Args:
         layout: The sole, n taxels.
         force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None.
+        threads: How many threads share the frames; as many as this process has cores where None.
 
     Returns:
         The sums of each frame.
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
+        InputError: If there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -200,14 +221,22 @@ def loads(layout: SoleLayout, force: ArrayLike, threshold: float | None = None) 
     array, lead = _frames(layout, force)
     out = np.empty((len(array), 9))
     low, high = _limits(layout, threshold)
-    for rows, part in _pieces(array):
-        _kernel.loads(layout.kernel, part, low, high, out[rows])
+
+    def work(rows: slice) -> None:
+        _kernel.loads(layout.kernel, _doubles(array[rows]), low, high, out[rows])
+
+    _shared(work, _pieces(array, threads), threads)
     out = out.reshape(*lead, 9)
     return Loads(out[..., :6], out[..., 6], out[..., 7:])
 
 
 def support_polygons(
-    layout: SoleLayout, force: ArrayLike, threshold: float | None = None, *, vertices: bool = False
+    layout: SoleLayout,
+    force: ArrayLike,
+    threshold: float | None = None,
+    *,
+    vertices: bool = False,
+    threads: int | None = 1,
 ) -> SupportPolygons:
     """Convex support polygon of every frame, with its area and centroid (T 4.24).
 
@@ -216,12 +245,14 @@ def support_polygons(
         force: Normal forces (..., n) in N.
         threshold: Activation threshold in N; the layout's own where None.
         vertices: Keep the polygons, and not only what is measured of them.
+        threads: How many threads share the frames; as many as this process has cores where None.
 
     Returns:
         Area, centroid and size of each polygon, and the polygons where asked for.
 
     Raises:
         ReadingError: If the forces have another shape or are not numeric.
+        InputError: If there is not at least one thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -232,27 +263,33 @@ def support_polygons(
     array, lead = _frames(layout, force)
     measure = np.empty((len(array), 3))
     size = np.empty(len(array), dtype=np.intp)
-    active = np.empty(len(layout), dtype=np.uint8)
     low, high = _limits(layout, threshold)
-    found: list[NDArray[np.float64]] = []
-    points = np.empty((0, 2))
-    for rows, part in _pieces(array, BLOCK if vertices else None):
+
+    def work(rows: slice) -> list[NDArray[np.float64]]:
+        part, sizes, measured = _doubles(array[rows]), size[rows], measure[rows]
+        found = []
         done = 0
         while done < len(part):
-            sizes = size[rows][done:]
+            points = np.empty((max(len(layout.vertices), 32 * (len(part) - done)) if vertices else 0, 2))
+            count = _kernel.hulls(layout.kernel, part[done:], low, high, sizes[done:], measured[done:], points)
             if vertices:
-                points = np.empty((max(len(layout.vertices), 32 * (len(part) - done)), 2))
-            count = _kernel.hulls(layout.kernel, part[done:], low, high, active, sizes, measure[rows][done:], points)
-            if vertices:
-                found.append(points[: int(sizes[:count].sum())].copy())
+                found.append(points[: int(sizes[done : done + count].sum())].copy())
             done += count
+        return found
+
+    found = _shared(work, _pieces(array, threads, BLOCK if vertices else None), threads)
     measure = measure.reshape(*lead, 3)
-    kept = np.concatenate([points[:0], *found]) if vertices else None
+    kept = np.concatenate([np.empty((0, 2)), *(part for parts in found for part in parts)]) if vertices else None
     return SupportPolygons(measure[..., 0], measure[..., 1:], size.reshape(lead), kept)
 
 
 def ground_planes(
-    layout: SoleLayout, distance: ArrayLike, *, sensing_range: float | None = None, tolerance: float = 2e-3
+    layout: SoleLayout,
+    distance: ArrayLike,
+    *,
+    sensing_range: float | None = None,
+    tolerance: float = 2e-3,
+    threads: int | None = 1,
 ) -> GroundPlanes:
     """Plane of the ground under the sole in every frame; `plantar.fit_ground_plane` says how.
 
@@ -262,13 +299,15 @@ def ground_planes(
         sensing_range: Distance in m from which a reading, also a negative one, counts as out of range; that of the
             layout where None.
         tolerance: Distance in m from the plane that noise and rough ground explain.
+        threads: How many threads share the frames; as many as this process has cores where None.
 
     Returns:
         The planes.
 
     Raises:
         ReadingError: If the distances have another shape or are not numeric.
-        InputError: If the tolerance is not above 0, or the range not a finite value above 0.
+        InputError: If the tolerance is not above 0, the range not a finite value above 0, or there is not at least one
+            thread.
 
     Example:
         >>> from plantar import hex_layout
@@ -283,8 +322,12 @@ def ground_planes(
     directions = np.empty(len(array), dtype=np.intp)
     inliers = np.zeros(array.shape, dtype=bool)
     used = inliers.view(np.uint8)
-    for rows, part in _pieces(array):
-        ground_fit(layout).frames(part, reach, tolerance, out[rows], directions[rows], used[rows])
+    fit = ground_fit(layout)
+
+    def work(rows: slice) -> None:
+        fit.frames(_doubles(array[rows]), reach, tolerance, out[rows], directions[rows], used[rows])
+
+    _shared(work, _pieces(array, threads), threads)
     out = out.reshape(*lead, 4)
     inliers = inliers.reshape(*lead, len(layout))
     return GroundPlanes(out[..., 0], out[..., 1:3], out[..., 3], directions.reshape(lead), inliers)
@@ -331,8 +374,38 @@ def _limits(layout: SoleLayout, threshold: float | None) -> tuple[float, float]:
     return layout.force_threshold if threshold is None else float(threshold), layout.force_limit
 
 
-def _pieces(force: NDArray[np.float64], frames: int | None = None) -> Iterator[tuple[slice, NDArray[np.float64]]]:
-    """The forces as the kernels take them: whole where they are contiguous float64, else converted in blocks."""
-    plain = force.dtype == np.float64 and force.flags.c_contiguous and force.dtype.isnative and force.flags.aligned
-    for rows, part in blocks(force, (frames or max(len(force), 1)) if plain else BLOCK):
-        yield rows, part if plain else np.ascontiguousarray(part, dtype=np.float64)
+def _is_plain(force: NDArray[np.generic]) -> bool:
+    """Whether the kernels take forces as they lie in memory."""
+    return force.dtype == np.float64 and force.flags.c_contiguous and force.dtype.isnative and force.flags.aligned
+
+
+def _doubles(force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The forces as the kernels take them, converted where they are not so yet."""
+    return force if _is_plain(force) else np.ascontiguousarray(force, dtype=np.float64)
+
+
+def _pieces(force: NDArray[np.float64], threads: int | None, frames: int | None = None) -> list[slice]:
+    """The frames in pieces: one for a thread alone, four a thread for several, `BLOCK` where something is copied."""
+    count = len(force)
+    workers = _workers(threads)
+    size = max(count, 1) if workers == 1 else max(-(-count // (4 * workers)), _LEAST)
+    if frames is not None or not _is_plain(force):
+        size = min(size, frames or BLOCK)
+    return [rows for rows, _ in blocks(force, size)]
+
+
+def _workers(threads: int | None) -> int:
+    """How many threads that is."""
+    if threads is not None:
+        return integer(threads, "threads", 1)
+    affinity = getattr(os, "sched_getaffinity", None)  # not everywhere: without it all cores count
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def _shared(work: Callable[[slice], _Done], pieces: list[slice], threads: int | None) -> list[_Done]:
+    """What some work gives of each piece, in their order, done by as many threads as there is work for."""
+    workers = min(_workers(threads), len(pieces))
+    if workers <= 1:
+        return [work(rows) for rows in pieces]
+    with ThreadPoolExecutor(workers) as pool:
+        return list(pool.map(work, pieces))
