@@ -404,7 +404,8 @@ def sweep(
         list[str] | None, Option(metavar="KEY=FROM:TO", help="Draw a setting from a range, anew a seed; repeatable.")
     ] = None,
     seeds: Annotated[
-        int | None, Option(help="Seeds of each grid point; the most, with --limit.", show_default="1; 400 with --limit")
+        int | None,
+        Option(help="Seeds of each grid point; the most, with --limit.", show_default="1; 1000 with --limit"),
     ] = None,
     first_seed: Annotated[int, Option(help="The first of them; for figures on seeds that nothing was tuned on.")] = 0,
     robot: Annotated[str | None, Option(help="Robot to use instead of the scene's.")] = None,

@@ -57,8 +57,17 @@ class LimitCurve:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Between which values the limit is with a probability of 95 %."""
+        """Between which values the limit is with a probability of 95 %, if the number of runs was chosen before."""
         return self.quantile(0.025), self.quantile(0.975)
+
+    @property
+    def interval_of_search(self) -> tuple[float, float]:
+        """Between which values the limit is in 95 of 100 searches that ended since this interval was narrow enough.
+
+        Such a search ends early where chance makes the curve look steeper than it is: `interval` holds the limit in 90
+        of 100 of them only. This one has a probability of 98 % (`tests/sim/sweep/test_limit_search.py` counts).
+        """
+        return self.quantile(0.01), self.quantile(0.99)
 
     def quantile(self, probability: float) -> float:
         """The value below which the limit is with a probability, 0 to 1."""
@@ -82,6 +91,26 @@ class LimitCurve:
         """Expected share of runs that are completed at a value, 0 to 1."""
         rising = float((self.joint * _shares(value, self.limits, self.widths)).sum())
         return rising if self.rising else 1.0 - rising
+
+    def turned(self, part: float, low: float, high: float) -> float:
+        """The value at which a part of the way from all to none, or from none to all, is expected to be done.
+
+        Args:
+            part: The part, 0 to 1: one half at the limit. Lapses are left out.
+            low: Smallest value that is allowed.
+            high: Largest one.
+
+        Returns:
+            The value, to a thousandth of the range.
+        """
+        weights = self.joint.sum(2)
+        step = high - low
+        for _ in range(10):
+            step /= 2.0
+            turn = np.tanh((low + step - self.limits) / (2.0 * self.widths[:, None]))
+            if float((weights * turn).sum()) < 2.0 * part - 1.0:
+                low += step
+        return low + step / 2.0
 
 
 def limit_curve(values: Sequence[float], completed: Sequence[bool], low: float, high: float) -> LimitCurve:

@@ -22,7 +22,7 @@ everywhere: the runs of a search do not depend on who ran them."""
 
 _ENDS = 4  # runs at each end of the range before any between
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # its multiples fill (0, 1) evenly, whatever a seed's remainder chooses
-_MIDDLE = (0.1, 0.9)  # quantiles of the limit that are tried
+_TURNING = 0.15  # part of the way from all to none, at either side, that is left out: runs there tell little
 _SURE = 0.95
 
 
@@ -151,8 +151,9 @@ class LimitSearch:
                     curve = self.curve(keys, rows)
                     if self._enough(curve):
                         return
-                least, most = _MIDDLE
-                value = curve.quantile(least + (most - least) * (number * _GOLDEN % 1.0))
+                # All over the curve's flank: runs at the limit alone do not tell how steep the curve is.
+                part = _TURNING + (1.0 - 2.0 * _TURNING) * (number * _GOLDEN % 1.0)
+                value = curve.turned(part, self.limit.low, self.limit.high)
             run = (*point, f"{self.limit.name}={self.limit.text(value)}"), seed
             keys.append(key_of(*run))
             yield run
@@ -175,7 +176,7 @@ class LimitSearch:
             "unit": self.limit.unit,
             "range": [self.limit.low, self.limit.high],
             "limit": curve.limit if there else None,
-            "interval": list(curve.interval) if there else None,
+            "interval": list(curve.interval_of_search) if there else None,
             "width": _width(curve) if there else None,
             "reached": inside > _SURE and _width(curve) <= self.within,
             "rising": curve.rising,
@@ -187,5 +188,5 @@ class LimitSearch:
 
 def _width(curve: LimitCurve) -> float:
     """Width of the limit's interval as a share of the limit."""
-    low, high = curve.interval
+    low, high = curve.interval_of_search
     return (high - low) / max(abs(curve.limit), 1e-12 * (high - low))

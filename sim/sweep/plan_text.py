@@ -12,7 +12,7 @@ from sim.sweep.value_range import ValueRange
 
 __all__ = ["plan_from_texts"]
 
-_MOST = 400  # runs of a limit's search
+_MOST = 1000  # runs of a limit's search
 
 
 def plan_from_texts(
@@ -32,7 +32,7 @@ def plan_from_texts(
     Args:
         scene: Name or file of the scene.
         grid: Texts "key=a,b,c".
-        seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 400 with a limit.
+        seeds: Number of seeds; with a limit the most at each grid point. None for 1, or 1000 with a limit.
         robot: Robot to use instead of the scene's.
         settings: Texts "key=value" that hold for all runs.
         first_seed: The first of the seeds.
