@@ -5,6 +5,7 @@ Polygons are shapely polygons, counter-clockwise, without holes, on a grid of 1 
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,9 @@ from shoes.geometry.surface import convex_outline, covered_area
 __all__ = [
     "CORNER",
     "GRID",
+    "apart",
     "cut_below",
+    "flush",
     "grown",
     "outline_below",
     "outline_of",
@@ -34,6 +37,9 @@ CORNER = 1.2
 _SIMPLIFY = 0.04  # mm of detail that is dropped; less than what the gap between foot and wall may lack
 _GROOVE = 10.0  # mm: half the width of a groove that is bridged
 _NEARLY_CONVEX = 0.9  # of the hull's area: above it the hull is the outline
+_HAIR = 0.05  # mm: half the width of what lies between two outlines and is left out
+_LEAST = 0.02  # mm between two corners
+_EXACT = 1e-9  # mm: what lies nearer to a line lies on it
 
 
 def tidy(polygon: Any) -> Any:
@@ -71,6 +77,58 @@ def grown(shape: Any, distance: float) -> Any:
 def ring(polygon: Any) -> NDArray[np.float64]:
     """Corners (k, 2) of a polygon in mm, counter-clockwise, without the repeated last point."""
     return np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
+
+
+def apart(outer: Any, inner: Any) -> Any:
+    """What an outline has beyond another, without what is a hair wide; a hair more all around.
+
+    Args:
+        outer: A shapely polygon in mm.
+        inner: One that it takes in.
+
+    Returns:
+        A shapely geometry, empty where the two are about the same.
+    """
+    return outer.difference(inner).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
+
+
+def flush(outer: Any, inner: Any) -> Any:
+    """An outline that takes in another, and is the very same wherever both are about the same.
+
+    Walls that run along each other a hair apart, or meet a hair beside a corner, give faces and edges of no width,
+    which the CAD kernel loses. Where the two part the result lies on no grid: there they would part a hair elsewhere.
+
+    Args:
+        outer: A shapely polygon in mm without holes.
+        inner: One that it takes in.
+
+    Returns:
+        The shapely polygon, counter-clockwise, with the inner one's corners where it follows it.
+
+    Example:
+        >>> import shapely
+        >>> flush(shapely.box(-0.01, 0.0, 9.0, 4.0), shapely.box(0.0, 0.0, 5.0, 4.0)).bounds
+        (0.0, 0.0, 9.0, 4.0)
+    """
+    import shapely
+
+    joined = inner.union(apart(outer, inner).intersection(outer))
+    largest = max(getattr(joined, "geoms", [joined]), key=lambda g: float(g.area))
+    points = ring(shapely.geometry.polygon.orient(shapely.Polygon(largest.exterior)))
+    corners = set(map(tuple, ring(inner).tolist()))
+    beside = inner.exterior.distance(shapely.points(points))
+    points, along = (v[(beside < _EXACT) | (beside > _LEAST)] for v in (points, beside < _EXACT))
+    # Of two corners that are nearly one the inner outline's stays, or else what lies on its edge.
+    rank = [2 if tuple(p) in corners else int(on) for p, on in zip(points.tolist(), along, strict=True)]
+    kept: list[int] = []
+    for i in range(len(points)):
+        while kept and math.dist(points[i], points[kept[-1]]) < _LEAST and rank[kept[-1]] < rank[i]:
+            kept.pop()
+        if not kept or rank[i] == 2 or math.dist(points[i], points[kept[-1]]) >= _LEAST:
+            kept.append(i)
+    if math.dist(points[kept[0]], points[kept[-1]]) < _LEAST and min(rank[kept[0]], rank[kept[-1]]) < 2:
+        kept.pop(0 if rank[kept[0]] < rank[kept[-1]] else -1)
+    return shapely.Polygon(points[kept])
 
 
 def rounded_rectangle(length: float, width: float, centre: tuple[float, float], radius: float) -> Any:

@@ -18,7 +18,7 @@ from plantar.layouts.tiling import hex_layout
 from shoes.fit.fine_rim import blind_rim
 from shoes.fit.taxels import TaxelFit
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import grown, ring, single_outline, tidy
+from shoes.geometry.outline import flush, grown, ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import moved_edges
 from shoes.plan.heel import Heel, find_heel
@@ -140,7 +140,7 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     patch = shapely.union_all(cells)
     walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
     shape = rim.union(grown(walls, fit.border))
-    contact = single_outline(shape, shape.convex_hull, detail=0.0)
+    contact = flush(single_outline(shape, shape.convex_hull, detail=0.0), rim)
     return plan_face(outline, contact, cavity, rim, fit, parameters, name=name or foot.name)
 
 

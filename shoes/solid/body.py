@@ -8,7 +8,7 @@ import numpy as np
 
 from plantar.layouts.layout import Side
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import grown, ring, tidy
+from shoes.geometry.outline import apart, grown, ring, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Groove, Step, mirrored_step, moved_edges, tapered
 from shoes.plan.shoe_plan import ShoePlan
@@ -21,7 +21,6 @@ __all__ = ["LEVELS", "cavity_levels", "insole_steps", "mark_outline", "mirrored_
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
 """Shares of the wall's height at which the foot's outline is taken."""
 
-_HAIR = 0.05  # mm: half the width of a step between two levels that is left out
 _STEP = 0.3  # mm by which two levels must differ to be two
 _TRIM = 0.8  # mm: bevel of the wall's upper outer edge
 _MARK_MOST = 10  # letters
@@ -121,8 +120,7 @@ def _within(above: Any, outline: Any) -> Any:
 
     Edges that run along each other a hair apart would give faces of no width. The grid would move them apart again.
     """
-    apart = above.difference(outline).buffer(-_HAIR).buffer(2.0 * _HAIR, quad_segs=1)
-    lower = above.difference(apart.difference(outline))
+    lower = above.difference(apart(above, outline).difference(outline))
     return max(getattr(lower, "geoms", [lower]), key=lambda g: float(g.area))
 
 

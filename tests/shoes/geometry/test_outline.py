@@ -10,7 +10,16 @@ import shapely
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from shoes.geometry.outline import cut_below, outline_below, ring, rounded_rectangle, single_outline, tidy, touching
+from shoes.geometry.outline import (
+    cut_below,
+    flush,
+    outline_below,
+    ring,
+    rounded_rectangle,
+    single_outline,
+    tidy,
+    touching,
+)
 
 Shape = Callable[..., NDArray[np.float64]]
 
@@ -111,3 +120,23 @@ def test_a_fine_surface_is_joined_as_a_coarse_one() -> None:
     assert len(fine) > 20_000
     cells = shapely.union_all(shapely.polygons(np.stack([a, b, c, d], axis=1)[..., :2]))
     assert touching(fine, 5.0).symmetric_difference(cells).area < 0.4 * cells.length
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_outlines_that_are_about_the_same_are_the_same(seed: int) -> None:
+    # A rim and a face around it, a hair apart on the grid for most of their way, as bridging and rounding leave them.
+    chance = np.random.default_rng(seed)
+    angle = np.sort(chance.uniform(0.0, 2.0 * np.pi, 60))
+    rim = tidy(shapely.Polygon(np.column_stack([110.0 * np.cos(angle), 50.0 * np.sin(angle)])).buffer(3.0))
+    x, y = ring(rim)[chance.integers(len(ring(rim)))]
+    face = tidy(rim.buffer(chance.uniform(0.0, 0.01)).union(shapely.Point(x, y).buffer(chance.uniform(4.0, 20.0), 2)))
+    joined = flush(face, rim)
+    assert joined.covers(rim.buffer(-1e-9))
+    assert joined.symmetric_difference(face).area < 0.02 * rim.length
+    own = set(map(tuple, ring(rim).tolist()))
+    points = ring(joined)
+    gaps = np.hypot(*(np.roll(points, -1, axis=0) - points).T)
+    new = np.array([tuple(p) not in own for p in points.tolist()])
+    assert (gaps[new | np.roll(new, -1)] > 0.019).all()
+    beside = rim.exterior.distance(shapely.points(points[new]))
+    assert ((beside < 1e-9) | (beside > 0.019)).all()
