@@ -77,7 +77,8 @@ def shoe(
     """Build a printable tactile shoe for a robot's foot, and the layout of its taxels.
 
     Writes the printable part (shoe_<side>.stl, .step, .3mf), its pad, layout_<side>.json, a drawing, a picture, the
-    bill of parts (parts.csv) and check.json. Exit code 1 if a check does not hold.
+    bill of parts (parts.csv), how it is put together (assembly.html) and check.json. Exit code 1 if a check does not
+    hold.
 
     Example: plantar shoe foot.stl -o out/shoe
 

@@ -13,6 +13,7 @@ from typing import NamedTuple
 __all__ = [
     "Section",
     "embedded",
+    "figure",
     "figures_of",
     "group_row",
     "number",
@@ -94,11 +95,19 @@ def embedded(figures: Iterable[tuple[Path, str]], names: Sequence[str] | None = 
         HTML.
     """
     taken = (one for one in figures if names is None or one[0].stem in names)
-    return "".join(_figure(path, caption) for path, caption in taken)
+    return "".join(figure(path.read_bytes(), caption) for path, caption in taken)
 
 
-def _figure(path: Path, caption: str) -> str:
-    content = path.read_bytes()
+def figure(content: bytes, caption: str) -> str:
+    """A figure that stands in the page itself.
+
+    Args:
+        content: A PNG file's bytes.
+        caption: Its caption as plain text, which also serves as its alternative text.
+
+    Returns:
+        HTML.
+    """
     data, text = base64.b64encode(content).decode(), html.escape(caption)
     width = int.from_bytes(content[16:20], "big")  # of the PNG's first chunk
     wide = f' class="wide" tabindex="0" aria-label="{text}"' if width > _WIDE else ""

@@ -18,6 +18,7 @@ from plantar.layouts.layout_file import layout_to_dict
 from shoes.build import Progress, Shoe, ShoeBuild
 from shoes.checks.check import ShoeCheck, check_shoe
 from shoes.checks.weights import Weights
+from shoes.papers.assembly import assembly_page
 from shoes.papers.bill import Part, bill_of_parts, bill_text
 from shoes.papers.drawing import draw_shoe
 from shoes.papers.package_3mf import NamedBody, write_3mf, write_assembly
@@ -177,8 +178,9 @@ def export_shoe(build: ShoeBuild, folder: str | os.PathLike[str], *, progress: P
         files.append(layout.name)
     if checks:
         write_text(target / "parts.csv", bill_text(bills))
-        write_text(target / "wiring.csv", wiring_text(build.shoes))
-        files += ["parts.csv", "wiring.csv", "check.json"]
+        write_text(target / "wiring.csv", wiring_text(build.shoes, build.parameters))
+        write_text(target / "assembly.html", assembly_page(build, checks, bills))
+        files += ["parts.csv", "wiring.csv", "assembly.html", "check.json"]
     report = ShoeReport(build, checks, tuple(files), weights, bills)
     if checks:
         write_text(target / "check.json", json.dumps(report.as_dict(), indent=1) + "\n")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import os
+import struct
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.plotting import new_figure, save_figure
 
-__all__ = ["draw_picture", "render"]
+__all__ = ["draw_picture", "render", "rendered_png"]
 
 _PRINTED = (0.36, 0.55, 0.72)
 _PAD = (0.30, 0.31, 0.33)
@@ -109,6 +111,38 @@ def _edges(depth: Array, normal: Array, hit: NDArray[np.bool_], jump: float) -> 
     return out & hit
 
 
+def _halved(view: Array) -> Array:
+    """A picture of an even width at half the size, each pixel the mean of four."""
+    height, width = view.shape[0] // 2, view.shape[1] // 2
+    return np.asarray(view[: 2 * height].reshape(height, 2, width, 2, 3).mean(axis=(1, 3)))
+
+
+def rendered_png(
+    bodies: list[tuple[Array, tuple[float, float, float]]], *, azimuth: float, elevation: float, width: int = 480
+) -> bytes:
+    """Render triangles as a PNG file; the same triangles give the same bytes.
+
+    Args:
+        bodies: Triangles (n, 3, 3), outward counter-clockwise, and the colour (r, g, b) 0..1 of each body.
+        azimuth: Where the eye is, in degrees about z from +x.
+        elevation: How high the eye is, in degrees; negative looks from below.
+        width: Width of the picture in pixels.
+
+    Returns:
+        The file's bytes.
+    """
+    picture = _halved(render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width))
+    pixels = (255.0 * picture).round().astype(np.uint8)
+    rows = np.concatenate([np.zeros((len(pixels), 1), dtype=np.uint8), pixels.reshape(len(pixels), -1)], axis=1)
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)  # 8 bit of red, green and blue
+    chunks = chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + chunks
+
+
 def draw_picture(
     surface: Array, pad: Array | None, title: str, path: str | os.PathLike[str], *, width: int = 720
 ) -> Path:
@@ -142,8 +176,7 @@ def draw_picture(
     heights = [v.shape[0] for _, v in views]
     figure, axes = new_figure(9.0, 9.0 * sum(heights) / (2 * width) + 1.0, rows=3, height_ratios=heights)
     for ax, (text, view) in zip(axes, views, strict=True):
-        half = view[: view.shape[0] // 2 * 2].reshape(view.shape[0] // 2, 2, width, 2, 3).mean(axis=(1, 3))
-        ax.imshow(half, interpolation="nearest")
+        ax.imshow(_halved(view), interpolation="nearest")
         ax.set_title(text, fontsize=9, loc="left")
         ax.set_axis_off()
     figure.suptitle(title, fontsize=11)

@@ -11,24 +11,27 @@ import numpy as np
 
 from shoes.build import Shoe, ShoeBuild
 from shoes.geometry.outline import ring
-from shoes.plan.wiring import cable_outlines, hole_outline
+from shoes.parameters import ShoeParameters
+from shoes.plan.wiring import cable_outlines, channel_lines, hole_outline, length_of, wire_lines
 from shoes.units import to_mm
 
 __all__ = ["cells_dxf", "wiring_text"]
 
-_HEADER = ("side", "cell", "patch", "x_mm", "y_mm", "area_mm2", "hop", "from_cell", "port_x_mm", "port_y_mm")
+_HEADER = ("side", "cell", "patch", "x_mm", "y_mm", "area_mm2", "hop", "from_cell", "port_x_mm", "port_y_mm", "wire_mm")
 
 
-def wiring_text(shoes: tuple[Shoe, ...]) -> str:
+def wiring_text(shoes: tuple[Shoe, ...], parameters: ShoeParameters) -> str:
     """The cells of each shoe in the order of the cable, as CSV.
 
     Args:
         shoes: The shoes.
+        parameters: Dimensions as used.
 
     Returns:
         The text, a header first: of each cell its patch, place, area, how many hops it is from the connector, the cell
-        that its cable comes from (empty for a connector's) and the middle of the port between the two. Of cells without
-        ways for a cable only place and area.
+        that its cable comes from (empty for a connector's), the middle of the port between the two, and the length of
+        the wire from that cell's centre through the port to its own, slack not counted (of a connector along its
+        channel). Of cells without ways for a cable only place and area.
     """
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -39,15 +42,18 @@ def wiring_text(shoes: tuple[Shoe, ...]) -> str:
         patch = {c: n for n, c in enumerate(plan.connectors)}
         hop = dict.fromkeys(plan.connectors, 0)
         before: dict[int, int] = {}
+        wires = wire_lines(plan)
+        wires |= dict(zip(plan.connectors, channel_lines(plan, parameters), strict=True))
         for i, j in plan.route:  # a tree, from the connectors outwards
             patch[j], hop[j], before[j] = patch[i], hop[i] + 1, i
         for j in sorted(range(len(ids)), key=lambda k: (patch.get(k, 0), hop.get(k, 0), ids[k])):
             x, y = centres[j].round(3).tolist()
             port: list[Any] = ["", "", ""]
             if j in before:
-                port = [ids[before[j]], *plan.shared_edge(before[j], j).mean(axis=0).round(3).tolist()]
+                port = [ids[before[j]], *wires[j][1].round(3).tolist()]
+            wire = round(length_of(wires[j]), 1) if j in wires else ""
             area = round(1e6 * float(shoe.layout.areas[j]), 2)
-            writer.writerow([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port])
+            writer.writerow([shoe.side, ids[j], patch.get(j, ""), x, y, area, hop.get(j, ""), *port, wire])
     return out.getvalue()
 
 

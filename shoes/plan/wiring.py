@@ -6,13 +6,22 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step
 from shoes.plan.heel import LIP, PLAY, POST, holder_depth
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["cable_outlines", "hole_outline", "pocket_outlines", "wiring_steps"]
+__all__ = [
+    "cable_outlines",
+    "channel_lines",
+    "hole_outline",
+    "length_of",
+    "pocket_outlines",
+    "wire_lines",
+    "wiring_steps",
+]
 
 _SLIVER = 0.02  # mm^2
 _WIDER = 0.3  # mm
@@ -72,17 +81,56 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
         along = np.array([across[1], -across[0]])
         reach, port = 0.5 * parameters.rib + 1.0, min(width, 0.6 * length)
         parts.append(shapely.Polygon([middle + a * reach * along + b * 0.5 * port * across for a, b in _SQUARE]))
+    half = 0.5 * parameters.channel_width
+    lines = channel_lines(plan, parameters)
+    return parts + [shapely.LineString(c).buffer(half, cap_style="flat", join_style="mitre") for c in lines]
+
+
+def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np.float64]]:
+    """Middle of each connector's channel: to the exit at the heel, or to the nearest pocket of a patch before it.
+
+    Args:
+        plan: The sole.
+        parameters: Dimensions.
+
+    Returns:
+        Points (k, 2) in mm from the connector's pocket on, in the order of the connectors.
+    """
+    if not plan.connectors:
+        return []
     pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets]
     heel = plan.heel
     # Straight into the hole behind the wall, or out of the plate where there is none.
     end = heel.point(-0.5 * parameters.board_gap if heel.board else -40.0, 0.0)
-    channels: list[tuple[Any, ...]] = [(pockets[plan.connectors[0]], heel.point(6.0, 0.0), end)]
+    lines = [np.stack([pockets[plan.connectors[0]], heel.point(6.0, 0.0), end])]
     for n, later in enumerate(plan.connectors[1:], start=1):
         before = [i for c in plan.connectors[:n] for i in _patch_of(plan, c)]
         nearest = min(before, key=lambda i: (float(math.hypot(*(pockets[i] - pockets[later]))), i))
-        channels.append((pockets[later], pockets[nearest]))
-    half = 0.5 * parameters.channel_width
-    return parts + [shapely.LineString(c).buffer(half, cap_style="flat", join_style="mitre") for c in channels]
+        lines.append(np.stack([pockets[later], pockets[nearest]]))
+    return lines
+
+
+def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
+    """The way of each wire between two cells: from one's centre through the middle of their port to the other's.
+
+    Args:
+        plan: The sole.
+
+    Returns:
+        Points (3, 2) in mm of each pair of `plan.route`, by the second of the pair.
+    """
+    centres = [np.array(c.centroid.coords[0]) for c in plan.cells]
+    return {j: np.stack([centres[i], plan.shared_edge(i, j).mean(axis=0), centres[j]]) for i, j in plan.route}
+
+
+def length_of(line: NDArray[np.float64]) -> float:
+    """Length in mm of a line of points (k, 2) in mm.
+
+    Example:
+        >>> length_of(np.array([[0.0, 0.0], [3.0, 4.0], [3.0, 5.0]]))
+        6.0
+    """
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def hole_outline(plan: ShoePlan, parameters: ShoeParameters) -> Any:

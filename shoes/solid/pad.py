@@ -14,7 +14,7 @@ from shoes.parameters import ShoeParameters
 from shoes.plan.pad_outline import pad_rim
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["mould_surface", "pad_surface", "taxel_surfaces", "volume_of"]
+__all__ = ["mould_surface", "pad_surface", "prism_surface", "taxel_surfaces", "volume_of"]
 
 _MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
 
@@ -96,14 +96,25 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
         Surfaces (n, 3, 3) in mm, outward counter-clockwise, in the order of the cells.
     """
     p = parameters
-    bases = [_prism(q, p.bottom, p.ceiling) for q in plan.pockets]
+    bases = [prism_surface(q, p.bottom, p.ceiling) for q in plan.pockets]
     if p.taxel_protrusion <= 0.0:
         return bases
-    return [np.concatenate([_prism(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)]
+    return [
+        np.concatenate([prism_surface(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)
+    ]
 
 
-def _prism(polygon: Any, low: float, high: float) -> Array:
-    """Closed surface of a polygon without holes between two heights."""
+def prism_surface(polygon: Any, low: float, high: float) -> Array:
+    """Closed surface of a polygon without holes between two heights.
+
+    Args:
+        polygon: Shapely polygon in mm.
+        low: Lower height in mm.
+        high: Upper height.
+
+    Returns:
+        Surface (n, 3, 3) in mm, outward counter-clockwise.
+    """
     flat = _triangles(polygon)
     a = ring(polygon)
     b = np.roll(a, -1, axis=0)
