@@ -29,6 +29,10 @@ class Example(NamedTuple):
 
 QUICK = {
     "sole_hexagons": Example(r"left: (\d+) taxels.*right: (\d+) taxels", holds=lambda left, right: left == right > 50),
+    "sole_squares": Example(
+        r"squares: 44 .* on (\d+) %.*whole squares: .* on (\d+) %.*oblong cells: .* on (\d+) %",
+        holds=lambda cut, whole, oblong: whole < cut < oblong < 100,
+    ),
     "sole_insole": Example(r"7 sensors carry (\d+) N", holds=lambda load: load == 650),
     "sole_curved": Example(
         r"flat: .* force \+(\S+) N forward.*rocker: heel and toe (\d+) mm up, force \+(\S+) N",
@@ -48,6 +52,10 @@ QUICK = {
         r"1 dead, 0 saturated, 1 stuck.*true load (\d+) N: (\d+) N .*, (\d+) N",
         holds=lambda true, left_out, filled: left_out < 0.98 * true and abs(filled - true) < 0.005 * true,
     ),
+    "percept_stream": Example(
+        r"stuck: \[5\].*polygon of (\d+) cm.*contact: (\d+) by a threshold, (\d+) with hysteresis",
+        holds=lambda area, bare, kept: 100 < area < 240 and kept < bare / 5,
+    ),
     "percept_temperature": Example(r"push with (\d+) N", holds=lambda force: force == 14 * 13),
     "percept_a_million": Example(r"as a percept says it: True", ("20000",)),
     "record_larger_than_memory": Example(
@@ -57,9 +65,18 @@ QUICK = {
         r"mcap: 1000 frames at 100 Hz.*right: at most (\d+) N", holds=lambda load: load == 700
     ),
     "record_formats": Example(r"pedar.*2 feet, 50 Hz, peak (\d+) N.*table.*peak (\d+) N", holds=lambda a, b: a == b),
+    "record_makers": Example(
+        r"emed: .* peak (\d+) N.*tekscan: 72 .* peak (\d+) N.*footscan: .* peak (\d+) N.*xsensor: 72 .* peak (\d+) N"
+        r".*moticon: 16 ",
+        holds=lambda emed, *spacing: emed == 160 and spacing == (165, 248, 165),  # 40 cells of 160 kPa, by their areas
+    ),
     "record_own_metric": Example(r"left: (\d+) steps, forefoot loaded (\S+) ", holds=lambda n, t: n == 10 and t > 0.2),
     "shoe_from_any_foot": Example(
         r"a box: .* (\d+) whole.*an ellipse: .* (\d+) whole.*h1: .* (\d+) whole", holds=lambda *n: min(n) > 20
+    ),
+    "shoe_from_files": Example(
+        r"svg: .* (\d+) cm.*dxf: .* (\d+) cm.*geojson: .* (\d+) cm.*robot.xml: .* (\d+) cm",
+        holds=lambda *area: area == (176, 176, 176, 176),
     ),
     "walk_own_loop": Example(
         r"walked (\S+) m; the controller thinks (\S+) m",
@@ -78,6 +95,7 @@ LONG = {
         r"without it: steps at 0.20, 0.40, 0.60.*completed: True.*with it: steps at 0.20, 0.40, 0.64.*completed: True"
     ),
     "walk_own_terrain": Example(r"pfc=true: completed, 6 steps.*pfc=false: .*fall"),
+    "walk_own_gains": Example(r"dcm_gain 0: .*dcm_gain 3: completed.*dcm_gain 8: .*\[balance\] dcm_gain = \d"),
     "walk_sweep": Example(r"'false'}: (\d) of 2 completed.*'true'}: 2 of 2.*finds 4 of its 4", holds=lambda n: n == 0),
 }
 
