@@ -48,6 +48,10 @@ Spec = Any
 """A `mujoco.MjSpec`."""
 
 
+class _NotCompiled(FootError):
+    """A model that MuJoCo cannot compile, maybe for a mesh of a kind that it does not read."""
+
+
 class BodyPlace(NamedTuple):
     """Where a body is at the zero pose.
 
@@ -146,7 +150,7 @@ class ModelSource:
         """
         try:
             return self._shapes(name, most, read_all=False)
-        except FootError:  # MuJoCo reads no text STL and none of more than 200,000 triangles
+        except _NotCompiled:  # MuJoCo reads no text STL and none of more than 200,000 triangles
             return self._shapes(name, most, read_all=True)
 
     def mass(self, name: str) -> tuple[float | None, str]:
@@ -262,7 +266,9 @@ class ModelSource:
                 warnings.simplefilter("ignore", UserWarning)  # of settings that MuJoCo will drop
                 model = spec.compile()
         except Exception as error:  # MuJoCo raises ValueError and its own
-            raise FootError(f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}") from None
+            raise _NotCompiled(
+                f"{self.file}: cannot be read as a robot's model: {' '.join(str(error).split())}"
+            ) from None
         data = mujoco.MjData(model)
         mujoco.mj_kinematics(model, data)
         return model, data

@@ -11,6 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
+from shoes.foot import model_source
 from shoes.foot.model_source import read_model_source
 from shoes.foot.robot_model import read_foot_body
 from shoes.foot.source import read_foot
@@ -197,3 +198,16 @@ def test_a_urdf_is_the_sum_of_its_links(tmp_path: Path) -> None:
     assert told_mass(file, "b")[0] == pytest.approx(32.5)
     file.write_text("<robot name='r'><link name='a'/></robot>")
     assert told_mass(file, "a") == (None, "the robot's model states no mass")
+
+
+def test_a_model_of_too_many_triangles_is_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    trimesh.creation.icosphere(radius=0.1).export(tmp_path / "m.stl")
+    file = tmp_path / "robot.xml"
+    file.write_text(MJCF.format(inertial="", mesh='<geom type="mesh" mesh="m"/>'))
+    source, read = read_model_source(file), []
+    own = type(source)._shapes
+    monkeypatch.setattr(model_source, "MOST_TRIANGLES", 1000)
+    monkeypatch.setattr(type(source), "_shapes", lambda self, *a, **k: read.append(k) or own(self, *a, **k))
+    with pytest.raises(FootError, match="triangles; allowed: up to 1000"):
+        source.shapes("foot", 20)
+    assert read == [{"read_all": False}]
