@@ -17,6 +17,7 @@ from shoes.foot.orientation import (
     AXES,
     Axis,
     check_one_body,
+    check_told,
     check_upright,
     flat_share,
     forward_axis,
@@ -166,7 +167,7 @@ def _standing(
     axis = forward
     if axis is None:
         check_one_body(triangles, where)
-        triangles, turns = straightened(triangles)
+        triangles, turns = straightened(triangles, where)
         axis, how = forward_axis(triangles, where)
         notes += [*turns, how]
     elif axis != "x":
@@ -198,7 +199,7 @@ def _standing(
     notes.append(f"sole {box[2] - box[0]:.1f} x {box[3] - box[1]:.1f} mm (lowest {sole_band:g} mm of the mesh)")
     lifted = triangles + np.array([0.0, 0.0, 0.0 if sole_z is None else -float(triangles[..., 2].min())])
     if not up_given and sole_z is None:
-        notes += check_upright(upright, where)
+        notes += [*check_upright(upright, where), *check_told(upright, where)]
     support = touching(lifted, _TOUCHING).intersection(sole)
     return Foot(
         name,

@@ -16,6 +16,7 @@ __all__ = [
     "AXES",
     "Axis",
     "check_one_body",
+    "check_told",
     "check_upright",
     "flat_share",
     "forward_axis",
@@ -41,10 +42,15 @@ _RESTS = 0.3  # share of the silhouette that one plane of the hull must have to 
 _BAND, _DEEP = 5.0, 2.0  # mm: how far what lies below reaches up, and a face on a side inwards
 _SIDE = 1.5  # of the face below: a face on a side that is so much larger is the sole
 _SLANTED = "a slanted one"
+_DECK_TILT = 3.0  # degrees by which a deck may be tilted over a sole that nothing levels
+_DECK = 0.5  # of the silhouette: a plane above that is so large is the foot's deck
+_EITHER = 0.8  # of the face below: a face above that is so large could be the sole
 _UPWARD = 0.2  # of a normal: faces above are no sole
 _LONGER = 1.05  # of the other side: what counts as the long side
 _CLEAR = 0.06  # of the foot's length: how far the ankle lies from its middle where it tells the heel from the toes
 _BLOCK = 0.6  # of the foot's length: what is shorter on top of it is its ankle
+_TURN_TOLD = 4.0  # degrees: a foot that stands so much askew is told to
+_TURN_SQUARE = 30.0  # degrees: a foot about as wide as long that stands so much askew could point either way
 _TURN_LEAST = 6.0  # degrees: a foot turned by less is taken as it stands
 _STRAIGHTER = 0.03  # by how much a foot is more like its mirror image where it is taken to be turned
 _SECOND = 0.25  # of the largest body's area: what lies apart and is smaller is a loose part
@@ -184,6 +190,37 @@ def check_upright(triangles: Array, where: str) -> list[str]:
     return []
 
 
+def check_told(triangles: Array, where: str) -> list[str]:
+    """Refuse a foot without a plane to rest on whose upper side is a tilted plane: the foot is tilted with it.
+
+    Args:
+        triangles: Triangles in mm with z taken to point up.
+        where: Name of the file, for the message.
+
+    Returns:
+        Notes of what nothing tells: whether a rounded or padded sole is level, and whether the foot is upside down.
+
+    Raises:
+        FootError: If the upper side is tilted by 3 to 25 degrees.
+    """
+    below, share = _resting_plane(triangles)
+    if share < _RESTS or _flat_area(triangles, below) < _RESTS * share:
+        above, deck = _resting_plane(triangles * np.array([1.0, 1.0, -1.0]))
+        tilt = math.degrees(math.acos(min(1.0, -float(above[2]))))
+        if deck > _DECK and tilt > _DECK_TILT:
+            raise FootError(
+                f"{where}: the sole has no plane to be levelled by, and the upper side is tilted by {tilt:.1f} "
+                "degrees, as the foot seems to be; level the mesh, or give the axis that points up (--up z) to take it "
+                "as it stands"
+            )
+        return ["the sole has no plane to be levelled by: taken to be level as the mesh's axes are"]
+    points = triangles.reshape(-1, 3)
+    up = _face_area(points, _direction("z"), _DEEP)
+    if up > _EITHER * _face_area(points, _direction("-z"), _BAND):
+        return ["the foot could stand on its upper side as well: z is taken to point up (or give the axis that does)"]
+    return []
+
+
 def _is_face(triangles: Array, normal: Array) -> bool:
     """Whether faces of the surface fill a plane of its hull by a share; over what juts out there are none."""
     cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
@@ -257,7 +294,7 @@ def check_one_body(triangles: Array, where: str) -> None:
         )
 
 
-def straightened(triangles: Array) -> tuple[Array, list[str]]:
+def straightened(triangles: Array, where: str = "the mesh") -> tuple[Array, list[str]]:
     """A foot turned so that its length lies along x or y.
 
     The outline's long axis tells about where it points, its symmetry exactly: the direction within 25 degrees of the
@@ -266,9 +303,13 @@ def straightened(triangles: Array) -> tuple[Array, list[str]]:
 
     Args:
         triangles: Triangles with z up.
+        where: Name of the file, for the message.
 
     Returns:
-        The triangles, and a note where they were turned.
+        The triangles, and a note where they were turned, or stand a little askew.
+
+    Raises:
+        FootError: If it is about as wide as long, and askew by so much that it could point along either axis.
     """
     import shapely
 
@@ -279,16 +320,26 @@ def straightened(triangles: Array) -> tuple[Array, list[str]]:
     box = shapely.get_coordinates(shapely.minimum_rotated_rectangle(hull).exterior)
     sides = np.diff(box, axis=0)[:2]
     lengths = np.hypot(*sides.T)
-    if lengths.max() < _LONGER * lengths.min():
-        return triangles, []
+    square = lengths.max() < _LONGER * lengths.min()
     along = sides[int(lengths.argmax())]
     start = math.degrees(math.atan2(along[1], along[0]))
     angles = start + np.arange(-25.0, 25.5, 0.5)
     alike = [_likeness(hull, v) for v in angles]
     best = float(angles[int(np.argmax(alike))])
     off = (best + 45.0) % 90.0 - 45.0
-    if abs(off) < _TURN_LEAST or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
+    if abs(off) < _TURN_TOLD or max(alike) - _likeness(hull, best - off) < _STRAIGHTER:
         return triangles, []
+    if abs(off) < _TURN_LEAST:
+        return triangles, [
+            f"by its symmetry the foot points {off:.1f} degrees past an axis of the mesh: taken as it stands, since "
+            f"that is less than {_TURN_LEAST:g}; turn the mesh if it should not"
+        ]
+    if square and abs(off) > _TURN_SQUARE:
+        raise FootError(
+            f"{where}: the foot is about as wide as long and stands askew by {abs(off):.0f} degrees, so that nothing "
+            f"tells where it points; turn the mesh, or give the forward axis ({', '.join(AXES[:4])}) to take it as it "
+            "stands"
+        )
     c, s = math.cos(math.radians(-off)), math.sin(math.radians(-off))
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     note = f"the foot points {off:.1f} degrees past an axis of the mesh, by its symmetry: turned back by that"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -204,10 +205,16 @@ def test_a_model_of_too_many_triangles_is_read_once(tmp_path: Path, monkeypatch:
     trimesh.creation.icosphere(radius=0.1).export(tmp_path / "m.stl")
     file = tmp_path / "robot.xml"
     file.write_text(MJCF.format(inertial="", mesh='<geom type="mesh" mesh="m"/>'))
-    source, read = read_model_source(file), []
+    source = read_model_source(file)
+    read: list[object] = []
     own = type(source)._shapes
+
+    def counted(self: Any, *arguments: Any, **options: Any) -> Any:
+        read.append(options)
+        return own(self, *arguments, **options)
+
     monkeypatch.setattr(model_source, "MOST_TRIANGLES", 1000)
-    monkeypatch.setattr(type(source), "_shapes", lambda self, *a, **k: read.append(k) or own(self, *a, **k))
+    monkeypatch.setattr(type(source), "_shapes", counted)
     with pytest.raises(FootError, match="triangles; allowed: up to 1000"):
         source.shapes("foot", 20)
     assert read == [{"read_all": False}]

@@ -13,6 +13,7 @@ from plantar.errors import FootError
 from shoes.foot.orientation import (
     AXES,
     check_one_body,
+    check_told,
     check_upright,
     flat_share,
     forward_axis,
@@ -117,3 +118,42 @@ def test_a_foot_that_lies_on_its_side_is_refused_and_a_slender_one_is_not(box: S
     assert check_upright(slender, "foot") == []
     deck = np.concatenate([box((-60, 90), (-35, 35), (0, 20)), box((-80, 150), (-60, 60), (20, 40))])
     assert check_upright(deck, "foot") == []
+
+
+def rocker(radius: float, prism: Shape) -> NDArray[np.float64]:
+    """A foot with a sole of a radius along it and a flat upper side."""
+    x = np.linspace(-115.0, 115.0, 40)
+    side = np.column_stack([x, radius - np.sqrt(radius**2 - x**2)])
+    solid = prism(np.vstack([side, [[115.0, 45.0], [-115.0, 45.0]]]), -45.0, 45.0)
+    return np.asarray(solid[..., [0, 2, 1]][:, ::-1] + np.array([30.0, 0.0, 0.0]))
+
+
+@pytest.mark.parametrize("radius", [400.0, 800.0])
+def test_a_rounded_sole_that_is_tilted_with_its_foot_is_refused(prism: Shape, radius: float) -> None:
+    foot = rocker(radius, prism)
+    assert "level as the mesh's axes" in check_told(foot, "foot")[0]
+    for tilt in (4.0, 8.0, -8.0, 15.0):
+        c, s = np.cos(np.radians(tilt)), np.sin(np.radians(tilt))
+        tilted = foot @ np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]).T
+        with pytest.raises(FootError, match=rf"tilted by {abs(tilt):.1f} degrees, .*--up z"):
+            check_told(tilted, "foot")
+
+
+def test_what_could_stand_on_either_side_is_told(box: Shape) -> None:
+    plate = box((-80, 150), (-45, 45), (0, 30))
+    assert "upper side as well" in check_told(plate, "foot")[0]
+    assert check_told(np.concatenate([plate, box((-20, 20), (-20, 20), (30, 80))]), "foot") == []
+
+
+@pytest.mark.parametrize("yaw", [8.0, 20.0, -25.0, 40.0, 5.0])
+def test_a_foot_about_as_wide_as_long_is_straightened_where_its_sides_tell(box: Shape, yaw: float) -> None:
+    foot = box((-60, 100), (-78, 78), (0, 25))
+    c, s = np.cos(np.radians(yaw)), np.sin(np.radians(yaw))
+    turned = foot @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
+    if yaw == 40.0:
+        with pytest.raises(FootError, match=r"askew by 40 degrees.* forward axis"):
+            straightened(turned)
+        return
+    back, notes = straightened(turned)
+    assert f"{yaw:.1f} degrees past" in notes[0]
+    assert np.allclose(back, turned if yaw == 5.0 else foot, atol=1e-6)
