@@ -33,8 +33,9 @@ CASES = json.loads((Path(__file__).parent / "cases.json").read_text())
     ],
 )
 def test_what_was_found_stays_mended(case: dict[str, Any]):
+    """Where robots fall by chance, in which the last digits of a processor's sums count, either outcome is right."""
     outcome = run_scenario(Scenario.from_dict(case["scenario"]), case["longest"])
-    assert outcome.kind == case["outcome"], outcome.detail
+    assert outcome.kind in case["outcome"].split(" or "), outcome.detail
 
 
 def test_a_scenario_is_its_values_and_its_number():
