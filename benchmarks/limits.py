@@ -1,0 +1,63 @@
+"""Where robots break, by `plantar sweep --limit`: `benchmarks/limits.py FOLDER [ROBOT-SCENE ...]`.
+
+Finds the push and the beam's width at which half of the runs are completed, on fresh seeds, to a tenth at 95 %, and
+writes limits.md beside this file. FOLDER keeps the rows: what was stopped goes on there. Runs as many processes as
+there are cores; runs and processor time are told, since a machine's other work does not change these.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import sys
+from pathlib import Path
+
+from resumable import write_table
+
+from sim.sweep import LimitSearch, plan_from_texts, run_sweep
+
+FOLDER = Path(__file__).parent
+SEARCHES = {
+    "h1-push": ("push", "h1", "impulse=10:100", "N s"),
+    "hrp2kai-push": ("push", "hrp2kai", "impulse=5:60", "N s"),
+    "h1-beam": ("beam", "h1", "width=0.02:0.2", "m"),
+    "hrp2kai-beam": ("beam", "hrp2kai", "width=0.02:0.2", "m"),
+}
+
+
+def processor_time() -> float:
+    """Processor time in s of this process and the workers that it waited for."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
+
+
+def main(folder: Path, names: list[str]) -> None:
+    """Search the limits and write the table."""
+    lines = [
+        "| scene | robot | limit | 95 % interval | width | runs | processor time of a run [s] |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    for name in names:
+        scene, robot, limit, unit = SEARCHES[name]
+        plan = plan_from_texts(scene, robot=robot, limit=limit, first_seed=1000)
+        assert isinstance(plan, LimitSearch)
+        before = processor_time()
+        found = run_sweep(plan, folder / name, workers=os.cpu_count() or 1)
+        used = processor_time() - before
+        (told,) = found["limits"]
+        print(f"{name}: {found['runs']} runs took {used:.0f} s of processor time", file=sys.stderr)
+        low, high = told["interval"] or (float("nan"), float("nan"))
+        cells = (
+            *(scene, robot),
+            f"{told['limit']:.3g} {unit}" if told["reached"] else "not known so well",
+            f"{low:.3g} to {high:.3g}",
+            f"{told['width']:.1%}" if told["width"] is not None else "-",
+            str(told["runs"]),
+            f"{used / found['runs']:.2f}" if found["runs"] else "-",
+        )
+        lines.append(f"| {' | '.join(cells)} |")
+    write_table(FOLDER / "limits.md", lines)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), sys.argv[2:] or list(SEARCHES))

@@ -1,0 +1,89 @@
+"""What two worker processes make of two cores: `benchmarks/sweep_efficiency.py [ROUNDS]`, three rounds as a rule.
+
+Runs one and the same sweep by one worker and by two, in turns, with everything from start to figures, and writes
+sweep_efficiency.md beside this file. The efficiency is the time with one over twice the time with two; it is one of the
+machine only while nothing else runs, which the share of both cores that others took tells. A last line tells a sweep's
+part that is not in its workers, and what a worker's start and a run take of a processor.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import sys
+import time
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from resumable import write_table
+
+from sim.sweep import plan_from_texts, run_sweep
+
+FOLDER = Path(__file__).parent
+SCENE, SEEDS = "flat", 24
+
+
+class Cost(NamedTuple):
+    """What a sweep took."""
+
+    wall: float  # s
+    processor: float  # s, of this process and its workers
+    here: float  # s of that, in this process
+    others: float  # share of all cores that other processes took
+
+
+def cost(workers: int, seeds: int = SEEDS) -> Cost:
+    """Run the sweep."""
+    plan = plan_from_texts(SCENE, seeds=seeds, first_seed=1000)
+    with TemporaryDirectory() as folder:
+        wall, busy, own, here = time.monotonic(), _busy(), _processor(), time.process_time()
+        run_sweep(plan, folder, workers=workers)
+        wall, busy = time.monotonic() - wall, _busy() - busy
+        own, here = _processor() - own, time.process_time() - here
+    return Cost(wall, own, here, max(0.0, busy - own) / (wall * (os.cpu_count() or 1)))
+
+
+def _processor() -> float:
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
+
+
+def _busy() -> float:
+    """Processor time in s of everything since the machine started: Linux."""
+    user, nice, system, _, _, interrupts, soft = map(int, Path("/proc/stat").read_text().split()[1:8])
+    return (user + nice + system + interrupts + soft) / os.sysconf("SC_CLK_TCK")
+
+
+def main(rounds: int) -> None:
+    """Run in turns and write the table."""
+    lines = [
+        "| round | one worker [s] | two [s] | efficiency | processor time, one [s] | two [s] | others' share |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    pairs = []
+    for number in range(rounds):
+        one, two = cost(1), cost(2)
+        pairs.append((one, two))
+        efficiency = one.wall / (2.0 * two.wall)
+        numbers = (f"{v:.1f}" for v in (one.processor, two.processor))
+        others = f"{max(one.others, two.others):.0%}"
+        lines.append(
+            f"| {number + 1} | {one.wall:.1f} | {two.wall:.1f} | {efficiency:.0%} | {' | '.join(numbers)} | {others} |"
+        )
+        print(lines[-1], file=sys.stderr, flush=True)
+    few = median(cost(1, 2).processor for _ in range(rounds))
+    many, here = (median(v) for v in zip(*((one.processor, one.here) for one, _ in pairs), strict=True))
+    a_run = (many - few) / (SEEDS - 2)
+    lines += [
+        "",
+        f"Medians: efficiency {median(one.wall / (2.0 * two.wall) for one, two in pairs):.0%}; {a_run:.2f} s of a "
+        f"processor for a run of `{SCENE}`, {many - SEEDS * a_run:.2f} s for everything else (a worker's start among "
+        f"it), {here:.2f} s of that in the sweep's own process.",
+    ]
+    write_table(FOLDER / "sweep_efficiency.md", lines)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 3)
