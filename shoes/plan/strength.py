@@ -133,7 +133,7 @@ def check_strength(foot: Foot, contact: Any, parameters: ShoeParameters) -> tupl
     pressure, lever = load.pressure, p.rim_height / 3.0
 
     def member(name: str, model: str, length: float, moment: float, at: float, limit: float, bent: float) -> Member:
-        needed = math.sqrt(6.0 * moment / limit)
+        needed = math.ceil(1e3 * math.sqrt(6.0 * moment / limit) - 1e-6) / 1e3  # never rounded below what it takes
         deflection = bent / (material.modulus * at**3 / 12.0)
         stress = 6.0 * moment / at**2
         rounded = (round(v, 3) for v in (length, at, needed, stress, limit, deflection))

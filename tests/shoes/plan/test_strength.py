@@ -63,3 +63,16 @@ def test_floor_and_wall_are_raised_until_they_hold() -> None:
     assert (kept.floor, none) == (weak.floor, ())
     assert strengthened(FOOT, contact, ShoeParameters(robot_mass=1.0))[1] == ()
     assert math.isclose(strengthened(FOOT, contact, ShoeParameters(robot_mass=1.0))[0].floor, 5.0)
+
+
+@pytest.mark.parametrize("mass", [40.0 + 2.5 * k for k in range(41)])
+def test_what_is_raised_by_the_load_case_passes_its_check(mass: float) -> None:
+    foot = foot_from_dimensions("a", length=0.24, width=0.1)
+    for reach in (8.0, 9.37, 11.003):
+        contact = foot.sole.buffer(reach, join_style="mitre")
+        raised, _ = strengthened(foot, contact, ShoeParameters(robot_mass=mass))
+        assert all(member.holds for member in check_strength(foot, contact, raised)[1])
+    members = check_strength(foot, contact, raised)[1]
+    # As thick as is needed, to the 0.001 mm that it is told in, holds as well.
+    floor = max(member.needed for member in members if member.name.startswith("plate"))
+    assert all(m.holds for m in check_strength(foot, contact, replace(raised, floor=floor))[1])
