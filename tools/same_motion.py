@@ -19,17 +19,17 @@ import numpy as np
 
 from plantar.recordings.recording import read_mcap
 
-WALKS = {
-    "flat": (),
-    "beam": (),
-    "uneven": ("steps=30",),
-    "feasibility-2": (),
-    "stones": (),
-}
-"""Scenes with their settings: level and partial ground, plain and replanned steps, steps that are refused."""
-
-SHORT = {"flat": "steps=4", "beam": "steps=8", "uneven": "steps=6", "feasibility-2": "steps=6", "stones": "steps=6"}
-"""What a short check walks of them."""
+WALKS = (
+    ("flat", (), "steps=4"),
+    ("beam", (), "steps=8"),
+    ("beam", ("footholds=force",), "steps=8"),
+    ("uneven", ("steps=30",), "steps=6"),
+    ("feasibility-2", (), "steps=6"),
+    ("stones", (), "steps=6"),
+    ("push", (), "steps=6"),
+)
+"""Scenes, their settings, and what a short check walks of them: level and partial ground, with and without proximity,
+plain and replanned steps, steps that are refused, and a push."""
 
 ROBOTS = ("h1", "hrp2kai")
 
@@ -98,7 +98,7 @@ def main() -> int:
     parser.add_argument("--short", action="store_true", help="only the first steps of each walk")
     parser.add_argument("--workers", type=int, default=2, help="processes (2)")
     options = parser.parse_args()
-    walks = [(s, r, (SHORT[s],) if options.short else WALKS[s]) for s in WALKS for r in ROBOTS]
+    walks = [(s, r, (*x, short) if options.short else x) for s, x, short in WALKS for r in ROBOTS]
     with ProcessPoolExecutor(options.workers) as pool:
         found = {" ".join([s, r, *x]): d for (s, r, x), d in zip(walks, pool.map(digests, walks), strict=True)}
     if options.task == "record":
