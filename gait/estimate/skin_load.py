@@ -32,7 +32,7 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
     Returns:
         The same reading where no taxel is saturated.
     """
-    if not np.count_nonzero(reading.force >= layout.force_limit):
+    if not layout.kernel.reaches(reading.force, layout.force_limit):
         return reading
     return replace(reading, force=np.minimum(reading.force, np.nextafter(layout.force_limit, 0.0)))
 

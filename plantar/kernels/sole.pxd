@@ -73,6 +73,11 @@ cdef class SoleKernel:
     @cython.locals(scratch=SoleScratch)
     cpdef loads(self, const double[:] force, const unsigned char[:] active)
 
+    cpdef loads_above(self, const double[:] force, double threshold, double saturation)
+
+    @cython.locals(i=Py_ssize_t, largest=double)
+    cpdef bint reaches(self, const double[:] force, double level) except *
+
     @cython.locals(
         columns="const double[:, ::1]", fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
         sx=double, sy=double, i=Py_ssize_t, f=double

@@ -227,6 +227,39 @@ class SoleKernel:
         self.give_back(scratch)
         return sums
 
+    def loads_above(self, force, threshold, saturation):
+        """`loads` of the taxels that `active` gives, without a mask for anybody else.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            (9,), as `loads`.
+        """
+        self._check(force)
+        self._activate(force, threshold, saturation, self.mask)
+        self._loads(force, self.mask, self.sums)
+        return self.sums_room.copy()
+
+    def reaches(self, force, level):
+        """Whether some taxel's force is as large as a level.
+
+        Args:
+            force: Normal forces (n,) in N.
+            level: The level in N.
+
+        Returns:
+            True where one is; NaN is not.
+        """
+        self._check(force)
+        largest = -_INFINITE
+        for i in range(self.taxels):
+            if force[i] > largest:
+                largest = force[i]
+        return bool(self.taxels and largest >= level)
+
     def _loads(self, force, active, out):
         """`loads` into an array."""
         columns = self.columns

@@ -103,14 +103,16 @@ class Percept(ShapeMembers, VirtualMembers):
     @lazy
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
-        plain = (
-            self._stuck is None and not self.options.fill
-        )  # what the comparison leaves out without a look at each fault
-        force = self.reading.force if plain else self.sound_force
+        force = self.reading.force if self._plain else self.sound_force
         if self._given_active is None:
             mask: NDArray[np.bool_] = self.layout.kernel.active(force, self.force_threshold, self.layout.force_limit)
             return mask
         return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
+
+    @property
+    def _plain(self) -> bool:
+        """Whether a comparison leaves out what is faulty without a look at each fault."""
+        return self._stuck is None and not self.options.fill
 
     @lazy
     def active_force(self) -> NDArray[np.float64]:
@@ -121,8 +123,12 @@ class Percept(ShapeMembers, VirtualMembers):
         """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
         loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
         if loads is None:
-            force = self.sound_force if self.options.fill else self.reading.force
-            loads = self.__dict__["_loads_summed"] = read_only(self.layout.kernel.loads(force, self.active))
+            force, kernel = self.sound_force if self.options.fill else self.reading.force, self.layout.kernel
+            if self._given_active is None and self._plain and "active" not in self.__dict__:
+                loads = kernel.loads_above(force, self.force_threshold, self.layout.force_limit)
+            else:
+                loads = kernel.loads(force, self.active)
+            self.__dict__["_loads_summed"] = read_only(loads)
         return loads
 
     @lazy

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,29 @@ class Reading:
             kept["temperature"] = _field("temperature", self.temperature, force.shape)
         if self.acceleration is not None:
             kept["acceleration"] = _field("acceleration", self.acceleration, (*force.shape, 3))
+
+    @classmethod
+    def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
+        """A reading of arrays that were made for it: neither copied nor checked, which takes a quarter of the time.
+
+        Args:
+            time: Time in s.
+            force: Forces (n,) in N of float64 that nobody else holds, as the attribute; closed to writing.
+            proximity: Distances (n,) in m likewise, or None.
+
+        Returns:
+            The reading, without temperature and acceleration.
+
+        Example:
+            >>> Reading.taken_over(0.0, np.array([1.0, 2.0])).force.flags.writeable
+            False
+        """
+        reading = object.__new__(cls)
+        force.setflags(False)  # type: ignore[call-arg]  # by name it takes twice as long
+        if proximity is not None:
+            proximity.setflags(False)  # type: ignore[call-arg]
+        reading.__dict__.update(time=time, force=force, proximity=proximity, temperature=None, acceleration=None)
+        return reading
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Copies and pickles are made anew: numpy forgets what is read-only.

@@ -243,7 +243,7 @@ class SkinSensor:
             force = self._forces(data, contacts)
             if self._errors is not None:
                 self._errors.silence(now, force, distance)
-            self._queue.append(Reading(time=now, force=force, proximity=distance))
+            self._queue.append(Reading.taken_over(now, force, distance))
         return self._queue[0]
 
     def _forces(self, data: Any, contacts: FootContacts | None) -> NDArray[np.float64]:
