@@ -26,27 +26,29 @@ class NewtonStep:
         half: Half of that range (k,); inf where there is none.
         diagonal: What is added to the diagonal.
         least_pivot: Pivot of the Cholesky factor down to which a step stays.
+        given: Jacobian (m, nv) in m and rad, error (m,) in m and rad, and configuration (nq,): the arrays in which the
+            caller writes them for each step.
         jacobian: Receives the Jacobian (m, n) of each step, in units.
         step: Receives the step (n,) in units.
+        velocity: Receives the step (nv,) in m and rad.
     """
 
     def __init__(
-        self, columns, row_units, column_units, movable, places, middle, half, diagonal, least_pivot, jacobian, step
-    ):
+        self, columns, row_units, column_units, movable, places, middle, half, diagonal, least_pivot, given, jacobian,
+        step, velocity,
+    ):  # fmt: skip
         self.columns, self.row_units, self.column_units = columns, row_units, column_units
         self.movable, self.places, self.middle, self.half = movable, places, middle, half
         self.diagonal, self.least_pivot = diagonal, least_pivot
-        self.jacobian, self.step = jacobian, step
+        self.given, self.error, self.configuration = given
+        self.jacobian, self.step, self.velocity = jacobian, step, velocity
         self.normal = np.zeros((len(columns), len(columns)))
         self.column = np.zeros(len(columns))
 
-    def solve(self, jacobian, error, configuration, largest):
-        """Find the step.
+    def solve(self, largest):
+        """Find the step; afterwards the error is in units.
 
         Args:
-            jacobian: Jacobian (m, nv) in m and rad.
-            error: Error (m,) in m and rad; afterwards in units.
-            configuration: Configuration (nq,).
             largest: Largest entry of a step in units.
 
         Returns:
@@ -54,6 +56,7 @@ class NewtonStep:
             holds what is no number may not.
         """
         normal, step, used, columns = self.normal, self.step, self.jacobian, self.columns
+        jacobian, error = self.given, self.error
         m, n = self.row_units.shape[0], self.columns.shape[0]
         for i in range(n):
             step[i] = 0.0
@@ -69,7 +72,7 @@ class NewtonStep:
                     step[i] += share * error[r]
                     for j in range(i + 1):
                         normal[i, j] += share * used[r, j]
-        return self._factor(n) and self._stays(n, configuration, largest)
+        return self._factor(n) and self._stays(n, largest)
 
     def _factor(self, n):
         """Cholesky factor of the equations, and their solution; whether all pivots are large enough."""
@@ -95,8 +98,9 @@ class NewtonStep:
                 step[i] -= normal[k, i] * step[k]
         return True
 
-    def _stays(self, n, configuration, largest):
+    def _stays(self, n, largest):
         """Whether no entry is too large, and no joint leaves its limits."""
+        configuration = self.configuration
         for i in range(n):
             if not math.fabs(self.step[i]) <= largest:
                 return False
@@ -106,9 +110,9 @@ class NewtonStep:
                 return False
         return True
 
-    def worst(self, error):
-        """Largest absolute value of an error (m,); not a number where one of them is not."""
-        largest = 0.0
+    def worst(self):
+        """Largest absolute value of the error; not a number where one of them is not."""
+        error, largest = self.error, 0.0
         for r in range(self.row_units.shape[0]):
             value = math.fabs(error[r])
             if not value <= largest:
@@ -117,12 +121,7 @@ class NewtonStep:
                     break
         return largest
 
-    def write(self, step, velocity):
-        """Write a step as a velocity of the model.
-
-        Args:
-            step: The step (n,) in units.
-            velocity: Receives it (nv,) in m and rad, where the step has entries.
-        """
+    def write(self):
+        """Write the step, as it was found or changed since, as a velocity of the model where it has entries."""
         for i in range(self.columns.shape[0]):
-            velocity[self.columns[i]] = step[i] * self.column_units[self.columns[i]]
+            self.velocity[self.columns[i]] = self.step[i] * self.column_units[self.columns[i]]

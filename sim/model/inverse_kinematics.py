@@ -110,7 +110,8 @@ class InverseKinematics:
             *(self._columns, np.concatenate(in_units), units, self._movable, self._places),
             np.where(free, 0.0, model.jnt_range[joints].mean(axis=1)),
             np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1)),
-            *(_ROUNDING, _SUSPECT, self._newton_jacobian, self._newton_step),
+            *(_ROUNDING, _SUSPECT, (self._jacobian, self._error, self._configuration)),
+            *(self._newton_jacobian, self._newton_step, self._velocity),
         )
         self.plain = self.careful = 0
         self._placed = False
@@ -129,7 +130,7 @@ class InverseKinematics:
         """
         for _ in range(iterations):
             self._step(largest_step)
-        worst: float = self._newton.worst(self._error)
+        worst: float = self._newton.worst()
         return worst
 
     def place(self) -> None:
@@ -149,13 +150,12 @@ class InverseKinematics:
         for task, part, rows in self._parts:
             task.error(part)
             task.jacobian(rows)
-        step = self._newton_step
-        if self._newton.solve(self._jacobian, self._error, self._configuration, largest):
+        if self._newton.solve(largest):
             self.plain += 1
         else:
-            step = self._careful(self._newton_jacobian, largest)
+            self._newton_step[:] = self._careful(self._newton_jacobian, largest)
             self.careful += 1
-        self._newton.write(step, self._velocity)
+        self._newton.write()
         mujoco.mj_integratePos(self._model, self._configuration, self._velocity, 1.0)
         self._placed = False
 

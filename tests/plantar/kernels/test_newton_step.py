@@ -29,13 +29,14 @@ def solved(module, given, half=10.0, largest=1e9, least=0.0):
     used, step, velocity = np.zeros((len(error), len(columns))), np.zeros(len(columns)), np.zeros(jacobian.shape[1])
     middle, halves = np.zeros(len(movable)), np.full(len(movable), half)
     kernel = module.NewtonStep(
-        columns, row_units, column_units, movable, columns[movable], middle, halves, ROUNDING, least, used, step
+        *(columns, row_units, column_units, movable, columns[movable], middle, halves, ROUNDING, least),
+        *((jacobian, error, configuration), used, step, velocity),
     )
     for _ in range(2):  # nothing stays of the step before
         error[:] = given[1]
-        stays = kernel.solve(jacobian, error, configuration, largest)
-    np.testing.assert_equal(kernel.worst(error), np.abs(error).max())
-    kernel.write(step, velocity)
+        stays = kernel.solve(largest)
+    np.testing.assert_equal(kernel.worst(), np.abs(error).max())
+    kernel.write()
     return stays, step, used, error, velocity
 
 
