@@ -139,7 +139,7 @@ class FloatingBaseEstimator:
         self._rotation, self._position = np.eye(3), np.zeros(3)
         self._com, self._velocity = np.zeros(3), np.zeros(3)
         self._places, self._turns = np.zeros((2, 3)), np.zeros((2, 3, 3))
-        self._zmp = np.zeros(2)
+        self._zmp, self._stood = np.zeros(2), np.zeros(3)
         # The arrays above are the state; the kernel writes them.
         self._base = FloatingBase(
             self.omega,
@@ -147,9 +147,9 @@ class FloatingBaseEstimator:
             GRAVITY,
             (gains.averaging, gains.gravity, gains.yaw, gains.observer, gains.minimum_load),
             *(self._rotation, self._position, self._com, self._velocity),
-            *(self._places, self._turns, self._zmp),
+            *(self._places, self._turns, self._zmp, self._stood),
         )
-        self._last: Posture | None = None
+        self._begun = False
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self.push_acceleration = np.zeros(2)
 
@@ -187,18 +187,18 @@ class FloatingBaseEstimator:
         # Ground never pulls; what the tare leaves below zero is noise.
         load_left = max(0.0, left.vertical_force - self._tare["left"])
         load_right = max(0.0, right.vertical_force - self._tare["right"])
-        carried = (load_left, load_right, left.position_cop_in_sole, right.position_cop_in_sole)
-        before, base = self._last, self._base
+        base = self._base
+        base.carry(load_left, load_right, left.position_cop_in_sole, right.position_cop_in_sole)
         self._take(posture)
-        if before is None:
+        if not self._begun:
+            self._begun = True
             # The robot stands still at the start, so the specific force is gravity alone.
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
         else:
-            rate, missed = self._rate(gyro, before, posture, load_left, load_right)
-            by_legs = self.gyro_bias is not None
-            base.turn(rate, accelerometer, planned_acceleration, load_left, load_right, by_legs, missed)
-            base.move(*carried)
-        zmp = self._zmp.copy() if base.place(*carried) else None
+            rate, missed = self._rate(gyro, load_left, load_right)
+            base.turn(rate, accelerometer, planned_acceleration, self.gyro_bias is not None, missed)
+            base.move()
+        zmp = self._zmp.copy() if base.place() else None
         if zmp is not None and not math.isfinite(zmp.item(0) + zmp.item(1)):
             raise InputError("the ZMP or the vertical force of a foot is not finite")
         if self.push is not None:
@@ -223,7 +223,7 @@ class FloatingBaseEstimator:
         Args:
             joint_positions: Encoder readings (k,) in rad.
         """
-        if self._last is None:
+        if not self._begun:
             return
         posture = self.kinematics.posture(joint_positions)
         self._take(posture)
@@ -231,7 +231,6 @@ class FloatingBaseEstimator:
         self._base.rest()
 
     def _take(self, posture: Posture) -> None:
-        self._last = posture
         places, turns = posture.positions, posture.rotations
         self._base.take(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
@@ -244,7 +243,7 @@ class FloatingBaseEstimator:
             self.dcm_filter.reset()
 
     def _rate(
-        self, gyro: NDArray[np.float64], before: Posture, posture: Posture, load_left: float, load_right: float
+        self, gyro: NDArray[np.float64], load_left: float, load_right: float
     ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
         """Angular velocity (3,) in rad/s by the gyro less its bias, and the angle (3,) in rad that the gyro missed.
 
@@ -257,7 +256,8 @@ class FloatingBaseEstimator:
         least = self.gains.minimum_load
         weights: dict[Side, float] = {"left": max(0.0, load_left - least), "right": max(0.0, load_right - least)}
         still = weights if self.steady is None else self.steady.update(weights)
-        bias = self.gyro_bias.update(gyro, before.rotations, posture.rotations, still)
+        stands = self._base.stand_still(still["left"], still["right"])
+        bias = self.gyro_bias.update(gyro, self._stood if stands else None, still)
         return gyro - bias, self.gyro_bias.missed
 
     def _pushed(

@@ -18,7 +18,6 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.floating_base import mean_turn
 from plantar.sides import Side
 
 __all__ = ["GyroBias"]
@@ -54,8 +53,7 @@ class GyroBias:
 
     Example:
         >>> bias = GyroBias(0.005, 20.0, 0.05, 0.005, 6e-4)
-        >>> still = {"left": np.eye(3), "right": np.eye(3)}
-        >>> bias.update(np.array([0.0, 0.0, 0.004]), still, still, {"left": 400.0, "right": 400.0}).tolist()
+        >>> bias.update(np.array([0.0, 0.0, 0.004]), np.zeros(3), {"left": 400.0, "right": 400.0}).tolist()
         [0.0, 0.0, 0.004]
     """
 
@@ -68,47 +66,46 @@ class GyroBias:
         self._most_ticks = max(1, round(piece / period))
         self._slip = slip
         self._gathered = 0.0
-        self._turn = np.zeros(3)
         self._begin()
 
     def _begin(self) -> None:
         """A piece begins."""
-        self._beyond = np.zeros(3)
+        self._beyond = (0.0, 0.0, 0.0)
         self._ticks = 0
         self._worth = 0.0
 
     def update(
         self,
         gyro: NDArray[np.float64],
-        before: Mapping[Side, NDArray[np.float64]],
-        now: Mapping[Side, NDArray[np.float64]],
+        turn: NDArray[np.float64] | None,
         weights: Mapping[Side, float],
     ) -> NDArray[np.float64]:
         """One control tick.
 
         Args:
             gyro: Angular velocity (3,) of the base in its own frame in rad/s, as measured.
-            before: Rotation (3, 3) from each sole to the base frame a tick ago.
-            now: The same rotations now.
+            turn: Angle (3,) in the base frame in rad by which feet that stand still say the base has turned in the tick
+                (`plantar.kernels.floating_base.FloatingBase.stand_still`); None where no foot stands still.
             weights: How much each foot carries, in any unit; 0 for one that does not stand still.
 
         Returns:
             The bias (3,) in rad/s; the last one while no foot stands still.
         """
         self.missed = None
-        left, right, turn = weights["left"], weights["right"], self._turn
-        still = mean_turn(before["left"], before["right"], now["left"], now["right"], left, right, turn)
-        if still:
-            self._beyond += self._period * (gyro - self.value) - turn
+        if turn is not None:
+            # Plain numbers: on three of them an array costs five times as much, and this runs at every tick.
+            (bx, by, bz), (gx, gy, gz), (vx, vy, vz) = self._beyond, gyro.tolist(), self.value.tolist()
+            (tx, ty, tz), dt = turn.tolist(), self._period
+            self._beyond = bx + (dt * (gx - vx) - tx), by + (dt * (gy - vy) - ty), bz + (dt * (gz - vz) - tz)
             self._ticks += 1
-            self._worth += 1.0 if left > 0.0 and right > 0.0 else _ONE_FOOT
-        if self._ticks and (not still or self._ticks >= self._most_ticks):
+            self._worth += 1.0 if weights["left"] > 0.0 and weights["right"] > 0.0 else _ONE_FOOT
+        if self._ticks and (turn is None or self._ticks >= self._most_ticks):
             self._conclude()
         return self.value
 
     def _conclude(self) -> None:
         """A piece has ended: take it in."""
-        beyond, duration = self._beyond, self._ticks * self._period
+        beyond, duration = np.array(self._beyond), self._ticks * self._period
         allowed = np.array([math.inf, math.inf, self._slip])  # flat soles slip about the vertical
         if self._gathered < _FIRST_PIECES * self._most_ticks:
             allowed = np.maximum(allowed, np.abs(beyond))  # what is beyond is the bias, which is not known yet

@@ -24,6 +24,10 @@ cdef class FloatingBase:
     cdef double[:, ::1] places
     cdef double[:, :, ::1] turns
     cdef double[::1] zmp
+    cdef double[::1] stood
+    cdef double[::1] loads
+    cdef unsigned char[::1] pressed
+    cdef double[:, ::1] cops
     cdef double[::1] headings
     cdef double[::1] com_in_base
     cdef double[:, :, ::1] places_in_base
@@ -49,53 +53,50 @@ cdef class FloatingBase:
 
     cpdef void rest(self) except *
 
+    cpdef void carry(
+        self, double load_left, double load_right, const double[:] cop_left, const double[:] cop_right
+    ) except *
+
+    @cython.locals(
+        side=Py_ssize_t, k=Py_ssize_t, turns="double[:, :, :, ::1]", stood="double[::1]", weight=double, total=double,
+        x=double, y=double, z=double, sx=double, sy=double, sz=double
+    )
+    cpdef bint stand_still(self, double weight_left, double weight_right) noexcept
+
     @cython.locals(
         i=Py_ssize_t, j=Py_ssize_t, rotation="double[:, ::1]", before="double[:, ::1]", specific="double[::1]",
         vector="double[::1]", rx=double, ry=double, rz=double, x=double, y=double, z=double, size=double,
         since=double, gain=double, error=double
     )
     cpdef void turn(
-        self, const double[:] rate, const double[:] accelerometer, const double[:] planned, double load_left,
-        double load_right, bint by_legs, const double[:] missed
+        self, const double[:] rate, const double[:] accelerometer, const double[:] planned, bint by_legs,
+        const double[:] missed
     ) except *
 
     @cython.locals(
         side=Py_ssize_t, k=Py_ssize_t, rotation="double[:, ::1]", headings="double[::1]",
         turns="double[:, :, :, ::1]", total=double, error=double, weight=double, x=double, y=double, yaw=double
     )
-    cdef double _heading_error(self, double load_left, double load_right) noexcept
+    cdef double _heading_error(self) noexcept
 
     @cython.locals(
         i=Py_ssize_t, side=Py_ssize_t, before="double[:, ::1]", now="double[:, ::1]", vector="double[::1]",
-        other="double[::1]", cop="const double[:]", sx=double, sy=double, sz=double, total=double, weight=double
+        other="double[::1]", cops="double[:, ::1]", sx=double, sy=double, sz=double, total=double, weight=double
     )
-    cpdef void move(
-        self, double load_left, double load_right, const double[:] cop_left, const double[:] cop_right
-    ) except *
+    cpdef void move(self) except *
 
     @cython.locals(i=Py_ssize_t, places="double[:, :, ::1]", turns="double[:, :, :, ::1]")
     cdef void _point(self, Py_ssize_t past, Py_ssize_t side, double x, double y, double[::1] out) noexcept
 
     @cython.locals(
         i=Py_ssize_t, k=Py_ssize_t, side=Py_ssize_t, rotation="double[:, ::1]", position="double[::1]",
-        places="double[:, ::1]", turns="double[:, :, ::1]", cop="const double[:]", load=double, total=double, x=double,
-        y=double
+        places="double[:, ::1]", turns="double[:, :, ::1]", loads="double[::1]", cops="double[:, ::1]", load=double,
+        total=double, x=double, y=double
     )
-    cpdef bint place(
-        self, double load_left, double load_right, const double[:] cop_left, const double[:] cop_right
-    ) except *
+    cpdef bint place(self) except *
 
     @cython.locals(
         i=Py_ssize_t, com="double[::1]", velocity="double[::1]", zmp="double[::1]", period=double, near=double,
         fast=double, acceleration=double, error=double
     )
     cpdef void observe(self, double push_x, double push_y) except *
-
-@cython.locals(
-    side=Py_ssize_t, k=Py_ssize_t, a="const double[:, :]", b="const double[:, :]", weight=double, total=double,
-    x=double, y=double, z=double, sx=double, sy=double, sz=double
-)
-cpdef bint mean_turn(
-    const double[:, :] before_left, const double[:, :] before_right, const double[:, :] now_left,
-    const double[:, :] now_right, double weight_left, double weight_right, double[::1] out
-) except *

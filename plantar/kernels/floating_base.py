@@ -12,7 +12,7 @@ import numpy as np
 
 from . import rotations
 
-__all__ = ["FloatingBase", "mean_turn"]
+__all__ = ["FloatingBase"]
 
 _NONE = float("nan")
 
@@ -36,18 +36,20 @@ class FloatingBase:
         places: Receives the origin of each sole frame (2, 3) in the world in m.
         turns: Receives the rotation (2, 3, 3) from each sole frame to the world.
         zmp: Receives the composite ZMP (2,) in m, NaN without load.
+        stood: Receives the angle (3,) in the base frame in rad by which soles that stand still say the base has turned.
     """
 
-    def __init__(self, omega, period, gravity, gains, rotation, position, com, velocity, places, turns, zmp):
+    def __init__(self, omega, period, gravity, gains, rotation, position, com, velocity, places, turns, zmp, stood):
         self.omega, self.period, self.gravity = omega, period, gravity
         self.averaging, self.tilt_rate, self.yaw_rate, self.bandwidth, self.minimum_load = gains
         self.rotation, self.position, self.com, self.velocity = rotation, position, com, velocity
-        self.places, self.turns, self.zmp = places, turns, zmp
+        self.places, self.turns, self.zmp, self.stood = places, turns, zmp, stood
         self.samples = 0
         self.astray = 0.0
         self.headings = np.full(2, _NONE)
         self.com_in_base = np.zeros(3)
         self.places_in_base, self.turns_in_base = np.zeros((2, 2, 3)), np.zeros((2, 2, 3, 3))  # now, a tick ago
+        self.loads, self.pressed, self.cops = np.zeros(2), np.zeros(2, dtype=np.uint8), np.zeros((2, 2))
         self.before, self.matrix, self.work = np.eye(3), np.zeros((3, 3)), np.zeros((3, 3))
         self.vector, self.other = np.zeros(3), np.zeros(3)
 
@@ -95,15 +97,60 @@ class FloatingBase:
         self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
         self.astray = 0.0
 
-    def turn(self, rate, accelerometer, planned, load_left, load_right, by_legs, missed):
+    def carry(self, load_left, load_right, cop_left, cop_right):
+        """Take in what the feet carry at this tick, which all that follows goes by.
+
+        Args:
+            load_left: Vertical force on the left foot in N.
+            load_right: The same on the right one.
+            cop_left: Centre of pressure (2,) in the left sole frame in m; None without load.
+            cop_right: The same of the right one.
+        """
+        self.loads[0], self.loads[1] = load_left, load_right
+        self.pressed[0], self.pressed[1] = cop_left is not None, cop_right is not None
+        if cop_left is not None:
+            self.cops[0, 0], self.cops[0, 1] = cop_left[0], cop_left[1]
+        if cop_right is not None:
+            self.cops[1, 0], self.cops[1, 1] = cop_right[0], cop_right[1]
+
+    def stand_still(self, weight_left, weight_right):
+        """How soles that stand still say the base has turned in this tick: sin a of R_s(k-1) R_s(k)^T, weighted.
+
+        Args:
+            weight_left: Weight of the left foot; 0 or less for one that does not stand still.
+            weight_right: The same of the right one.
+
+        Returns:
+            Whether one does; the angle is zero where none does.
+        """
+        turns, stood = self.turns_in_base, self.stood
+        total = sx = sy = sz = 0.0
+        for side in range(2):
+            weight = weight_left if side == 0 else weight_right
+            if not weight > 0.0:
+                continue
+            x = y = z = 0.0
+            for k in range(3):
+                x += turns[1, side, 2, k] * turns[0, side, 1, k] - turns[1, side, 1, k] * turns[0, side, 2, k]
+                y += turns[1, side, 0, k] * turns[0, side, 2, k] - turns[1, side, 2, k] * turns[0, side, 0, k]
+                z += turns[1, side, 1, k] * turns[0, side, 0, k] - turns[1, side, 0, k] * turns[0, side, 1, k]
+            sx += weight * x
+            sy += weight * y
+            sz += weight * z
+            total += weight
+        if not total > 0.0:
+            stood[0] = stood[1] = stood[2] = 0.0
+            return False
+        stood[0], stood[1], stood[2] = 0.5 * sx / total, 0.5 * sy / total, 0.5 * sz / total
+        return True
+
+    def turn(self, rate, accelerometer, planned, by_legs, missed):
         """Turn the base by one tick.
 
         Args:
             rate: Angular velocity (3,) in the base frame in rad/s, less the gyro's bias.
             accelerometer: Specific force (3,) in the base frame in m/s^2.
             planned: Horizontal acceleration (2,) of the CoM in m/s^2 that the plan asks for; None for none.
-            load_left: Vertical force on the left foot in N.
-            load_right: The same on the right one.
             by_legs: Whether the heading goes by `missed`, as where the gyro's bias is identified; else by the feet.
             missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro said; None for none.
         """
@@ -135,7 +182,7 @@ class FloatingBase:
             error = self.astray
             self.astray -= self.period * self.yaw_rate * error
         else:
-            error = self._heading_error(load_left, load_right)
+            error = self._heading_error()
         rx -= self.yaw_rate * error * rotation[2, 0]
         ry -= self.yaw_rate * error * rotation[2, 1]
         rz -= self.yaw_rate * error * rotation[2, 2]
@@ -147,12 +194,12 @@ class FloatingBase:
         # Rounding would make the product of thousands of rotations shrink or shear.
         rotations.orthonormalise(self.matrix, self.work, rotation)
 
-    def _heading_error(self, load_left, load_right):
+    def _heading_error(self):
         """How far in rad the heading is ahead of that which each foot had when it came to carry."""
         rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
         total = error = 0.0
         for side in range(2):
-            weight = (load_left if side == 0 else load_right) - self.minimum_load
+            weight = self.loads[side] - self.minimum_load
             if not weight > 0.0:
                 headings[side] = _NONE
                 continue
@@ -170,30 +217,22 @@ class FloatingBase:
             total += weight
         return error / total if total > 0.0 else 0.0
 
-    def move(self, load_left, load_right, cop_left, cop_right):
-        """Move the base by one tick, as the feet that carry say.
-
-        Args:
-            load_left: Vertical force on the left foot in N.
-            load_right: The same on the right one.
-            cop_left: Centre of pressure (2,) in the left sole frame in m; None without load.
-            cop_right: The same of the right one.
-        """
+    def move(self):
+        """Move the base by one tick, as the feet that carry say."""
         sx = sy = sz = total = 0.0
-        before, now, vector, other = self.before, self.rotation, self.vector, self.other
+        before, now, vector, other, cops = self.before, self.rotation, self.vector, self.other, self.cops
         for side in range(2):
-            cop = cop_left if side == 0 else cop_right
-            weight = (load_left if side == 0 else load_right) - self.minimum_load
-            if cop is None or not weight > 0.0:
+            weight = self.loads[side] - self.minimum_load
+            if not (self.pressed[side] and weight > 0.0):
                 continue
             # The point of the sole that carries does not move while it rolls over the ground: its apparent move is the
             # base's.
-            self._point(1, side, cop[0], cop[1], other)
+            self._point(1, side, cops[side, 0], cops[side, 1], other)
             rotations.turn(before, other, vector)
             sx += weight * vector[0]
             sy += weight * vector[1]
             sz += weight * vector[2]
-            self._point(0, side, cop[0], cop[1], other)
+            self._point(0, side, cops[side, 0], cops[side, 1], other)
             rotations.turn(now, other, vector)
             sx -= weight * vector[0]
             sy -= weight * vector[1]
@@ -214,8 +253,13 @@ class FloatingBase:
         for i in range(3):
             out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
 
-    def place(self, load_left, load_right, cop_left, cop_right):
-        """Where the soles are in the world, and the ZMP of what they carry; arguments as of `move`."""
+    def place(self):
+        """Where the soles are in the world, and the ZMP of what they carry.
+
+        Returns:
+            Whether they carry something.
+        """
+        loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
         total = x = y = 0.0
         for side in range(2):
@@ -224,12 +268,11 @@ class FloatingBase:
                 for k in range(3):
                     places[side, i] += rotation[i, k] * self.places_in_base[0, side, k]
             rotations.multiply(rotation, self.turns_in_base[0, side], turns[side])
-            cop = cop_left if side == 0 else cop_right
-            load = load_left if side == 0 else load_right
-            if cop is not None and load > 0.0:
+            load = loads[side]
+            if self.pressed[side] and load > 0.0:
                 total += load
-                x += load * (places[side, 0] + turns[side, 0, 0] * cop[0] + turns[side, 0, 1] * cop[1])
-                y += load * (places[side, 1] + turns[side, 1, 0] * cop[0] + turns[side, 1, 1] * cop[1])
+                x += load * (places[side, 0] + turns[side, 0, 0] * cops[side, 0] + turns[side, 0, 1] * cops[side, 1])
+                y += load * (places[side, 1] + turns[side, 1, 0] * cops[side, 0] + turns[side, 1, 1] * cops[side, 1])
         self.zmp[0], self.zmp[1] = (x / total, y / total) if total > 0.0 else (_NONE, _NONE)
         return total > 0.0
 
@@ -252,41 +295,3 @@ class FloatingBase:
             error = self.position[i] + self.vector[i] - com[i]
             com[i] += near * error
             velocity[i] += fast * error
-
-
-def mean_turn(before_left, before_right, now_left, now_right, weight_left, weight_right, out):
-    """How soles that stand still say the base has turned in a tick, by sin a of R_s(k-1) R_s(k)^T, weighted.
-
-    Args:
-        before_left: Rotation (3, 3) from the left sole frame to the base frame a tick ago.
-        before_right: The same of the right one.
-        now_left: Rotation (3, 3) from the left sole frame to the base frame now.
-        now_right: The same of the right one.
-        weight_left: Weight of the left foot; 0 or less for one that does not stand still.
-        weight_right: The same of the right one.
-        out: Receives the angle (3,) in the base frame in rad; zero where no foot stands still.
-
-    Returns:
-        Whether one does.
-    """
-    total = sx = sy = sz = 0.0
-    for side in range(2):
-        weight = weight_left if side == 0 else weight_right
-        if not weight > 0.0:
-            continue
-        a = before_left if side == 0 else before_right
-        b = now_left if side == 0 else now_right
-        x = y = z = 0.0
-        for k in range(3):
-            x += a[2, k] * b[1, k] - a[1, k] * b[2, k]
-            y += a[0, k] * b[2, k] - a[2, k] * b[0, k]
-            z += a[1, k] * b[0, k] - a[0, k] * b[1, k]
-        sx += weight * x
-        sy += weight * y
-        sz += weight * z
-        total += weight
-    if not total > 0.0:
-        out[0] = out[1] = out[2] = 0.0
-        return False
-    out[0], out[1], out[2] = 0.5 * sx / total, 0.5 * sy / total, 0.5 * sz / total
-    return True

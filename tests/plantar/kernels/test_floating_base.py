@@ -24,7 +24,7 @@ EXACT = {"rtol": 1e-13, "atol": 1e-13}
 
 def base_of(module):
     """A base with its state."""
-    shapes = ((3, 3), (3,), (3,), (3,), (2, 3), (2, 3, 3), (2,))
+    shapes = ((3, 3), (3,), (3,), (3,), (2, 3), (2, 3, 3), (2,), (3,))
     state = [np.zeros(shape) for shape in shapes]
     return module.FloatingBase(OMEGA, PERIOD, GRAVITY, GAINS, *state), state
 
@@ -86,10 +86,11 @@ class Reference:
 @pytest.mark.parametrize("by_legs", [False, True])
 @pytest.mark.parametrize("seed", range(4))
 def test_a_tick_is_that_of_the_equations(seed, by_legs):
-    base, (rotation, position, com, velocity, places, turns, zmp) = base_of(floating_base)
+    base, (rotation, position, com, velocity, places, turns, zmp, _) = base_of(floating_base)
     reference, past = Reference(), None
     for posture, rate, specific, planned, loads, cops, missed, push in ticks(seed):
         old, at, center, speed = rotation.copy(), position.copy(), com.copy(), velocity.copy()
+        base.carry(*loads, *cops)
         base.take(*posture)
         if past is None:
             old, at = Rotation.from_rotvec([0.1, 0.2, 0.3]).as_matrix(), np.array([0.1, 0.2, 0.8])
@@ -97,11 +98,11 @@ def test_a_tick_is_that_of_the_equations(seed, by_legs):
             np.testing.assert_allclose(com, at + old @ posture[0], **EXACT)
             reference.headings, past = [0.5, 0.6], posture
             continue
-        base.turn(rate, specific, planned, *loads, by_legs, missed)
+        base.turn(rate, specific, planned, by_legs, missed)
         np.testing.assert_allclose(
             rotation, reference.turned(old, posture, rate, specific, planned, loads, by_legs, missed), **EXACT
         )
-        base.move(*loads, *cops)
+        base.move()
         points = [(k, loads[k] - LEAST, c) for k, c in enumerate(cops) if c is not None and loads[k] > LEAST]
         moves = [
             old @ (past[1 + k] + past[3 + k][:, :2] @ c) - rotation @ (posture[1 + k] + posture[3 + k][:, :2] @ c)
@@ -109,7 +110,7 @@ def test_a_tick_is_that_of_the_equations(seed, by_legs):
         ]
         step = np.average(moves, axis=0, weights=[w for _, w, _ in points]) if points else PERIOD * speed
         np.testing.assert_allclose(position, at + step, **EXACT)
-        carries = base.place(*loads, *cops)
+        carries = base.place()
         for k in range(2):
             np.testing.assert_allclose(places[k], position + rotation @ posture[1 + k], **EXACT)
             np.testing.assert_allclose(turns[k], rotation @ posture[3 + k], **EXACT)
@@ -135,13 +136,15 @@ def test_both_forms_agree_to_the_last_bit(by_legs):
         base, state = base_of(module)
         first = True
         for posture, rate, specific, planned, loads, cops, missed, push in ticks(9, 30):
+            base.carry(*loads, *cops)
             base.take(*posture)
             if first:
                 base.stand(np.eye(3), np.zeros(3), 0.0, 0.0)
             else:
-                base.turn(rate, specific, planned, *loads, by_legs, missed)
-                base.move(*loads, *cops)
-            base.place(*loads, *cops)
+                base.stand_still(*loads)
+                base.turn(rate, specific, planned, by_legs, missed)
+                base.move()
+            base.place()
             base.observe(*push)
             first = False
         found.append(np.concatenate([x.ravel() for x in state]))
@@ -151,10 +154,14 @@ def test_both_forms_agree_to_the_last_bit(by_legs):
 @pytest.mark.parametrize("weights", [(300.0, 100.0), (0.0, 50.0), (50.0, -1.0), (0.0, 0.0), (math.nan, 10.0)])
 def test_the_mean_turn_of_soles_is_their_sine(weights):
     a, b, c, d = Rotation.from_rotvec(np.random.default_rng(0).normal(size=(4, 3))).as_matrix()
-    found, form = np.empty(3), np.empty(3)
-    stands = floating_base.mean_turn(a, b, c, d, *weights, found)
-    assert SOURCES["floating_base"].mean_turn(a, b, c, d, *weights, form) == stands == any(w > 0.0 for w in weights)
-    assert np.array_equal(found, form)
+    told = []
+    for module in (floating_base, SOURCES["floating_base"]):
+        base, (*_, found) = base_of(module)
+        base.take(*np.zeros((3, 3)), a, b)
+        base.take(*np.zeros((3, 3)), c, d)
+        assert base.stand_still(*weights) == any(w > 0.0 for w in weights)
+        told.append(found)
+    assert np.array_equal(*told)
     each = [w * sine_vector(x @ y.T) for w, x, y in zip(weights, (a, b), (c, d), strict=True) if w > 0.0]
     total = sum(w for w in weights if w > 0.0)
     np.testing.assert_allclose(found, np.sum(each, axis=0) / total if each else np.zeros(3), **EXACT)
