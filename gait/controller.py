@@ -103,6 +103,7 @@ class _Sensed(NamedTuple):
     """One reading, which all parts of a tick share."""
 
     time: float
+    phase: Phase
     percepts: Mapping[Side, Percept]
     ankles: Mapping[Side, SoleWrench]
     soles: Mapping[Side, SoleLoad]
@@ -313,8 +314,9 @@ class WalkingController:
         if change is not None:
             applied = self.plan.apply(change, time, region)
             feet = self._take_over(applied)
-        phase, reference = self.schedule.at(time), self.plan.at(time)
+        phase, reference = tick.phase, self.plan.at(time)
         if applied is not None:
+            phase = self.schedule.at(time)
             region = self._zmp_region(phase, feet)
         law = self.balance if feedback else self._open_loop
         balanced = law.update(reference, xi, state.zmp, region if feedback else _ANYWHERE)
@@ -363,14 +365,14 @@ class WalkingController:
             if side in sensors.ankles
         }
         soles: Mapping[Side, SoleLoad] = ankles if s.zmp_source == "force_torque" else percepts
-        return _Sensed(sensors.time, percepts, ankles, soles)
+        return _Sensed(sensors.time, self.schedule.at(sensors.time), percepts, ankles, soles)
 
     def _soles(self) -> list[tuple[Side, SoleLayout]]:
         return [(side, self.layouts[side]) for side in SIDES]
 
     def _estimate(self, sensors: Sensors, sensed: _Sensed) -> BaseState:
         """The floating base; a foot that is high in the air by plan finds its zero."""
-        s, phase = self.settings, self.schedule.at(sensors.time)
+        s, phase = self.settings, sensed.phase
         # Of its usual length: a single support that is made longer holds a foot that has landed.
         share = (sensors.time - phase.start) / s.timing.single_support if phase.swing is not None else 0.0
         state = self.estimator.update(
@@ -401,7 +403,7 @@ class WalkingController:
     def _swing(self, sensed: _Sensed, state: BaseState) -> tuple[FeetView, float]:
         """Advance the swing foot; where the feet are then, and by how much in m one that has just landed shall carry
         further inside."""
-        phase, percepts = self.schedule.at(sensed.time), sensed.percepts
+        phase, percepts = sensed.phase, sensed.percepts
         senses = None
         if self.settings.compliance is not None:
             senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
@@ -450,7 +452,7 @@ class WalkingController:
 
     def _perceive(self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, feedback: bool) -> Tick:
         """What the feet stand on, and all else that who proposes gets to know."""
-        time, percepts, phase = sensed.time, sensed.percepts, self.schedule.at(sensed.time)
+        time, phase, percepts = sensed.time, sensed.phase, sensed.percepts
         looks = feedback and self.settings.footholds != "off"
         self._damp(phase, sensed, state, feet, looks)
         return Tick(
@@ -640,7 +642,7 @@ class WalkingController:
             (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET * self.settings.body.sole).tolist()
             rectangle = self._rectangle_of[side] = (polygon, Rectangle(x0, x1, y0, y1))
         position, yaw = self.motion.footholds[side]
-        x, y, z = self._frame.offset.tolist()
+        x, y, z = self._frame.offset
         fine = 6000.0 / self.settings.body.leg
         place = (rectangle[1], yaw, round(x * fine), round(y * fine), round(z * fine), round(self._frame.turn, 4))
         known = self._contact_of.get(side)

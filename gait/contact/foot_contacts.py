@@ -6,7 +6,7 @@ This is perception: what is to be done about a foothold that is not what was pla
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -283,7 +283,7 @@ class FootContacts:
         return center if limits is None or weak else limits.center(polygon, center)
 
     def zmp_region(
-        self, phase: Phase, feet: FeetView, frame_offset: NDArray[np.float64], margin: float
+        self, phase: Phase, feet: FeetView, frame_offset: Sequence[float], margin: float
     ) -> NDArray[np.float64]:
         """Where the desired ZMP may lie: the support polygon of the feet that the plan stands on, moved inwards.
 
@@ -317,7 +317,7 @@ class FootContacts:
                     support = polygon_in_world(
                         (self._alone if alone else self._borne)[side],
                         level_rotation(yaw),
-                        np.array([position[0], position[1], 0.0]) + frame_offset,
+                        np.array([position[0], position[1], 0.0]) + np.array(frame_offset),
                     )
                 parts.append(support)
             self._region = inner_offset(feet_support_polygon(parts), margin)

@@ -25,8 +25,10 @@ class CommandFrame:
     """
 
     def __init__(self, anchor: NDArray[np.float64], period: float, time_constant: float) -> None:
-        self.anchor = anchor
-        self.offset = np.zeros(3)
+        # Plain numbers: on three of them an array costs five times as much, and all of this runs at every tick.
+        x, y, z = anchor.tolist()
+        self._anchor: tuple[float, float, float] = (x, y, z)
+        self._offset = (0.0, 0.0, 0.0)
         self.turn = 0.0
         self._share = min(1.0, period / time_constant)
 
@@ -38,15 +40,22 @@ class CommandFrame:
             real: Where it stands in the world (3,) in m, as estimated.
             turn: Its heading in the world less the commanded one in rad.
         """
+        (ax, ay, az), (ox, oy, oz), share = self._anchor, self._offset, self._share
+        (cx, cy, cz), (rx, ry, rz) = commanded.tolist(), real.tolist()
         # The anchor moves as slowly as the rest: a jump from foot to foot would turn the CoM about another point.
-        self.anchor = self.anchor + self._share * (commanded - self.anchor)
-        self.offset = self.offset + self._share * (real - commanded - self.offset)
-        self.turn += self._share * (turn - self.turn)
+        self._anchor = ax + share * (cx - ax), ay + share * (cy - ay), az + share * (cz - az)
+        self._offset = ox + share * (rx - cx - ox), oy + share * (ry - cy - oy), oz + share * (rz - cz - oz)
+        self.turn += share * (turn - self.turn)
+
+    @property
+    def offset(self) -> tuple[float, float, float]:
+        """How far in m the frame's points are from the same ones of the world, at its anchor."""
+        return self._offset
 
     def now(self) -> CommandFrame:
         """The frame as it is now: `update` of this one leaves it alone."""
         frame = object.__new__(CommandFrame)
-        frame.__dict__.update(self.__dict__)  # whose arrays are replaced, never written to
+        frame.__dict__.update(self.__dict__)
         return frame
 
     def to_command(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -62,7 +71,7 @@ class CommandFrame:
             >>> CommandFrame(np.zeros(3), 0.005, 0.3).to_command(np.array([1.0, 2.0])).tolist()
             [1.0, 2.0]
         """
-        (px, py), (x, y, _), (ox, oy, _) = point.tolist(), self.anchor.tolist(), self.offset.tolist()
+        (px, py), (x, y, _), (ox, oy, _) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x - ox, py - y - oy
         # Heights are not turned: the frame turns about the vertical axis alone.
         c, s = math.cos(self.turn), math.sin(self.turn)
@@ -77,7 +86,7 @@ class CommandFrame:
         Returns:
             The same point (3,) in the world in m.
         """
-        (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self.anchor.tolist(), self.offset.tolist()
+        (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x, py - y
         c, s = math.cos(self.turn), math.sin(self.turn)
         return np.array([x + ox + (c * dx - s * dy), y + oy + (s * dx + c * dy), z + oz + (pz - z)])

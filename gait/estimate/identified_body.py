@@ -61,7 +61,7 @@ class IdentifiedBody:
         self._feet = feet
         self._rules = rules
         self._stand = OpeningStand()
-        self._share = 0.0
+        self._share = self._tenths = 0.0
         self._step = period / rules.fade
 
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
@@ -106,6 +106,9 @@ class IdentifiedBody:
             size = float(np.linalg.norm(beside))
             if size > rules.com_least:
                 self.com_offset = _limited(beside, size, rules.com_largest)
+        lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
+        more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
+        self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
 
     def advance(self) -> None:
         """A tick after the stand: what is commanded follows what is known."""
@@ -128,9 +131,7 @@ class IdentifiedBody:
         The torque at the hip that carries goes with the weight and with the distance to the CoM from it, half the
         distance of the feet in the model. Motors have a tenth to spare, h1's at the hip's roll a sixth.
         """
-        lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
-        more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
-        return self._faded * self._rules.lean * min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)
+        return self._faded * self._rules.lean * self._tenths
 
     @property
     def _faded(self) -> float:

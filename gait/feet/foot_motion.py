@@ -398,7 +398,7 @@ class FootMotion:
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))
-                self.surprise = max(self.surprise, self._touch[1] - float(frame.offset[2]) - self._expected)
+                self.surprise = max(self.surprise, self._touch[1] - frame.offset[2] - self._expected)
                 compliance.ground.touched()
                 self._distance = compliance.ground.distance
                 self._distance.flags.writeable = False

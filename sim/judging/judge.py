@@ -192,7 +192,7 @@ class Judge:
             if not abs(told - true) <= self.estimate_error_max[i]:
                 self.estimate_error_max[i] = abs(told - true)
         if zmp is not None and true_zmp is not None:
-            self.zmp_error.append(math.dist(zmp, true_zmp))
+            self.zmp_error.append(math.dist(zmp.tolist(), true_zmp.tolist()))
         now = float(data.time)
         for side, own in zip(SIDES, points, strict=True):
             last = self._landing[side]

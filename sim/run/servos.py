@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from gait.controller import Command
 from plantar.kernels.setpoints import Setpoints
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 from sim.model.leg_model import LegModel
 from sim.model.world import World
 from sim.plant.draw import TruePlant
@@ -57,6 +57,9 @@ class LegServos:
             world.period,
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
+        self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
+        self._reference = np.asarray(self._setpoints.reference)
+        self._points: dict[Side, NDArray[np.float64]] = {side: np.zeros(3) for side in SIDES}
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -71,30 +74,30 @@ class LegServos:
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
-        feet = command.feet
+        left, right, points = command.feet["left"], command.feet["right"], self._points
         joints, missed = self._legs.solve(
             command.com,
             command.rotation_torso,
-            {side: feet[side].position for side in SIDES},
-            {side: feet[side].rotation for side in SIDES},
-            yielding=[side for side in SIDES if feet[side].force[2] <= 0.0],
+            {"left": left.position, "right": right.position},
+            {"left": left.rotation, "right": right.rotation},
+            yielding=[side for side in SIDES if command.feet[side].force.item(2) <= 0.0],
             largest_step=_LARGEST_STEP,
         )
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
-        torques = self._legs.static_torques(
-            {side: feet[side].force for side in SIDES},
-            {side: np.array([*feet[side].center_of_pressure.tolist(), feet[side].position[2]]) for side in SIDES},
-        )
+        for side, foot in command.feet.items():
+            point = points[side]
+            point[:2], point[2] = foot.center_of_pressure, foot.position[2]
+        torques = self._legs.static_torques({"left": left.force, "right": right.force}, points)
         setpoints = self._setpoints
         setpoints.go_to(joints)
         if self._rubs:
             # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
-            torques = torques + self._friction * np.tanh(np.asarray(setpoints.velocity) / self._slow)
+            torques = torques + self._friction * np.tanh(self._velocity / self._slow)
         setpoints.load(torques)
         if command.joint_offsets is not None:
             setpoints.offset(command.joint_offsets)
-        return np.array(setpoints.reference)
+        return self._reference.copy()
 
     def drive(self) -> None:
         """Write the set-points of one physics step."""

@@ -18,8 +18,9 @@ MASS = 80.0
 
 
 def feet(rng: np.random.Generator, stance: Side | None = None) -> Feet:
-    frame = CommandFrame(rng.normal(size=3), 0.005, 0.3)
-    frame.offset[:], frame.turn = rng.normal(size=3), 0.3
+    anchor, offset = rng.normal(size=(2, 3))
+    frame = CommandFrame(anchor, 0.005, 0.005)
+    frame.update(anchor, anchor + offset, 0.3)
     states: dict[Side, FootState] = {}
     for side, y in (("left", 0.1), ("right", -0.1)):
         level = level_rotation(rng.normal(0.0, 0.3))
