@@ -20,6 +20,7 @@ from sim.body_skin.sensing import SkinSensor
 from sim.model.body_point import body_point
 from sim.model.world import World
 from sim.partner.settings import GuideSettings
+from sim.partner.touch import Partner
 
 __all__ = ["Grip", "Guide"]
 
@@ -44,7 +45,7 @@ class Grip(NamedTuple):
     radius: float
 
 
-class Guide:
+class Guide(Partner):
     """The hand.
 
     Args:
@@ -128,17 +129,6 @@ class Guide:
         """
         world.data.qpos[self._places] = self.held(world)[0]
         world.data.qvel[self._axes] = 0.0
-
-    def near(self, time: float) -> bool:
-        """It always is.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            True.
-        """
-        return True
 
     def position(self, world: World) -> NDArray[np.float64]:
         """Where the middle between its fingers is (3,) in the world in m."""

@@ -18,6 +18,7 @@ from sim.body_skin.sensing import SkinSensor
 from sim.model.world import World
 from sim.partner.impedance import Impedance
 from sim.partner.settings import PartnerSettings
+from sim.partner.touch import Partner
 
 __all__ = ["MobileRobot"]
 
@@ -30,7 +31,7 @@ _QUICK = 7.4  # 1/beat: how quickly the drive follows the reference, 30 rad/s fo
 _TOUCHES = 0.00237  # weight: force on the hand that counts as contact, 2 N for H1
 
 
-class MobileRobot:
+class MobileRobot(Partner):
     """The partner.
 
     Args:
@@ -114,17 +115,6 @@ class MobileRobot:
         self._start = float(world.data.xpos[base, 0]) + self._front + self.settings.apart
         world.data.qpos[self._place] = self._start
         world.data.qvel[self._axis] = 0.0
-
-    def near(self, time: float) -> bool:
-        """It always is.
-
-        Args:
-            time: Time in s.
-
-        Returns:
-            True.
-        """
-        return True
 
     def drive(self, world: World, skin: SkinSensor) -> None:
         """Measure, move the reference, and drive after it.

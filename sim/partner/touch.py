@@ -55,8 +55,9 @@ class Partner(Protocol):
             time: Time in s.
 
         Returns:
-            Whether it may.
+            Whether it may; always, for a partner that does not say otherwise.
         """
+        return True
 
     def drive(self, world: World, skin: SkinSensor) -> None:
         """Set the forces that move it for the next physics step.
