@@ -73,6 +73,7 @@ cdef class SoleKernel:
     @cython.locals(scratch=SoleScratch)
     cpdef loads(self, const double[:] force, const unsigned char[:] active)
 
+    @cython.locals(scratch=SoleScratch)
     cpdef loads_above(self, const double[:] force, double threshold, double saturation)
 
     @cython.locals(i=Py_ssize_t, largest=double)

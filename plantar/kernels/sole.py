@@ -239,9 +239,12 @@ class SoleKernel:
             (9,), as `loads`.
         """
         self._check(force)
-        self._activate(force, threshold, saturation, self.mask)
-        self._loads(force, self.mask, self.sums)
-        return self.sums_room.copy()
+        scratch = self.borrow()
+        self.activate(force, threshold, saturation, scratch.mask)
+        self._loads(force, scratch.mask, scratch.sums)
+        sums = scratch.sums_room.copy()
+        self.give_back(scratch)
+        return sums
 
     def reaches(self, force, level):
         """Whether some taxel's force is as large as a level.

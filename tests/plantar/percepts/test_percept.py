@@ -84,14 +84,16 @@ def test_nothing_is_computed_before_it_is_asked_for_and_nothing_twice(sole):
     percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
     assert not set(MEMBERS) & set(vars(percept))
     assert percept.position_cop_in_sole is percept.position_cop_in_sole
-    assert set(MEMBERS) & set(vars(percept)) == {"active", "position_cop_in_sole"}
+    assert set(MEMBERS) & set(vars(percept)) == {"position_cop_in_sole"}
 
 
 def test_a_controller_that_asks_for_the_cop_never_pays_for_the_polygon(sole, monkeypatch):
     calls = []
     kernel = sole.kernel
     counting = SimpleNamespace(
-        active=kernel.active, loads=kernel.loads, hull=lambda active: calls.append(1) or kernel.hull(active)
+        loads_above=kernel.loads_above,
+        active=kernel.active,
+        hull=lambda active: calls.append(1) or kernel.hull(active),
     )
     monkeypatch.setitem(vars(sole), "kernel", counting)
     percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
