@@ -2,33 +2,21 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from plantar.errors import InputError
 from plantar.files.structured_text import read_json, read_toml
+from shoes.dimensions import check_dimensions, choice, length, number
 from shoes.materials import MATERIALS, Material
 
 __all__ = ["RETENTIONS", "ShoeParameters", "read_parameters"]
 
 RETENTIONS: tuple[str, ...] = ("auto", "clips", "straps", "screws", "none")
 """How the shoe is held on the foot; auto takes clips where the foot has an edge to clip over, straps otherwise."""
-
-
-def _length(default: float, low: float, high: float, text: str) -> Any:
-    return _number(default, low, high, "mm", text)
-
-
-def _number(default: float, low: float, high: float, unit: str, text: str) -> Any:
-    return field(default=default, metadata={"low": low, "high": high, "unit": unit, "text": text})
-
-
-def _choice(default: str, choices: tuple[str, ...], text: str) -> Any:
-    return field(default=default, metadata={"choices": choices, "text": text})
 
 
 @dataclass(frozen=True)
@@ -43,71 +31,60 @@ class ShoeParameters:
         13.0
     """
 
-    pad_thickness: float = _length(2.0, 0.0, 10.0, "replaceable silicone pad under the taxels, its lower face the sole")
-    taxel_protrusion: float = _length(2.5, 0.0, 15.0, "how far the taxels stand out below the printed part")
-    pad_relief: float = _length(0.4, 0.0, 15.0, "gap between the pad's rim and the print; strengthen may raise it")
-    pocket_depth: float = _length(2.5, 0.4, 20.0, "pocket for the base of a taxel, from the printed lower face")
-    floor: float = _length(5.0, 1.0, 30.0, "plate between the pockets and the foot; strengthen may raise it")
-    rib: float = _length(2.4, 0.8, 8.0, "wall between two pockets, centred on the border of the cells")
-    border: float = _length(2.0, 0.5, 20.0, "sole beyond the outermost cells")
-    scribe: float = _length(0.4, 0.0, 1.5, "depth of the groove in the ribs that marks the border of the cells")
-    port_width: float = _length(
+    pad_thickness: float = length(2.0, 0.0, 10.0, "replaceable silicone pad under the taxels, its lower face the sole")
+    taxel_protrusion: float = length(2.5, 0.0, 15.0, "how far the taxels stand out below the printed part")
+    pad_relief: float = length(0.4, 0.0, 15.0, "gap between the pad's rim and the print; strengthen may raise it")
+    pocket_depth: float = length(2.5, 0.4, 20.0, "pocket for the base of a taxel, from the printed lower face")
+    floor: float = length(5.0, 1.0, 30.0, "plate between the pockets and the foot; strengthen may raise it")
+    rib: float = length(2.4, 0.8, 8.0, "wall between two pockets, centred on the border of the cells")
+    border: float = length(2.0, 0.5, 20.0, "sole beyond the outermost cells")
+    scribe: float = length(0.4, 0.0, 1.5, "depth of the groove in the ribs that marks the border of the cells")
+    port_width: float = length(
         6.0, 0.0, 20.0, "gap in a rib where the cable passes to the next taxel; 0: no ways for a cable at all"
     )
-    clearance: float = _length(0.5, 0.0, 5.0, "gap between foot and wall (printer tolerance)")
-    rim_height: float = _length(12.0, 2.0, 60.0, "wall above the face the foot stands on")
-    rim_thickness: float = _length(3.0, 0.8, 15.0, "wall around the foot; strengthen may raise it")
-    lead_in: float = _length(1.0, 0.0, 3.0, "bevel of the wall's upper inner edge")
-    fillet: float = _length(2.0, 0.0, 6.0, "radius between wall and plate and at the corners of lugs")
-    overhang_max: float = _length(10.0, 0.0, 40.0, "how far the sole may reach beyond the foot")
-    reach_max: float = _length(15.0, 0.0, 60.0, "how far lugs, clips and the board's holder may")
-    strap_width: float = _length(20.0, 6.0, 50.0, "strap; on a short foot at most a sixth of its length is used")
-    strap_thickness: float = _length(2.0, 0.5, 6.0, "strap, and the room left for it between lug and foot")
-    clip_hook: float = _length(1.5, 0.5, 4.0, "how far a clip reaches over the edge of the foot")
-    clip_width: float = _length(14.0, 6.0, 40.0, "arm of a clip")
-    clip_thickness: float = _length(2.5, 1.2, 6.0, "arm of a clip")
-    clip_height_max: float = _length(40.0, 10.0, 80.0, "highest edge of the foot that a clip reaches for")
-    screw_diameter: float = _length(4.0, 2.5, 6.0, "clamping screws through the wall, where retention is screws")
-    channel_width: float = _length(8.0, 2.0, 20.0, "cable channel from the patch to the exit at the heel")
-    board_length: float = _length(30.0, 0.0, 80.0, "connection board, upright behind the heel; 0 leaves its holder out")
-    board_thickness: float = _length(1.6, 0.8, 3.2, "connection board")
-    board_gap: float = _length(2.2, 0.5, 8.0, "room for components between wall and board")
-    mark_height: float = _length(9.0, 0.0, 30.0, "letters of the mark (side and name) in the floor; 0 leaves it out")
-    mark_depth: float = _length(0.6, 0.2, 2.0, "depth of the mark")
-    wall_min: float = _length(1.2, 0.4, 5.0, "thinnest wall the printer makes")
-    bridge_max: float = _length(30.0, 1.0, 400.0, "widest ceiling the printer bridges without support")
-    bed_length: float = _length(380.0, 50.0, 2000.0, "printer's room along its longer side")
-    bed_width: float = _length(284.0, 50.0, 2000.0, "printer's room along its shorter side")
-    bed_height: float = _length(380.0, 50.0, 2000.0, "printer's room upwards")
-    sole_band: float = _length(5.0, 0.5, 20.0, "height of the lowest part of the foot that is its sole")
-    robot_mass: float = _number(0.0, 0.0, 1000.0, "kg", "of the robot; 0 takes its file's, or estimates by the foot")
-    load_factor: float = _number(1.5, 0.5, 10.0, "-", "load case: times the robot's weight ...")
-    load_share: float = _number(1 / 3, 0.05, 1.0, "-", "... on this share of the sole")
-    friction: float = _number(0.6, 0.0, 2.0, "-", "sideways share of that load, which the wall carries")
-    safety: float = _number(2.0, 1.0, 10.0, "-", "least factor between a material's strength and the stress")
-    density: float = _number(0.0, 0.0, 10.0, "g/cm3", "of the printed material; 0 takes the material's")
-    pad_density: float = _number(1.15, 0.1, 5.0, "g/cm3", "of the pad's silicone")
-    skin_density: float = _number(1.2, 0.1, 5.0, "g/cm3", "of the taxels, mean of board and silicone")
-    pad_hardness: float = _number(40.0, 10.0, 90.0, "Shore A", "of the pad")
-    taxel_hardness: float = _number(30.0, 10.0, 90.0, "Shore A", "of the taxels' rubber")
-    flow: float = _number(8.0, 0.5, 100.0, "mm3/s", "material the printer lays down, for the estimate of time")
-    material: str = _choice("PA12", tuple(MATERIALS), "printed material")
-    retention: str = _choice("auto", RETENTIONS, "how the shoe is held on the foot")
-    strengthen: str = _choice("yes", ("yes", "no"), "raise floor, wall and pad relief to what the load case needs")
+    clearance: float = length(0.5, 0.0, 5.0, "gap between foot and wall (printer tolerance)")
+    rim_height: float = length(12.0, 2.0, 60.0, "wall above the face the foot stands on")
+    rim_thickness: float = length(3.0, 0.8, 15.0, "wall around the foot; strengthen may raise it")
+    lead_in: float = length(1.0, 0.0, 3.0, "bevel of the wall's upper inner edge")
+    fillet: float = length(2.0, 0.0, 6.0, "radius between wall and plate and at the corners of lugs")
+    overhang_max: float = length(10.0, 0.0, 40.0, "how far the sole may reach beyond the foot")
+    reach_max: float = length(15.0, 0.0, 60.0, "how far lugs, clips and the board's holder may")
+    strap_width: float = length(20.0, 6.0, 50.0, "strap; on a short foot at most a sixth of its length is used")
+    strap_thickness: float = length(2.0, 0.5, 6.0, "strap, and the room left for it between lug and foot")
+    clip_hook: float = length(1.5, 0.5, 4.0, "how far a clip reaches over the edge of the foot")
+    clip_width: float = length(14.0, 6.0, 40.0, "arm of a clip")
+    clip_thickness: float = length(2.5, 1.2, 6.0, "arm of a clip")
+    clip_height_max: float = length(40.0, 10.0, 80.0, "highest edge of the foot that a clip reaches for")
+    screw_diameter: float = length(4.0, 2.5, 6.0, "clamping screws through the wall, where retention is screws")
+    channel_width: float = length(8.0, 2.0, 20.0, "cable channel from the patch to the exit at the heel")
+    board_length: float = length(30.0, 0.0, 80.0, "connection board, upright behind the heel; 0 leaves its holder out")
+    board_thickness: float = length(1.6, 0.8, 3.2, "connection board")
+    board_gap: float = length(2.2, 0.5, 8.0, "room for components between wall and board")
+    mark_height: float = length(9.0, 0.0, 30.0, "letters of the mark (side and name) in the floor; 0 leaves it out")
+    mark_depth: float = length(0.6, 0.2, 2.0, "depth of the mark")
+    wall_min: float = length(1.2, 0.4, 5.0, "thinnest wall the printer makes")
+    bridge_max: float = length(30.0, 1.0, 400.0, "widest ceiling the printer bridges without support")
+    bed_length: float = length(380.0, 50.0, 2000.0, "printer's room along its longer side")
+    bed_width: float = length(284.0, 50.0, 2000.0, "printer's room along its shorter side")
+    bed_height: float = length(380.0, 50.0, 2000.0, "printer's room upwards")
+    sole_band: float = length(5.0, 0.5, 20.0, "height of the lowest part of the foot that is its sole")
+    robot_mass: float = number(0.0, 0.0, 1000.0, "kg", "of the robot; 0 takes its file's, or estimates by the foot")
+    load_factor: float = number(1.5, 0.5, 10.0, "-", "load case: times the robot's weight ...")
+    load_share: float = number(1 / 3, 0.05, 1.0, "-", "... on this share of the sole")
+    friction: float = number(0.6, 0.0, 2.0, "-", "sideways share of that load, which the wall carries")
+    safety: float = number(2.0, 1.0, 10.0, "-", "least factor between a material's strength and the stress")
+    density: float = number(0.0, 0.0, 10.0, "g/cm3", "of the printed material; 0 takes the material's")
+    pad_density: float = number(1.15, 0.1, 5.0, "g/cm3", "of the pad's silicone")
+    skin_density: float = number(1.2, 0.1, 5.0, "g/cm3", "of the taxels, mean of board and silicone")
+    pad_hardness: float = number(40.0, 10.0, 90.0, "Shore A", "of the pad")
+    taxel_hardness: float = number(30.0, 10.0, 90.0, "Shore A", "of the taxels' rubber")
+    flow: float = number(8.0, 0.5, 100.0, "mm3/s", "material the printer lays down, for the estimate of time")
+    material: str = choice("PA12", tuple(MATERIALS), "printed material")
+    retention: str = choice("auto", RETENTIONS, "how the shoe is held on the foot")
+    strengthen: str = choice("yes", ("yes", "no"), "raise floor, wall and pad relief to what the load case needs")
 
     def __post_init__(self) -> None:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if "choices" in f.metadata:
-                if value not in f.metadata["choices"]:
-                    allowed = ", ".join(f.metadata["choices"])
-                    raise InputError(f"shoe parameter {f.name} is {value!r}; allowed: {allowed}")
-                continue
-            low, high, unit, _ = self.range_of(f.name)
-            number = isinstance(value, (int, float)) and not isinstance(value, bool)
-            if not (number and math.isfinite(value) and low <= value <= high):
-                raise InputError(f"shoe parameter {f.name} is {value!r} {unit}; allowed: {low:g} to {high:g} {unit}")
-            object.__setattr__(self, f.name, float(value))
+        check_dimensions(self, "shoe parameter")
         for name in ("floor", "rib", "rim_thickness", "clip_thickness"):
             if getattr(self, name) < self.wall_min:
                 raise InputError(
