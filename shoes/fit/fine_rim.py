@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import FootError
-from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.cell_pattern import Lattice, hex_pattern
 from shoes.fit.lattice_fit import fit_lattice
 from shoes.fit.taxels import TaxelFit
 from shoes.fit.trimmed_cell import trimmed_cell
@@ -173,7 +173,7 @@ def _cuts(inner: _Line, outer: _Line, depth: float, length: float) -> list[tuple
     return list(dict.fromkeys(out))
 
 
-def _core(inside: Any, cell_area: float) -> tuple[list[Array], HexLattice, int]:
+def _core(inside: Any, cell_area: float) -> tuple[list[Array], Lattice, int]:
     """Cells inside of a strip: of the lattice with the most whole ones, and trimmed ones; and the whole ones' bound."""
     import shapely
 
@@ -182,7 +182,7 @@ def _core(inside: Any, cell_area: float) -> tuple[list[Array], HexLattice, int]:
         fit = fit_lattice(clear, cell_area=cell_area)
         lattice, bound = fit.lattice, fit.bound
     except FootError:  # too narrow for a whole one
-        lattice, bound = HexLattice(cell_area, (inside.centroid.x, inside.centroid.y), 0.0), 0
+        lattice, bound = hex_pattern(cell_area).at((inside.centroid.x, inside.centroid.y), 0.0), 0
     box = np.array(inside.bounds).reshape(2, 2)
     corners = lattice.corners(lattice.cells_near(box[0], box[1]))
     cells = shapely.polygons(corners)

@@ -1,8 +1,8 @@
 """Proven upper bound on the whole cells that any placement of the lattice puts inside an outline. Lengths in mm.
 
-Branch and bound over the placements: the offset of the lattice within its unit cell and its angle within 60 degrees
-(a hexagonal lattice repeats beyond both). A cell is inside an outline when it is inside the half planes of the
-outline's convex hull and outside the triangles that fill the hull's pockets; each of these conditions is a distance,
+Branch and bound over the placements: the offset of the lattice within its unit cell and its angle within its period
+(60 degrees of hexagons: a lattice repeats beyond both). A cell is inside an outline when it is inside the half planes
+of the outline's convex hull and outside the triangles that fill the pockets of that; each condition is a distance,
 the slack, that grows by at most as much as the cell moves. Within a box of placements no point of a cell moves farther
 from where it is at the box's middle than `reach` = half the box's diagonal + (distance of the cell's farthest point
 from the centre of rotation) x half the box's angle. So a cell whose slack at the middle is below -reach is outside for
@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.cell_pattern import CellPattern
 
 __all__ = ["CellBound", "bound_whole_cells"]
 
@@ -42,7 +42,8 @@ class CellBound:
 
     Attributes:
         bound: No placement holds more whole cells than this.
-        best: Whole cells of the best placement seen, which may leave the outline by some hundredths of a mm.
+        best: Whole cells of the best placement seen, which may leave the outline by some hundredths of a mm, or by 0.3
+            mm where it has more than 40 corners and is looked at with less detail.
         origin: Centre of a cell of that placement in mm.
         angle: Angle of its rows in rad.
         boxes: Boxes of placements that were looked at.
@@ -57,12 +58,12 @@ class CellBound:
     angles: tuple[float, ...] = ()
 
 
-def bound_whole_cells(region: Any, cell_area: float, *, known: int = 0, share: float = 1.0) -> CellBound:
+def bound_whole_cells(region: Any, pattern: CellPattern, *, known: int = 0, share: float = 1.0) -> CellBound:
     """Bound the number of whole cells in an outline.
 
     Args:
         region: Outline, a shapely polygon without holes in mm.
-        cell_area: Area of a cell in mm^2.
+        pattern: The cells.
         known: Number of cells of a placement that is known: less is of no interest.
         share: The search ends when the best is proven to be at least this share of the bound; 1 proves the best.
 
@@ -71,23 +72,23 @@ def bound_whole_cells(region: Any, cell_area: float, *, known: int = 0, share: f
 
     Example:
         >>> import shapely
-        >>> bound_whole_cells(shapely.box(0, 0, 57.0, 33.0), 691.0).bound
+        >>> from shoes.fit.cell_pattern import hex_pattern
+        >>> bound_whole_cells(shapely.box(0, 0, 57.0, 33.0), hex_pattern(691.0)).bound
         2
     """
 
     # Fewer corners, none of them inside the region: what is proven for the larger outline holds for the region.
     detail = _DETAIL if len(region.exterior.coords) <= _MANY_CORNERS else _COARSE_DETAIL
     larger = region.simplify(detail).buffer(detail + _SLACK, join_style="mitre", mitre_limit=2.0)
-    outline = _Outline.of(larger, cell_area)
-    lattice = HexLattice(cell_area)
-    width, rise = lattice.width, 1.5 * lattice.side
-    far = outline.radius + lattice.side
-    turns = max(1, math.ceil(far * math.pi / 6.0 / (0.25 * width)))
+    outline = _Outline.of(larger, pattern)
+    width, rise = pattern.width, pattern.rise
+    far = outline.radius + pattern.reach
+    turns = max(1, math.ceil(far * 0.5 * pattern.period / (0.25 * width)))
     count = np.array([4, 4, turns])
-    half = np.tile(0.5 * np.array([width, rise, math.pi / 3.0]) / count, (int(count.prod()), 1))
+    half = np.tile(0.5 * np.array([width, rise, pattern.period]) / count, (int(count.prod()), 1))
     axes = [h * (2.0 * np.arange(n) + 1.0) for h, n in zip(half[0], count, strict=True)]
     boxes = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=1)
-    upper = np.full(len(boxes), math.floor(region.area / cell_area + 1e-6))
+    upper = np.full(len(boxes), math.floor(region.area / pattern.area + 1e-6))
     eighths = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)], dtype=float)
     best, placement, looked, bound = known, None, 0, int(upper[0])
     while len(boxes):
@@ -131,10 +132,11 @@ class _Outline:
     offsets: Array
     triangles: Array
     cells: Array
-    side: float
+    parts: tuple[Array, ...]
+    reach: float
 
     @classmethod
-    def of(cls, region: Any, cell_area: float) -> _Outline:
+    def of(cls, region: Any, pattern: CellPattern) -> _Outline:
         import shapely
 
         hull = region.convex_hull
@@ -152,12 +154,12 @@ class _Outline:
             for t in shapely.constrained_delaunay_triangles(p).geoms
             if t.area > 1e-3
         ]
-        lattice = HexLattice(cell_area)
+        lattice = pattern.at((0.0, 0.0), 0.0)
         radius = float(np.hypot(*points.T).max())
         box = np.array([radius, radius])
         cells = lattice.centres(lattice.cells_near(-box, box))
-        reach = lattice.width + lattice.side
-        cells = cells[np.hypot(*cells.T) <= radius + reach]
+        near = pattern.width + pattern.reach
+        cells = cells[np.hypot(*cells.T) <= radius + near]
         return cls(
             (centre.x, centre.y),
             radius,
@@ -165,7 +167,8 @@ class _Outline:
             np.einsum("ij,ij->i", normals, points),
             np.array(triangles).reshape(-1, 3, 2),
             cells,
-            lattice.side,
+            pattern.parts,
+            pattern.reach,
         )
 
     @property
@@ -178,7 +181,8 @@ class _Outline:
 
         Where no placement of a box can hold more than `wanted`, the first is 0 and the second any number up to it.
         """
-        step = max(1, _CHUNK // (len(self.cells) * (len(self.normals) + 9 * len(self.triangles))))
+        faces = 3 + max(len(p) for p in self.parts)
+        step = max(1, _CHUNK // (len(self.cells) * (len(self.normals) + faces * len(self.triangles))))
         parts = [self._counts(boxes[i : i + step], half[i : i + step], wanted) for i in range(0, len(boxes), step)]
         return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 
@@ -187,9 +191,9 @@ class _Outline:
         c, s = np.cos(angle), np.sin(angle)
         turn = np.stack([np.stack([c, s], -1), np.stack([-s, c], -1)], -2)  # to the lattice's frame
         normals = np.einsum("bij,kj->bki", turn, self.normals)
-        room = self.offsets - _hexagon_reach(normals, self.side) - np.einsum("bki,bi->bk", normals, offset)
+        room = self.offsets - _reach(normals, np.concatenate(self.parts)) - np.einsum("bki,bi->bk", normals, offset)
         slack = (room[:, :, None] - normals @ self.cells.T).min(axis=1)
-        far = np.hypot(*np.moveaxis(self.cells[None] + offset[:, None], -1, 0)) + self.side
+        far = np.hypot(*np.moveaxis(self.cells[None] + offset[:, None], -1, 0)) + self.reach
         reach = np.hypot(half[:, 0], half[:, 1])[:, None] + half[:, 2, None] * far
         if len(self.triangles):
             open_boxes = np.flatnonzero((slack >= -reach).sum(axis=1) > wanted)
@@ -208,20 +212,24 @@ class _Outline:
         normal = np.stack([edge[..., 1], -edge[..., 0]], -1) / np.hypot(edge[..., 0], edge[..., 1])[..., None]
         normal = normal * np.sign(area)[..., None, None]
         at = self.cells[None] + offset[:, None]  # (b, n, 2)
-        own = np.einsum("btki,bni->btkn", normal, at)
-        own = (
-            own - np.einsum("btki,btki->btk", normal, corners)[..., None] - _hexagon_reach(normal, self.side)[..., None]
-        )
-        turns = np.arange(6) * math.pi / 3.0
-        faces = np.column_stack([np.cos(turns), np.sin(turns)])
-        nearest = np.einsum("btki,fi->btkf", corners, faces).min(axis=2)  # (b, t, f)
-        apothem = 0.5 * math.sqrt(3.0) * self.side
-        hexagon = nearest[:, :, None, :] - (at @ faces.T)[:, None] - apothem  # (b, t, n, f)
-        return np.asarray(np.maximum(own.max(axis=2), hexagon.max(axis=3)).min(axis=1))
+        own = np.einsum("btki,bni->btkn", normal, at) - np.einsum("btki,btki->btk", normal, corners)[..., None]
+        clear = np.full((len(turn), len(self.cells)), np.inf)
+        for part in self.parts:  # the normals of both point outwards: a part is clear on one side of either
+            along = own - _reach(-normal, part)[..., None]
+            faces, offsets = _faces(part)
+            nearest = np.einsum("btki,fi->btkf", corners, faces).min(axis=2)  # (b, t, f)
+            across = nearest[:, :, None, :] - (at @ faces.T)[:, None] - offsets  # (b, t, n, f)
+            clear = np.minimum(clear, np.maximum(along.max(axis=2), across.max(axis=3)).min(axis=1))
+        return clear
 
 
-def _hexagon_reach(directions: Array, side: float) -> Array:
-    """How far a cell of angle 0 reaches from its centre along unit directions (..., 2)."""
-    turns = math.pi / 6.0 + np.arange(3) * math.pi / 3.0
-    corners = side * np.column_stack([np.cos(turns), np.sin(turns)])
-    return np.asarray(np.abs(directions @ corners.T).max(axis=-1))
+def _reach(directions: Array, part: Array) -> Array:
+    """How far a part (k, 2) reaches from the cell's centre along unit directions (..., 2)."""
+    return np.asarray((directions @ part.T).max(axis=-1))
+
+
+def _faces(part: Array) -> tuple[Array, Array]:
+    """Outward normals (k, 2) of a convex part (k, 2), and how far its edges lie along them from the cell's centre."""
+    edge = np.roll(part, -1, axis=0) - part
+    normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / np.hypot(*edge.T)[:, None]
+    return normal, np.einsum("ki,ki->k", normal, part)

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice
+from shoes.cells.cell import Cell
+from shoes.fit.cell_pattern import Lattice, hex_pattern
 from shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from shoes.fit.trimmed_cell import trimmed_cell
 from shoes.geometry.outline import CORNER, grown, tidy
@@ -47,25 +49,35 @@ class TaxelFit:
         overhang: How far a cell may reach beyond the foot's outline, as used.
         covered: Area of the sole under the cells in mm^2.
         covered_area_ratio: `covered` over the sole's area, 0..1.
-        bound: Proven: no placement holds more whole cells with this overhang.
+        bound: Proven: no placement holds more whole cells with this overhang; None of a sheet.
         border: Border around the cells that this leaves room for.
         lattice_cells: Axial coordinates (n, 2), where all cells are whole; else None.
         notes: What was done to make them fit.
         blind_most: Widest blind rim in mm that was asked for; None where none was.
+        cell: What a cell's body is; None of the hexagons of skin that `--cell-area` sizes.
+        pockets: Corners (k, 2) of the pockets, of a sheet of its one recess; None where they follow from the cells.
+        rooms: Corners (k, 2) of what the plate has to hold around them; None where that is the cells.
+        links: Pairs of cells between which a cable can run straight; None where those are the neighbours.
+        lines: Row and column (n, 2) of a sheet's cells; else None.
     """
 
     cells: Cells
     shares: NDArray[np.float64]
-    lattice: HexLattice
+    lattice: Lattice
     cell_area: float
     overhang: float
     covered: float
     covered_area_ratio: float
-    bound: int
+    bound: int | None
     border: float
     lattice_cells: NDArray[np.int64] | None
     notes: tuple[str, ...] = ()
     blind_most: float | None = None
+    cell: Cell | None = None
+    pockets: Cells | None = None
+    rooms: Cells | None = None
+    links: tuple[tuple[int, int], ...] | None = None
+    lines: NDArray[np.int64] | None = None
 
     @property
     def whole(self) -> int:
@@ -184,7 +196,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
         cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
     covered = _covered(sole, cells)
     cut = int((shares <= 1.0 - 1e-6).sum())
-    bound = bound_whole_cells(region, cell_area).bound
+    bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
     note = (
         f"{taxels} whole cells do not fit within {reach:.2f} mm of the sole (at most {bound} do): {cut} cells at the "
         f"rim are cut, to {100 * shares.min():.0f} % of a cell or more"

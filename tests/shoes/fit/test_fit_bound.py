@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.cell_pattern import hex_pattern
 from shoes.fit.fit_bound import bound_whole_cells
 from shoes.fit.lattice_fit import fit_lattice
 from shoes.geometry.outline import rounded_rectangle
@@ -34,7 +35,7 @@ def test_no_placement_beats_the_bound(points: list[tuple[float, float]], notched
         rest = region - notch
         region = max(getattr(rest, "geoms", [rest]), key=lambda g: g.area)
         region = shapely.Polygon(region.exterior)
-    proven = bound_whole_cells(region, 500.0)
+    proven = bound_whole_cells(region, hex_pattern(500.0))
     assert proven.best <= proven.bound <= region.area / 500.0 + 1e-6
     rng = np.random.default_rng(seed)
     most = max(
@@ -43,7 +44,7 @@ def test_no_placement_beats_the_bound(points: list[tuple[float, float]], notched
     )
     assert most <= proven.bound
     if proven.best:
-        reached = whole_cells(region.buffer(0.1), HexLattice(500.0, proven.origin, proven.angle))
+        reached = whole_cells(region.buffer(0.3), HexLattice(500.0, proven.origin, proven.angle))
         assert reached >= proven.best
 
 
@@ -53,7 +54,7 @@ def test_a_box_made_for_a_patch_is_proven_to_hold_just_that(columns: int, rows: 
     side = math.sqrt(2 * 691 / (3 * math.sqrt(3)))
     length, height = math.sqrt(3) * side * (columns + 0.5), side * (1.5 * rows + 0.5)
     box = shapely.affinity.rotate(shapely.box(0, 0, length + 0.3, height + 0.3), turn)
-    assert bound_whole_cells(box, 691.0).bound == columns * rows
+    assert bound_whole_cells(box, hex_pattern(691.0)).bound == columns * rows
     fit = fit_lattice(box)  # also at an angle that the scan does not look at
     assert len(fit.cells) == fit.bound == columns * rows
 
@@ -66,13 +67,13 @@ def test_the_best_is_proven_on_the_papers_feet() -> None:
         fit = fit_lattice(sole)
         assert len(fit.cells) == fit.bound == most
     wider = rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6).buffer(9.9)
-    assert bound_whole_cells(wider, 691.0).bound < 51
+    assert bound_whole_cells(wider, hex_pattern(691.0)).bound < 51
 
 
 def test_the_search_ends_early_where_less_is_asked_for() -> None:
     sole = rounded_rectangle(241.0, 138.0, (15.0, 0.0), 19.6)
-    rough = bound_whole_cells(sole, 691.0, known=39, share=0.9)
-    exact = bound_whole_cells(sole, 691.0, known=39)
+    rough = bound_whole_cells(sole, hex_pattern(691.0), known=39, share=0.9)
+    exact = bound_whole_cells(sole, hex_pattern(691.0), known=39)
     assert rough.boxes < exact.boxes
     assert exact.bound == 39 <= rough.bound <= 39 / 0.9
     assert exact.best == 0  # none better than known was met

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from plantar.errors import FootError, InputError
 from plantar.layouts.hex_lattice import HexLattice
+from shoes.fit.cell_pattern import hex_pattern
 from shoes.fit.lattice_fit import fit_lattice, whole_cell_region
 from shoes.geometry.outline import rounded_rectangle
 
@@ -77,7 +78,7 @@ def test_the_whole_cell_region_is_where_a_cell_fits() -> None:
     shape = shapely.Polygon([(0, 0), (90, 0), (90, 70), (50, 40), (0, 60)])
     side, angle = 9.0, 0.3
     area = 1.5 * math.sqrt(3) * side**2
-    region = whole_cell_region(shape, side, angle)
+    region = whole_cell_region(shape, hex_pattern(area).parts, angle)
     rng = np.random.default_rng(3)
     for x, y in rng.uniform((0, 0), (90, 70), (300, 2)):
         hexagon = shapely.Polygon(HexLattice(area, (x, y), angle).corners(np.array([[0, 0]]))[0])
