@@ -13,11 +13,14 @@ from plantar.errors import InputError
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.sides import SIDES
 from shoes.cad_kernel import load_cadquery
+from shoes.cells.cell import Cell
+from shoes.fit.cell_fit import fit_cells
 from shoes.fit.fine_rim import BLIND_MOST, fit_fine_rim
 from shoes.fit.taxels import TaxelFit, fit_taxels
 from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step
+from shoes.plan.cell_room import cell_parameters, led_parameters
 from shoes.plan.load_share import LoadShare, check_load_share, relieved
 from shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from shoes.plan.strength import load_case, strengthened
@@ -103,7 +106,7 @@ class ShoeBuild:
 
 def _blind_note(plan: ShoePlan, fit: TaxelFit) -> tuple[str, ...]:
     """What to do about a wide blind rim, where something can be done."""
-    if fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
+    if fit.cell is not None or fit.blind_most is not None or plan.blind_rim <= BLIND_MOST:
         return ()
     return (
         f"blind rim of {plan.blind_rim:.0f} mm beyond the outermost taxels' centres; a fine rim (--rim fine) has "
@@ -119,6 +122,7 @@ def build_shoe(
     taxels: int | None = None,
     overhang: float = 0.0,
     rim: Rim = "whole",
+    cell: Cell | None = None,
     parameters: ShoeParameters | None = None,
     name: str | None = None,
     layout_only: bool = False,
@@ -135,6 +139,8 @@ def build_shoe(
             overhang (parameter overhang_max) leaves room.
         rim: "whole" cells up to the edge, or "fine": a row of smaller ones along it, so that the blind rim is 12 mm
             wide at most; then there is no `taxels`.
+        cell: Other cells than hexagons of skin, see `shoes.cells.cell_file.read_cell`; then there is no fine rim, and
+            `cell_area` is not read.
         parameters: Dimensions of the shoe; None takes the defaults.
         name: Name of the layout; None takes the foot's.
         layout_only: Leave the solid out, and with it cadquery.
@@ -160,7 +166,7 @@ def build_shoe(
     if rim == "fine" and taxels is not None:
         raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
     tell = progress or (lambda fraction, text: None)
-    p = parameters or ShoeParameters()
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters()) if cell else (parameters or ShoeParameters(), ())
     if not 0.0 <= overhang <= p.overhang_max:
         raise InputError(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"
@@ -169,7 +175,17 @@ def build_shoe(
     # The plate under the wall meets the ground, too; the load case may ask for a thicker wall.
     wall = strengthened(foot, foot.sole, p)[0].rim_thickness
     face, reach = foot.passing(p.rim_height), max(overhang, p.clearance + wall - p.border)
-    if rim == "fine":
+    if cell is not None:
+        fit = fit_cells(
+            face,
+            cell,
+            rib=p.rib,
+            taxels=taxels,
+            overhang=reach if taxels is None else overhang,
+            overhang_max=p.overhang_max,
+            border=p.border,
+        )
+    elif rim == "fine":
         fit = fit_fine_rim(face, cell_area=cell_area, overhang=reach, border=p.border)
     else:
         fit = fit_taxels(
@@ -185,8 +201,9 @@ def build_shoe(
     p, raised = strengthened(foot, left.contact, p)
     if raised:
         left = plan_shoe(foot, fit, p, name=name)
+    p, led = led_parameters(left, p)
     p, lowered = relieved(left, load_case(foot, p), p)
-    notes = foot.notes + fit.notes + raised + lowered + left.notes + _blind_note(left, fit)
+    notes = foot.notes + of_cell + fit.notes + raised + led + lowered + left.notes + _blind_note(left, fit)
     share = check_load_share(left, load_case(foot, p), p)
     if layout_only:
         tell(1.0, "layouts fitted")

@@ -13,22 +13,60 @@ __all__ = ["check_dimensions", "checked", "choice", "length", "number", "text"]
 
 
 def length(default: float, low: float, high: float, meaning: str) -> Any:
-    """A field for a length in mm."""
+    """A field for a length.
+
+    Args:
+        default: Its default in mm.
+        low: Smallest allowed value in mm.
+        high: Largest allowed value in mm.
+        meaning: What it is.
+
+    Returns:
+        The field of a dataclass.
+    """
     return number(default, low, high, "mm", meaning)
 
 
 def number(default: float, low: float, high: float, unit: str, meaning: str) -> Any:
-    """A field for a number in a unit."""
+    """A field for a number in a unit.
+
+    Args:
+        default: Its default.
+        low: Smallest allowed value.
+        high: Largest allowed value.
+        unit: Its unit, "-" where it has none.
+        meaning: What it is.
+
+    Returns:
+        The field of a dataclass.
+    """
     return field(default=default, metadata={"low": low, "high": high, "unit": unit, "text": meaning})
 
 
 def choice(default: str, choices: tuple[str, ...], meaning: str) -> Any:
-    """A field for one of several words."""
+    """A field for one of several words.
+
+    Args:
+        default: Its default.
+        choices: All of them.
+        meaning: What it is.
+
+    Returns:
+        The field of a dataclass.
+    """
     return field(default=default, metadata={"choices": choices, "text": meaning})
 
 
 def text(default: str, meaning: str) -> Any:
-    """A field for any text."""
+    """A field for any text of one line.
+
+    Args:
+        default: Its default.
+        meaning: What it is.
+
+    Returns:
+        The field of a dataclass.
+    """
     return field(default=default, metadata={"text": meaning})
 
 
@@ -40,6 +78,9 @@ def checked(record: Any, name: str, value: Any, what: str) -> Any:
         name: Name of the field.
         value: The value.
         what: What its fields are, for messages: "shoe parameter".
+
+    Returns:
+        The value.
 
     Raises:
         InputError: If the value is not allowed; the message names field, value, unit and range.

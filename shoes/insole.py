@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from shoes.build import Progress, Rim, ShoeBuild, Sides, built_sides, planned_sides, sides_of
+from shoes.cells.cell import Cell
 from shoes.foot.foot import Foot
 from shoes.parameters import ShoeParameters
+from shoes.plan.cell_room import cell_parameters, led_parameters
 from shoes.plan.insole_plan import fit_insole, insole_parameters, plan_insole
 from shoes.plan.load_share import check_load_share, relieved
 from shoes.plan.strength import load_case
@@ -23,6 +25,7 @@ def build_insole(
     side: Sides = "both",
     cell_area: float = 691.0,
     rim: Rim = "fine",
+    cell: Cell | None = None,
     parameters: ShoeParameters | None = None,
     name: str | None = None,
     layout_only: bool = False,
@@ -30,41 +33,45 @@ def build_insole(
 ) -> ShoeBuild:
     """Fit taxels to the outline of a foot and build a flat insole around them.
 
-    Args:
-        foot: The left foot: of a scan, of a last, or of an outline.
-        thickness: From the ground's face of the pad to the face below the foot, in mm.
-        side: "left", "right" or "both"; the right insole mirrors the left.
-        cell_area: Area of a taxel in mm^2.
-        rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
-        parameters: Dimensions; None takes the defaults.
-        name: Name of the layout; None takes the foot's.
-        layout_only: Leave the solid out, and with it cadquery.
-        progress: Receives fraction and text.
+        Args:
+            foot: The left foot: of a scan, of a last, or of an outline.
+            thickness: From the ground's face of the pad to the face below the foot, in mm.
+            side: "left", "right" or "both"; the right insole mirrors the left.
+            cell_area: Area of a taxel in mm^2.
+            rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
+            cell: Other cells than hexagons of skin, as in `build_shoe`; then `rim` and `cell_area` are not read.
+            parameters: Dimensions; None takes the defaults.
+            name: Name of the layout; None takes the foot's.
+            layout_only: Leave the solid out, and with it cadquery.
+            progress: Receives fraction and text.
 
-    Returns:
-        The insoles with their layouts and solids.
+        Returns:
+            The insoles with their layouts and solids.
 
-    Raises:
-        InputError: If an argument is out of its range.
-        FootError: If the foot cannot carry the taxels.
+        Raises:
+            InputError: If an argument is out of its range.
+            FootError: If the foot cannot carry the taxels.
 
-    Example:
-        >>> from shoes.foot.foot import foot_from_dimensions
-        >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
-        >>> build = build_insole(foot, 6.0, layout_only=True)
-        >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
-        ('insole', 6.0, 0.94)
+        Example:
+            >>> from shoes.cells.cell import Cell
+    from shoes.foot.foot import foot_from_dimensions
+            >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
+            >>> build = build_insole(foot, 6.0, layout_only=True)
+            >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
+            ('insole', 6.0, 0.94)
     """
     sides = sides_of(side, rim)
     tell = progress or (lambda fraction, text: None)
-    p, notes = insole_parameters(foot, thickness, parameters or ShoeParameters())
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters()) if cell else (parameters or ShoeParameters(), ())
+    p, notes = insole_parameters(foot, thickness, p)
     tell(0.0, "fitting the taxels to the sole")
-    fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine")
+    fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine", cell=cell)
     left = plan_insole(foot, fit, p, name=name)
     load = load_case(foot, p)
+    p, led = led_parameters(left, p, deepen=False)
     p, lowered = relieved(left, load, p)
     share = check_load_share(left, load, p)
-    told = (*foot.notes, *notes, *fit.notes, *lowered, *left.notes, _NOTE.format(thickness))
+    told = (*foot.notes, *of_cell, *notes, *fit.notes, *led, *lowered, *left.notes, _NOTE.format(thickness))
     if layout_only:
         return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=told, kind="insole")
     shoes = built_sides(left, insole_steps(left, p), p, sides, tell)

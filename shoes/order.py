@@ -59,6 +59,12 @@ class ShoeOrder:
         "Cells along the edge: whole, or fine for a row of smaller ones and a blind rim of 12 mm at most. "
         "Default: whole; of an insole fine.",
     )
+    cell: str | None = _option(
+        None,
+        "Other cells: hex, square, fsr_402, sheet, or a TOML file of the cell's body (docs/shoes.md). "
+        "Default: hexagons of --cell-area.",
+        metavar="CELL",
+    )
     name: str | None = _option(None, "Name of the shoe. Default: that of the file or robot.")
     insole: float | None = _option(
         None,

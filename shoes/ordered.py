@@ -9,13 +9,15 @@ import numpy as np
 
 from plantar.errors import InputError
 from shoes.build import Progress, ShoeBuild, build_shoe
+from shoes.cells.cell import Cell
+from shoes.cells.cell_file import read_cell
 from shoes.coupon import build_coupons, write_coupons
 from shoes.foot.foot import Foot
 from shoes.insole import build_insole
 from shoes.order import ShoeOrder
 from shoes.parameters import ShoeParameters
 
-__all__ = ["build_ordered", "coupons_text", "write_ordered_coupons"]
+__all__ = ["build_ordered", "coupons_text", "ordered_cell", "write_ordered_coupons"]
 
 
 def build_ordered(
@@ -43,6 +45,7 @@ def build_ordered(
     """
     light = order.layout_only or order.coupon
     common: dict[str, Any] = {"side": order.side, "cell_area": order.cell_area, "name": order.name}
+    common["cell"] = ordered_cell(order)
     common |= {"parameters": parameters, "layout_only": light, "progress": progress}
     if order.coupon and order.layout_only:
         raise InputError("--coupon writes prints, --layout-only none; give one of them")
@@ -50,11 +53,32 @@ def build_ordered(
         raise InputError("a coupon is a piece of the left shoe, whose mirror image the right one is; leave --side out")
     if order.insole is None:
         rim = order.rim or "whole"
-        wanted = order.taxels if order.taxels is not None or rim == "fine" else taxels
+        wanted = order.taxels if order.taxels is not None or rim == "fine" or order.cell is not None else taxels
         return build_shoe(foot, taxels=wanted, overhang=order.overhang, rim=cast(Any, rim), **common)
     if order.taxels is not None or order.overhang > 0.0:
         raise InputError("an insole takes the taxels that fit in the foot's outline; leave out --taxels, --overhang")
     return build_insole(foot, order.insole, rim=cast(Any, order.rim or "fine"), **common)
+
+
+def ordered_cell(order: ShoeOrder) -> Cell | None:
+    """The cell that an order names.
+
+    Args:
+        order: What is wanted.
+
+    Returns:
+        The cell; None for hexagons of skin.
+
+    Raises:
+        InputError: If there is no such cell, or the order contradicts itself.
+    """
+    if order.cell is None:
+        return None
+    if order.rim == "fine":
+        raise InputError("a fine rim is made of skin; with --cell leave --rim out, or give --rim whole")
+    if order.cell_area != ShoeOrder().cell_area:
+        raise InputError("--cell states how large a cell is; leave --cell-area out")
+    return read_cell(order.cell)
 
 
 def write_ordered_coupons(build: ShoeBuild, folder: Path, progress: Progress | None = None) -> dict[str, Any]:

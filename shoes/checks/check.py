@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layouts.layout import DEFAULT_RANGES
 from plantar.optional_library import optional_library
 from shoes.build import Shoe, ShoeBuild
 from shoes.checks.mounting import Mounting, check_mounting
@@ -19,6 +18,7 @@ from shoes.checks.weights import Weights, weigh
 from shoes.geometry.outline import ring
 from shoes.geometry.section import thinnest_wall
 from shoes.parameters import ShoeParameters
+from shoes.plan.cell_room import lead_rooms
 from shoes.plan.insole_plan import EVEN_SHARE, even_share
 from shoes.plan.load_share import LoadShare
 from shoes.plan.pull_off import SNAP_MOST, PullOff
@@ -138,6 +138,7 @@ def check_shoe(shoe: Shoe, build: ShoeBuild, *, surface: Array, step: Any) -> Sh
         *(_insole_checks(shoe, surface, p) if mounting is None else _mounting_checks(mounting, reach, shoe, build)),
         *_share_checks(share),
         *(() if held is None else _holding_checks(held)),
+        *_lead_checks(shoe.plan, p),
         *_strength_checks(load, members, build, len(shoe.layout)),
         *_printing_checks(printing[0], shoe.plan, p),
     )
@@ -264,12 +265,18 @@ def _share_checks(share: LoadShare) -> Iterator[Check]:
     yield Check("load that the taxels carry on half the sole, %", half >= least, round(half, 1), f"{least:g} or more")
 
 
+def _lead_checks(plan: ShoePlan, p: ShoeParameters) -> Iterator[Check]:
+    for place in lead_rooms(plan, p):
+        allowed = f"{place.room:.1f} or less"
+        yield Check(f"leads in the {place.name}, mm2", place.holds, round(place.needed, 1), allowed)
+
+
 def _strength_checks(load: LoadCase, members: tuple[Member, ...], build: ShoeBuild, taxels: int) -> Iterator[Check]:
     p = build.parameters
     for m in members:
         yield Check(f"stress of the {m.name}, MPa", m.holds, m.stress, f"{m.allowed:g} or less ({p.material})")
     each = load.force / max(1.0, p.load_share * taxels)
-    limit = DEFAULT_RANGES["force"][1]
+    limit = build.shoes[0].layout.ranges["force"][1]
     yield Check("load of a taxel, N", each <= limit, round(each, 1), f"{limit:g} or less")
     if build.retention is not None and build.retention.strain > 0.0:
         strain, most = 100.0 * build.retention.strain, 100.0 * p.printed.strain

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 from shoes.build import Shoe, ShoeBuild
+from shoes.parameters import ShoeParameters
 from shoes.solid.pad import pad_surface, volume_of
 
 __all__ = ["BOARD_UP", "Weights", "weigh"]
@@ -52,12 +53,19 @@ def weigh(shoe: Shoe, build: ShoeBuild, volume: float) -> Weights:
         The masses.
     """
     p = build.parameters
-    cells = float(shoe.layout.areas.sum()) * 1e6
     pad = volume_of(pad_surface(shoe.plan, p)) if p.pad_thickness > 0.0 else 0.0
     board = p.board_length * BOARD_UP * p.board_thickness * _BOARD_DENSITY if shoe.plan.heel.board else 0.0
     return Weights(
         printed=round(volume / 1000.0 * p.printed.density, 2),
         pad=round(pad / 1000.0 * p.pad_density, 2),
-        skin=round(cells * (p.taxel_protrusion + p.pocket_depth) / 1000.0 * p.skin_density, 2),
+        skin=round(_skin(shoe, p) / 1000.0 * p.skin_density, 2),
         board=round(board, 2),
     )
+
+
+def _skin(shoe: Shoe, p: ShoeParameters) -> float:
+    """Volume in mm^3 of the taxels: heads and bases, or the bodies of films and sheets."""
+    plan = shoe.plan
+    if plan.cell is not None and plan.lands:
+        return float(sum(q.area for q in plan.pockets)) * plan.cell.thickness
+    return float(shoe.layout.areas.sum()) * 1e6 * (p.taxel_protrusion + p.pocket_depth)

@@ -175,7 +175,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     at = best[1]
     px, py = 0.5 * cell.pitch_x, 0.5 * cell.pitch_y
     lines = np.column_stack([_ranks(at[:, 1]), _ranks(at[:, 0])])
-    cells, kept_lines = [], []
+    cells, kept_lines, crossings = [], [], []
     for (cx, cy), line in zip(at.tolist(), lines, strict=True):
         whole = shapely.box(cx - px, cy - py, cx + px, cy + py)
         part = whole if sheet.covers(whole) else shapely.intersection(whole, sheet, grid_size=1e-4)
@@ -183,6 +183,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         if part.area >= _LEAST_CELL * whole.area:
             cells.append(np.asarray(shapely.geometry.polygon.orient(part.simplify(1e-4)).exterior.coords)[:-1])
             kept_lines.append(line)
+            crossings.append((cx, cy))
     found = tuple(cells)
     areas = np.array([shapely.Polygon(c).area for c in found])
     covered = _covered(foot, found)
@@ -210,6 +211,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         rooms=(np.asarray(region.exterior.coords)[:-1],),
         links=(),
         lines=np.array(kept_lines, dtype=np.int64),
+        crossings=np.array(crossings),
     )
 
 

@@ -46,7 +46,15 @@ class Lattice(Protocol):
         """Corners (n, k, 2) of the room that cells take, in mm."""
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Cells (n, 2) whose centres lie within about one cell of a box."""
+        """Cells (n, 2) whose centres lie within about one cell of a box.
+
+        Args:
+            lower: Lower corner (2,) of the box in mm.
+            upper: Its upper corner.
+
+        Returns:
+            The cells.
+        """
 
 
 @dataclass(frozen=True)
@@ -75,6 +83,9 @@ class CellPattern:
         Args:
             origin: Centre of cell (0, 0).
             angle: Of the rows in rad.
+
+        Returns:
+            The lattice.
         """
         if self.hexagon is not None:
             return HexLattice(self.hexagon, origin, angle)
@@ -133,11 +144,27 @@ class RowLattice:
         return self.shapes(axial, np.asarray(self.pattern.room.exterior.coords)[:-1])
 
     def shapes(self, axial: Any, shape: Array) -> Array:
-        """A shape (k, 2) about the centre at each of the cells (n, 2), as corners (n, k, 2) in mm."""
+        """A shape about the centre of each cell.
+
+        Args:
+            axial: The cells (n, 2).
+            shape: Corners (k, 2) about the centre in mm, rows along x.
+
+        Returns:
+            Corners (n, k, 2) in mm.
+        """
         return self._placed(self._flat(axial)[:, None, :] + shape)
 
     def cells_near(self, lower: Any, upper: Any) -> NDArray[np.int64]:
-        """Cells (n, 2) whose centres lie within about one cell of a box, by row."""
+        """Cells (n, 2) whose centres lie within about one cell of a box.
+
+        Args:
+            lower: Lower corner (2,) of the box in mm.
+            upper: Its upper corner.
+
+        Returns:
+            The cells, by row.
+        """
         p = self.pattern
         box = np.array([[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]])
         box = box - np.array(self.origin)

@@ -59,6 +59,7 @@ class TaxelFit:
         rooms: Corners (k, 2) of what the plate has to hold around them; None where that is the cells.
         links: Pairs of cells between which a cable can run straight; None where those are the neighbours.
         lines: Row and column (n, 2) of a sheet's cells; else None.
+        crossings: Where (n, 2) these cross; else None.
     """
 
     cells: Cells
@@ -78,6 +79,7 @@ class TaxelFit:
     rooms: Cells | None = None
     links: tuple[tuple[int, int], ...] | None = None
     lines: NDArray[np.int64] | None = None
+    crossings: NDArray[np.float64] | None = None
 
     @property
     def whole(self) -> int:

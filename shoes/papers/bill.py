@@ -11,6 +11,7 @@ import numpy as np
 
 from shoes.build import Shoe, ShoeBuild
 from shoes.checks.weights import BOARD_UP, Weights
+from shoes.plan.cell_room import tail_lines
 from shoes.units import to_mm
 
 __all__ = ["Part", "bill_of_parts", "bill_text"]
@@ -71,9 +72,18 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     patches = f"in {len(plan.connectors)} patch(es)" if plan.connectors else "wired by themselves"
     note = patches + (f"; {cut} of them trimmed at the rim" if cut else "")
     height = p.taxel_protrusion + p.pocket_depth
-    parts.append(
-        Part("taxel", len(shoe.layout), "skin", f"{build.fit.cell_area:g} mm2 x {height:g} mm", weights.skin, note)
-    )
+    size = f"{build.fit.cell_area:g} mm2 x {height:g} mm"
+    cell = plan.cell
+    if cell is None:
+        parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
+    elif plan.lines is not None:
+        rows, columns = (len(np.unique(plan.lines[:, k])) for k in (0, 1))
+        note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
+        parts.append(Part(f"sheet {cell.name}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
+    else:
+        across = " x ".join(f"{v:g}" for v in dict.fromkeys(np.round(cell.body, 2).tolist()))
+        size = f"{across} mm" + (f" x {cell.thickness:g} mm" if cell.thickness else "")
+        parts.append(Part(f"cell {cell.name or cell.shape}", len(shoe.layout), cell.shape, size, weights.skin, note))
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))

@@ -15,11 +15,13 @@ from shoes.build import Shoe, ShoeBuild
 from shoes.geometry.outline import ring
 from shoes.geometry.section import section_along
 from shoes.plan.pad_outline import pad_rim
+from shoes.solid.pad import land_top
 from shoes.units import to_mm
 
 __all__ = ["draw_shoe"]
 
 _THIN = 0.6
+_MOST_IDS = 120
 
 
 def draw_shoe(
@@ -75,9 +77,12 @@ def _cuts(shoe: Shoe, build: ShoeBuild) -> tuple[float, float]:
 def _plan(axes: Any, shoe: Shoe, build: ShoeBuild, low: Any, high: Any) -> None:
     """The sole from above: outlines, cells with their ids, cable route, size."""
     plan, colour = shoe.plan, COLOURS[shoe.side]
-    for i, (cell, pocket) in enumerate(zip(plan.cells, plan.pockets, strict=True)):
-        axes.fill(*ring(cell).T, facecolor=COLOURS["cell"], edgecolor=COLOURS["edge"], lw=_THIN)
+    for pocket in plan.pockets:
         axes.plot(*_closed(ring(pocket)).T, color=COLOURS["edge"], lw=0.3)
+    for i, cell in enumerate(plan.cells):
+        axes.fill(*ring(cell).T, facecolor=COLOURS["cell"], edgecolor=COLOURS["edge"], lw=_THIN)
+        if len(plan.cells) > _MOST_IDS:
+            continue
         x, y = to_mm(shoe.layout.positions[i, :2])
         axes.text(x, y - 4.0, str(int(shoe.layout.ids[i])), ha="center", va="center", fontsize=6)
     centres = to_mm(shoe.layout.positions[:, :2])
@@ -128,10 +133,12 @@ def _section(
     cut = section_along(triangles, axis, at)
     line = shapely.LineString([(at, -1e4), (at, 1e4)] if axis == 0 else [(-1e4, at), (1e4, at)])
     across = 1 - axis
-    for cell, pocket in zip(shoe.plan.cells, shoe.plan.pockets, strict=True):
-        for shape, low, high in ((cell, p.pad_thickness, p.bottom), (pocket, p.bottom, p.ceiling)):
-            part = shape.intersection(line)
-            if not part.is_empty:
+    lands = shoe.plan.lands
+    top = land_top(shoe.plan, p) if lands else p.bottom
+    heads = [(q, p.pad_thickness, top) for q in lands or shoe.plan.cells]
+    for shape, low, high in heads + [(q, top, p.ceiling) for q in shoe.plan.pockets]:
+        for part in shapely.get_parts(shape.intersection(line)):
+            if part.length > 0.0:
                 ends = (part.bounds[across], part.bounds[across + 2])
                 axes.fill_between(ends, low, high, facecolor=COLOURS["active"], alpha=0.55, lw=0)
     face = shoe.plan.contact.intersection(line).bounds

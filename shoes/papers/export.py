@@ -64,7 +64,8 @@ class ShoeReport:
             "taxels": len(first.layout),
             "whole_taxels": fit.whole,
             "whole_taxels_bound": fit.bound,
-            "cell_area_mm2": fit.cell_area,
+            "cell_area_mm2": round(fit.cell_area, 3),
+            "cell": None if fit.cell is None else fit.cell.as_dict() | {"kind": fit.cell.kind},
             "smallest_cell_share": round(float(fit.shares.min()), 4),
             "patches": len(first.plan.connectors),
             "covered_area_ratio": round(fit.covered_area_ratio, 4),
@@ -138,6 +139,9 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
         "cable_route": [[ids[i], ids[j]] for i, j in plan.route],
         "cell_shares": build.fit.shares.round(6).tolist(),
     }
+    if plan.lines is not None and plan.crossings is not None:
+        extra |= {"rows": plan.lines[:, 0].tolist(), "columns": plan.lines[:, 1].tolist()}
+        extra |= {"crossings": to_m(plan.crossings).round(6).tolist()}
     return json.dumps(layout_to_dict(shoe.layout) | {"shoe": extra}, indent=1) + "\n"
 
 
@@ -214,8 +218,8 @@ def _write_for_wiring(shoe: Shoe, build: ShoeBuild, target: Path) -> list[str]:
     bodies = [
         NamedBody(f"{build.kind} {side}", p.material, "#4C72B0", shoe.surface),
         *(
-            NamedBody(f"taxel {k}", "skin", "#55A868", surface)
-            for k, surface in zip(shoe.layout.ids.tolist(), taxel_surfaces(shoe.plan, p), strict=True)
+            NamedBody(f"taxel {k}" if shoe.plan.lines is None else "sheet", "skin", "#55A868", surface)
+            for k, surface in zip(shoe.layout.ids.tolist(), taxel_surfaces(shoe.plan, p), strict=False)  # or one sheet
         ),
     ]
     if p.pad_thickness > 0.0:

@@ -18,12 +18,13 @@ def shoe_text(summary: Mapping[str, Any]) -> str:
         Lines.
     """
     lines = [f"  {note}" for note in summary["notes"]]
+    bound = summary["whole_taxels_bound"]
     size = f"{summary['cell_area_mm2']:g} mm^2{' or less' if summary['smallest_cell_share'] < 1.0 else ''}"
     lines.append(
         f"{summary['taxels']} taxels of {size} cover "
         f"{100 * summary['covered_area_ratio']:.0f} % of the sole, blind rim {summary['blind_rim_mm']:.0f} mm; "
-        f"overhang {summary['overhang_mm']:g} mm; at most "
-        f"{summary['whole_taxels_bound']} whole ones fit there (proven)"
+        f"overhang {summary['overhang_mm']:g} mm"
+        + ("" if bound is None else f"; at most {bound} whole ones fit there (proven)")
     )
     if "sides" in summary:
         size = " x ".join(f"{v:.1f}" for v in summary["size_mm"])

@@ -11,6 +11,8 @@ from dataclasses import fields, replace
 from typing import Any
 
 from plantar.errors import FootError, InputError
+from shoes.cells.cell import Cell
+from shoes.fit.cell_fit import fit_cells
 from shoes.fit.fine_rim import fit_fine_rim
 from shoes.fit.taxels import TaxelFit, fit_taxels
 from shoes.foot.foot import Foot
@@ -98,7 +100,9 @@ def insole_parameters(
     return replace(p, **kept, material="TPU", retention="none", board_length=0.0, border=min(p.border, 1.0)), notes
 
 
-def fit_insole(foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine: bool) -> TaxelFit:
+def fit_insole(
+    foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine: bool, cell: Cell | None = None
+) -> TaxelFit:
     """Cells of an insole: up to its edge, which lies `clearance` within the foot's outline.
 
     Args:
@@ -106,6 +110,7 @@ def fit_insole(foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine
         parameters: Dimensions of `insole_parameters`.
         cell_area: Area of a cell in mm^2.
         fine: Whether a row of smaller cells follows the edge.
+        cell: Other cells than hexagons of skin; then the two before are not read.
 
     Returns:
         The cells.
@@ -114,11 +119,18 @@ def fit_insole(foot: Foot, parameters: ShoeParameters, *, cell_area: float, fine
         FootError: If none fit, or they would carry less than `EVEN_SHARE` of an even pressure.
     """
     room = _within(foot, parameters.clearance + parameters.border)
-    if fine:
+    if cell is not None:
+        fit = fit_cells(room, cell, rib=parameters.rib, border=parameters.border)
+    elif fine:
         fit = fit_fine_rim(room, cell_area=cell_area, overhang=0.0, border=parameters.border)
     else:
         fit = replace(fit_taxels(room, cell_area=cell_area), border=parameters.border)
     share = even_share(fit.cells, foot.sole)
+    if share < EVEN_SHARE and cell is not None:
+        raise FootError(
+            f"{foot.name}: cells {cell.name or cell.shape} cover {100.0 * share:.0f} % of the foot's outline; an "
+            f"insole needs {100.0 * EVEN_SHARE:g} %, as it spreads no load over them: use smaller ones, or a sheet"
+        )
     if share < EVEN_SHARE:
         what, way = ("cells with a fine rim", "") if fine else ("whole cells", "a fine rim (--rim fine) or ")
         raise FootError(

@@ -91,11 +91,20 @@ def apparent_modulus(hardness: float, area: float, perimeter: float, thickness: 
 
 
 def _taxel_stiffness(plan: ShoePlan, p: ShoeParameters) -> float:
-    """Pressure over compression of taxel and pad in series, of a median cell, in N/mm^3."""
-    area = float(np.median([c.area for c in plan.cells]))
-    perimeter = float(np.median([c.length for c in plan.cells]))
-    height = p.taxel_protrusion + p.pocket_depth
-    soft = height / apparent_modulus(p.taxel_hardness, area, perimeter, height)
+    """Pressure over compression of taxel and pad in series, of a median cell, in N/mm^3; of films and sheets the body,
+    the pad's land below it and the pad's sheet."""
+    blocks = plan.lands or plan.cells
+    area = float(np.median([c.area for c in blocks]))
+    perimeter = float(np.median([c.length for c in blocks]))
+    height, hardness = p.taxel_protrusion + p.pocket_depth, p.taxel_hardness
+    soft = 0.0
+    if plan.cell is not None:
+        height -= plan.cell.thickness
+        hardness = p.pad_hardness if plan.lands and p.pad_thickness > 0.0 else hardness
+        if plan.cell.stiffness:
+            soft = float(np.median([c.area for c in plan.cells])) / plan.cell.stiffness
+    if height > 0.0:
+        soft += height / apparent_modulus(hardness, area, perimeter, height)
     if p.pad_thickness > 0.0:
         soft += p.pad_thickness / apparent_modulus(p.pad_hardness, area, perimeter, p.pad_thickness)
     return 1.0 / soft

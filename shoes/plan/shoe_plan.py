@@ -15,10 +15,11 @@ from plantar.errors import FootError, LayoutError
 from plantar.layouts.cell_layout import layout_of_cells
 from plantar.layouts.layout import Side, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
+from shoes.cells.cell import Cell
 from shoes.fit.fine_rim import blind_rim
 from shoes.fit.taxels import TaxelFit
 from shoes.foot.foot import Foot
-from shoes.geometry.outline import flush, grown, ring, single_outline, tidy
+from shoes.geometry.outline import GRID, flush, grown, ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
 from shoes.plan.block import moved_edges
 from shoes.plan.heel import Heel, find_heel
@@ -27,6 +28,8 @@ from shoes.units import to_m, to_mm
 __all__ = ["ShoePlan", "mirrored_plan", "plan_face", "plan_shoe"]
 
 _TOUCH = 1e-3  # mm between cells that share an edge
+_PORT_SHARE = 0.6  # of a shared edge or a body: the widest port
+_LAND_PLAY = 0.3  # mm between a sheet's land and its recess
 _PASSABLE = 6.0  # mm of a shared edge: a port in a shorter one is narrow for a cable
 
 
@@ -41,13 +44,16 @@ class ShoePlan:
         cavity: Inside of the rim at its upper edge.
         rim: Outside of the rim.
         cells: Cells of the layout, in the order of its taxels.
-        pockets: Taxel pockets: the cells moved in by half a rib.
+        pockets: Taxel pockets: the cells moved in by half a rib, or the bodies with their play; of a sheet its recess.
         route: Pairs of taxel indices that the cable joins, from the connectors outwards: a tree for each patch.
         connectors: Index of the taxel of each patch at which its cable leaves; the first patch's leads to the heel.
             Empty where there are no ways for a cable.
         heel: Where the cable leaves the shoe.
         layout: The sole layout, in m.
         notes: What was decided.
+        cell: What a cell's body is; None of hexagons of skin.
+        lines: Row and column (n, 2) of a sheet's cells; else None.
+        crossings: Where (n, 2) in mm these cross; else None.
     """
 
     side: Side
@@ -62,6 +68,52 @@ class ShoePlan:
     heel: Heel
     layout: SoleLayout
     notes: tuple[str, ...] = ()
+    cell: Cell | None = None
+    lines: NDArray[np.int64] | None = None
+    crossings: NDArray[np.float64] | None = None
+
+    @property
+    def lands(self) -> tuple[Any, ...]:
+        """What of the pad presses on films, or on a sheet: shapely polygons; none of tiles, which have heads."""
+        if self.cell is None or self.cell.kind == "tile":
+            return ()
+        if self.cell.kind == "film":
+            return self.cells
+        import shapely
+
+        # Only below cells: what presses beside them would not be felt.
+        land = shapely.union_all(self.cells, grid_size=GRID).intersection(self.pockets[0].buffer(-_LAND_PLAY))
+        parts = shapely.get_parts(shapely.set_precision(land, GRID))
+        return tuple(shapely.geometry.polygon.orient(q) for q in parts if q.geom_type == "Polygon")
+
+    def port(self, i: int, j: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Where the cable passes from a cell to another.
+
+        Args:
+            i: Index of a taxel.
+            j: Index of one to which a cable leads.
+
+        Returns:
+            Ends (2, 2) of the way through the rib between the two pockets, along which it passes; the unit vector (2,)
+            across it; and the most width in mm that it has there.
+        """
+        if self.cell is None:
+            edge = self.shared_edge(i, j)
+            middle, across = edge.mean(axis=0), edge[1] - edge[0]
+            length = float(np.hypot(*across))
+            across = across / length
+            along = np.array([across[1], -across[0]])
+            return np.stack([middle - along, middle + along]), across, _PORT_SHARE * length
+        import shapely
+
+        ends = to_mm(self.layout.positions[[i, j], :2])
+        line = shapely.LineString(ends)
+        step = (ends[1] - ends[0]) / line.length
+        leaves = max(line.project(shapely.Point(c)) for c in _crossed(self.pockets[i], line))
+        enters = min(line.project(shapely.Point(c)) for c in _crossed(self.pockets[j], line))
+        across = np.array([-step[1], step[0]])
+        body = self.cell.tail_width or min(self.cell.body)
+        return np.stack([ends[0] + leaves * step, ends[0] + enters * step]), across, _PORT_SHARE * body
 
     @property
     def overhang(self) -> float:
@@ -136,6 +188,7 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     cavity = tidy(grown(outline, parameters.clearance))
     rim = tidy(grown(outline, parameters.clearance + parameters.rim_thickness))
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
+    cells = cells if fit.rooms is None else tuple(shapely.Polygon(c) for c in fit.rooms)
     # Corners that cells share are bit-identical, so the union leaks no slivers.
     patch = shapely.union_all(cells)
     walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
@@ -168,19 +221,43 @@ def plan_face(
 
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
     pockets = tuple(_pocket(c, parameters.rib) for c in cells)
-    if any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
+    if fit.pockets is not None:
+        pockets = tuple(shapely.Polygon(p) for p in fit.pockets)
+    elif any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
         raise FootError(
             f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
             "use larger cells or a thinner rib"
         )
     layout = _layout(contact, fit, name)
     heel, note = find_heel(rim, outline, parameters)
-    connectors, route = _route(layout, (heel.x, heel.y))
+    neighbours = _passable(layout) if fit.links is None else _linked(fit.links, len(layout))
+    connectors, route = _route(layout, neighbours, (heel.x, heel.y))
+    if fit.lines is not None:  # one sheet, whose tail leaves where it is nearest to the heel
+        connectors, route = connectors[:1], ()
     if parameters.port_width <= 0.0:
         heel, connectors, route = replace(heel, board=False), (), ()
         note = "no ports, channel or board for a cable (port_width 0): the cells are to be wired by themselves"
     notes = () if note is None else (note,)
-    return ShoePlan("left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes)
+    told = (fit.cell, fit.lines, fit.crossings)
+    return ShoePlan(
+        "left", outline, contact, cavity, rim, cells, pockets, route, connectors, heel, layout, notes, *told
+    )
+
+
+def _crossed(pocket: Any, line: Any) -> NDArray[np.float64]:
+    """Where a line crosses the border of a pocket, (k, 2)."""
+    import shapely
+
+    return np.asarray(shapely.get_coordinates(pocket.exterior.intersection(line)))
+
+
+def _linked(links: Sequence[tuple[int, int]], count: int) -> tuple[tuple[int, ...], ...]:
+    """Indices of the cells that each is linked to."""
+    near: list[list[int]] = [[] for _ in range(count)]
+    for i, j in links:
+        near[i].append(j)
+        near[j].append(i)
+    return tuple(tuple(sorted(n)) for n in near)
 
 
 def _pocket(cell: Any, rib: float) -> Any | None:
@@ -197,10 +274,12 @@ def _pocket(cell: Any, rib: float) -> Any | None:
 def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
     outline = to_m(ring(contact)).round(6)
     shape = "hexagon" if fit.blind_most is None else "mixed"
+    if fit.cell is not None:
+        shape = {"hex": "hexagon", "round": "polygon"}.get(fit.cell.shape, "rectangle")
     try:
         if fit.lattice_cells is not None:
             x, y = fit.lattice.origin
-            return hex_layout(
+            layout = hex_layout(
                 outline,
                 name=name,
                 side="left",
@@ -209,20 +288,27 @@ def _layout(contact: Any, fit: TaxelFit, name: str) -> SoleLayout:
                 angle=fit.lattice.angle,
                 cells=fit.lattice_cells,
             )
-        layout = layout_of_cells(
-            [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape=shape
-        )
-        return replace(layout, cell_area=fit.cell_area * 1e-6)
+        else:
+            layout = layout_of_cells(
+                [to_m(c) for c in fit.cells], name=name, side="left", outline=outline, cell_shape=shape
+            )
+            layout = replace(layout, cell_area=fit.cell_area * 1e-6)
+        if fit.cell is None:
+            return layout
+        ranges = {**layout.ranges, "force": (0.0, fit.cell.rated_load)}
+        thresholds = {**layout.thresholds, "force": fit.cell.threshold}
+        return replace(layout, modalities=("force",), ranges=ranges, thresholds=thresholds)
     except LayoutError as error:
         raise FootError(f"the shoe's outline cannot carry a layout: {error}") from None
 
 
-def _route(layout: SoleLayout, heel: tuple[float, float]) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
+def _route(
+    layout: SoleLayout, neighbours: Sequence[Sequence[int]], heel: tuple[float, float]
+) -> tuple[tuple[int, ...], tuple[tuple[int, int], ...]]:
     """Connector of each connected group of cells, and the tree of fewest hops from it to all of its cells.
 
     The first connector is the cell nearest to the heel; another group's is the cell nearest to the groups before it.
     """
-    neighbours = _passable(layout)
     centres = layout.positions[:, :2]
     start = np.array([to_m(heel[0]), to_m(heel[1])])
     distance = np.hypot(*(centres - start).T)
@@ -301,4 +387,7 @@ def mirrored_plan(plan: ShoePlan) -> ShoePlan:
         plan.heel.mirrored(),
         layout,
         plan.notes,
+        plan.cell,
+        plan.lines,
+        None if plan.crossings is None else plan.crossings * np.array([1.0, -1.0]),
     )

@@ -12,6 +12,7 @@ from shoes.parameters import ShoeParameters
 from shoes.plan.block import Block, Step
 from shoes.plan.heel import LIP, PLAY, POST, holder_depth
 from shoes.plan.shoe_plan import ShoePlan
+from shoes.units import to_mm
 
 __all__ = [
     "cable_outlines",
@@ -74,12 +75,14 @@ def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     parts = []
     width = parameters.port_width
     for i, j in plan.route:
-        edge = plan.shared_edge(i, j)
-        middle, across = edge.mean(axis=0), edge[1] - edge[0]
-        length = math.hypot(*across)
-        across /= length
-        along = np.array([across[1], -across[0]])
-        reach, port = 0.5 * parameters.rib + 1.0, min(width, 0.6 * length)
+        ends, across, most = plan.port(i, j)
+        middle, along = ends.mean(axis=0), ends[1] - ends[0]
+        length = math.hypot(*along)
+        along = along / length
+        reach, port = 0.5 * parameters.rib + 1.0, min(width, most)
+        if plan.cell is not None:  # into the pockets, until a round one is as wide as the port
+            radius = 0.5 * min(plan.cell.body)
+            reach = 0.5 * length + 1.0 + radius - math.sqrt(max(0.0, radius**2 - 0.25 * port**2))
         parts.append(shapely.Polygon([middle + a * reach * along + b * 0.5 * port * across for a, b in _SQUARE]))
     half = 0.5 * parameters.channel_width
     lines = channel_lines(plan, parameters)
@@ -99,6 +102,8 @@ def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np
     if not plan.connectors:
         return []
     pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets]
+    if plan.cell is not None:
+        pockets = list(to_mm(plan.layout.positions[:, :2]))
     heel = plan.heel
     # Straight into the hole behind the wall, or out of the plate where there is none.
     end = heel.point(-0.5 * parameters.board_gap if heel.board else -40.0, 0.0)
@@ -120,7 +125,7 @@ def wire_lines(plan: ShoePlan) -> dict[int, NDArray[np.float64]]:
         Points (3, 2) in mm of each pair of `plan.route`, by the second of the pair.
     """
     centres = [np.array(c.centroid.coords[0]) for c in plan.cells]
-    return {j: np.stack([centres[i], plan.shared_edge(i, j).mean(axis=0), centres[j]]) for i, j in plan.route}
+    return {j: np.stack([centres[i], plan.port(i, j)[0].mean(axis=0), centres[j]]) for i, j in plan.route}
 
 
 def length_of(line: NDArray[np.float64]) -> float:

@@ -14,7 +14,7 @@ from shoes.parameters import ShoeParameters
 from shoes.plan.pad_outline import pad_rim
 from shoes.plan.shoe_plan import ShoePlan
 
-__all__ = ["mould_surface", "pad_surface", "prism_surface", "taxel_surfaces", "volume_of"]
+__all__ = ["land_top", "mould_surface", "pad_surface", "prism_surface", "taxel_surfaces", "volume_of"]
 
 _MOULD_WALL, _MOULD_FLOOR = 6.0, 3.0  # mm around and below the cast pad
 
@@ -58,9 +58,30 @@ def _faces(plan: ShoePlan, p: ShoeParameters, around: float = 0.0) -> tuple[list
     rim, full = pad_rim(plan, p), p.pad_thickness + p.pad_rim_height
     # Borders cut each other where they meet, so that neighbouring faces share their corners.
     whole, pad, raised = plan.contact.buffer(around, join_style="mitre"), plan.contact.buffer(GRID), rim.buffer(GRID)
-    lines = shapely.union_all([plan.contact.boundary, rim.boundary, whole.boundary], grid_size=GRID)
+    lands = [land.buffer(GRID) for land in plan.lands]
+    borders = [shape.boundary for shape in (plan.contact, rim, whole, *plan.lands)]
+    lines = shapely.union_all(borders, grid_size=GRID)
     faces = [f for f in shapely.polygonize([lines]).geoms if whole.buffer(GRID).covers(f)]
-    return faces, [full if raised.covers(f) else p.pad_thickness if pad.covers(f) else 0.0 for f in faces]
+    tops = [full if raised.covers(f) else p.pad_thickness if pad.covers(f) else 0.0 for f in faces]
+    if lands:
+        tree = shapely.STRtree(lands)
+        for k in np.unique(tree.query(faces, predicate="covered_by")[0]).tolist():
+            tops[k] = land_top(plan, p)
+    return faces, tops
+
+
+def land_top(plan: ShoePlan, parameters: ShoeParameters) -> float:
+    """How high the pad's lands are, which press on the films, or on the sheet.
+
+    Args:
+        plan: The sole; of films or a sheet.
+        parameters: Dimensions.
+
+    Returns:
+        Their height above the sole frame in mm.
+    """
+    assert plan.cell is not None
+    return parameters.ceiling - plan.cell.thickness
 
 
 def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
@@ -86,7 +107,8 @@ def _height_field(faces: Sequence[Any], tops: Sequence[float]) -> Array:
 
 
 def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
-    """Surface of each taxel: a head below the print, a base in the pocket; both closed.
+    """Surface of each taxel: a head below the print, a base in the pocket; both closed. Of films and sheets the bodies;
+    lands are of the pad, where there is one.
 
     Args:
         plan: The sole.
@@ -96,12 +118,24 @@ def taxel_surfaces(plan: ShoePlan, parameters: ShoeParameters) -> list[Array]:
         Surfaces (n, 3, 3) in mm, outward counter-clockwise, in the order of the cells.
     """
     p = parameters
+    if plan.lands:
+        low = land_top(plan, p)
+        bodies = [prism_surface(q, low, p.ceiling) for q in plan.pockets]
+        if p.pad_thickness > 0.0:
+            return bodies
+        lands = [prism_surface(q, 0.0, low) for q in plan.lands]
+        return [np.concatenate([b, *own]) for b, own in zip(bodies, _shared_out(lands, len(bodies)), strict=True)]
     bases = [prism_surface(q, p.bottom, p.ceiling) for q in plan.pockets]
     if p.taxel_protrusion <= 0.0:
         return bases
     return [
         np.concatenate([prism_surface(c, p.pad_thickness, p.bottom), b]) for c, b in zip(plan.cells, bases, strict=True)
     ]
+
+
+def _shared_out(lands: list[Array], count: int) -> list[list[Array]]:
+    """A land for each of the bodies, or all of them for a sheet."""
+    return [lands] if count == 1 else [[land] for land in lands]
 
 
 def prism_surface(polygon: Any, low: float, high: float) -> Array:

@@ -107,6 +107,7 @@ class Witness:
         self.layout = json.loads((self.folder / "layout_left.json").read_text())
         self.p = told["parameters"]
         self.told = told["sides"]["left"]
+        self.cell: dict[str, Any] = told.get("cell") or {"kind": "tile"}
         self.bottom = self.p["pad_thickness"] + self.p["taxel_protrusion"]
         self.ceiling = self.bottom + self.p["pocket_depth"]
         self.floor = self.ceiling + self.p["floor"]
@@ -146,8 +147,12 @@ class Witness:
         taxel = np.any([_inside(px, py, c) for c in cells], axis=0)
         face = _inside(px, py, outline)
         area, around = np.median([(_area(c), _length(c)) for c in cells], axis=0)
-        soft = self.p["taxel_protrusion"] + self.p["pocket_depth"]
-        bed = soft / _modulus(self.p["taxel_hardness"], area, around, soft)
+        soft = self.p["taxel_protrusion"] + self.p["pocket_depth"] - self.cell.get("thickness", 0.0)
+        if self.cell["kind"] == "sheet":  # pressed by one land, which is free at its own edge alone
+            recess = np.array([_area(c) for c in cells]).sum()
+            area, around = recess, 2.0 * np.sqrt(np.pi * recess)
+        hardness = self.p["taxel_hardness" if self.cell["kind"] == "tile" else "pad_hardness"]
+        bed = soft / _modulus(hardness, area, around, soft)
         bed += self.p["pad_thickness"] / _modulus(self.p["pad_hardness"], area, around, self.p["pad_thickness"])
         beside = face & ~taxel
         rim = self.p["pad_thickness"] + self.p["taxel_protrusion"] - self.p["pad_relief"]
@@ -268,13 +273,27 @@ class Witness:
                 thin.append(round(float(met[0]), 3))
         return f"thin places: {thin[:4]}" if thin else ""
 
+    def _on_lands(self, points: Array) -> NDArray[np.bool_]:
+        """Which points of the pad are within a cell, or within the outermost of a sheet."""
+        corners = 1e3 * np.array(self.layout["vertices"])[:, :2]
+        near = np.zeros(len(points), dtype=bool)
+        for taxel in self.layout["taxels"]:
+            ring = corners[taxel["corners"]]
+            middle = ring.mean(axis=0)
+            near |= _inside(points[:, 0], points[:, 1], middle + (1.0 + 1e-3) * (ring - middle))
+        return near
+
     def _pad(self) -> str:
         """Under the taxels the pad ends at their heads; beside them it stays below the print by the relief."""
         up, bad = np.array([0.0, 0.0, 1.0]), 0
+        pressed = self.cell["kind"] != "tile"  # by lands of the pad, up to the face of the film or the sheet
+        head = self.ceiling - self.cell["thickness"] if pressed else self.p["pad_thickness"]
         for x, y in self.centres:
             met = hits(np.asarray(self.pad.triangles), np.array([x + 2e-3, y + 1e-3, -1.0]), up)
-            bad += len(met) < 2 or abs(met[-1] - 1.0 - self.p["pad_thickness"]) > 0.01
-        top = float(self.pad.bounds[1, 2])
+            bad += len(met) < 2 or abs(met[-1] - 1.0 - head) > 0.01
+        points = self.pad.vertices
+        lands = self._on_lands(points) if pressed else np.zeros(len(points), dtype=bool)
+        top = float(points[~lands, 2].max())
         if top > self.bottom - min(self.p["pad_relief"], self.p["taxel_protrusion"]) + 0.01:
             return f"its rim reaches {top} mm, the print begins at {self.bottom}"
         return f"{bad} taxels have no sheet below them" if bad else ""

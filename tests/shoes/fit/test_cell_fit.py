@@ -137,7 +137,7 @@ def test_a_pitch_that_leaves_no_rib_is_refused() -> None:
         fit_cells(outline(1), near, rib=RIB)
 
 
-@pytest.mark.parametrize("seed", (0, 3))
+@pytest.mark.parametrize("seed", [0, 3])
 def test_a_sheet_has_the_crossings_that_lie_inside_and_is_cut_there(seed: int) -> None:
     sole, cell = outline(seed, notched=seed > 1), read_cell("sheet")
     fit = fit_cells(sole, cell, rib=RIB)
