@@ -34,6 +34,10 @@ QUICK = {
         holds=lambda cut, whole, oblong: whole < cut < oblong < 100,
     ),
     "sole_insole": Example(r"7 sensors carry (\d+) N", holds=lambda load: load == 650),
+    "sole_other_cells": Example(
+        r"square: (\d+) .* carry (\S+) N.*fsr_402: (\d+) .* carry (\S+) N.*sheet: (\d+) .* carry (\S+) N",
+        holds=lambda few, a, films, b, many, c: few < films < many and min(a, b, c) > 245.0,
+    ),
     "sole_curved": Example(
         r"flat: .* force \+(\S+) N forward.*rocker: heel and toe (\d+) mm up, force \+(\S+) N",
         holds=lambda flat, lift, rocker: flat == 0 and lift > 15 and rocker > 30,

@@ -72,14 +72,14 @@ class Cell:
     length: float = mm(0.0, 4.0, 120.0, "body of a rectangle, along the rows")
     width: float = mm(0.0, 4.0, 120.0, "body of a rectangle, across the rows")
     active: float = mm(
-        0.0, 2.0, 120.0, "area that feels, measured as size; left out: up to the next cell, or a round body"
+        0.0, 2.0, 120.0, "part that feels, measured as size; left out: up to the next cell, or all of a round body"
     )
     active_length: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
     active_width: float = mm(0.0, 2.0, 120.0, "of a rectangle, as active")
     pitch_x: float = mm(0.0, 2.0, 200.0, "from centre to centre within a row; left out: as near as the ribs allow")
     pitch_y: float = mm(0.0, 2.0, 200.0, "from row to row; left out: as near as the ribs allow")
     lattice: str = choice(
-        "auto", ("auto", "square", "hex"), "rows beside each other or shifted by half; auto: hex if round"
+        "auto", ("auto", "square", "hex"), "hex: every other row is shifted by half; auto: of round ones"
     )
     thickness: float = mm(0.0, 0.1, 15.0, "of the body; left out: rubber as high as protrusion and pocket")
     stiffness: float = number(0.0, 1.0, 1e7, "N/mm", "of the body below its active area; left out: it does not yield")
@@ -88,7 +88,7 @@ class Cell:
     play: float = mm(0.2, 0.0, 2.0, "gap between the body and its pocket")
     leads: float = number(0.0, 0.0, 40.0, "leads", "each cell's own to the heel; 0: a cable from cell to cell")
     lead_diameter: float = mm(0.6, 0.1, 3.0, "of a lead with its insulation")
-    tail_length: float = mm(0.0, 1.0, 120.0, "straight tail beyond the body, along the rows towards the heel")
+    tail_length: float = mm(0.0, 1.0, 120.0, "straight tail beyond the body, along the rows")
     tail_width: float = mm(0.0, 1.0, 60.0, "of the tail")
     line_width: float = mm(0.0, 0.2, 50.0, "electrodes of a sheet")
     edge: float = mm(1.0, 0.0, 20.0, "sheet beyond its outermost electrodes")
