@@ -72,6 +72,8 @@ class SolePressure:
         self.rubber = rubber
         self._cells = np.array([shapely.Polygon(layout.cell_polygon(i)) for i in range(len(layout))])
         self._area = shapely.area(self._cells)
+        # Cells that do not touch each other, such as round ones, cover a part of what lies between them only.
+        self._hull = None if any(layout.neighbours) else shapely.MultiPoint(layout.vertices[:, :2]).convex_hull
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         gains = np.ones(len(layout)) if self._gain is None else self._gain
@@ -126,7 +128,12 @@ class SolePressure:
         polygon = patch_polygon(points, self.rubber)
         measure = self._cutter.cut(half_planes_of(polygon))[0]
         area = measure[:, 0]
-        if area.sum() > 0.5 * polygon_area(polygon):
+        if self._hull is None:
+            full = polygon_area(polygon)
+        else:
+            within = shapely.Polygon(polygon).intersection(self._hull).area
+            full = within * float(self._area.sum()) / self._hull.area
+        if area.sum() > 0.5 * full:
             cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
             area = area[cells]
             points = measure[cells, 1:] / area[:, None]

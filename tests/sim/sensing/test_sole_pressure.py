@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar import InputError, LayoutError, SoleLayout, center_of_pressure, hex_layout
+from plantar import InputError, LayoutError, SoleLayout, center_of_pressure, hex_layout, layout_of_cells
 from plantar.geometry.polygon import convex_hull, inner_offset, signed_margin
 from sim.sensing.sole_pressure import SolePressure
 from sim.sensing.sole_pressure import _pseudo_inverse as pseudo_inverse
@@ -187,3 +189,17 @@ def test_pseudo_inverse_is_numpy_s() -> None:
         stiffness = (rng.dirichlet(np.ones(len(u))) * u.T) @ u
         theirs = np.linalg.pinv(stiffness, rcond=1e-9, hermitian=True)
         assert pseudo_inverse(stiffness, 1e-9) == pytest.approx(theirs, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("pitch", [0.02, 0.03, 0.045])
+def test_cells_with_gaps_between_them_keep_the_load_where_it_acts(pitch: float) -> None:
+    turn = np.arange(24) * math.pi / 12.0
+    circle = 6.4e-3 * np.column_stack([np.cos(turn), np.sin(turn)])
+    places = [(x, y) for x in np.arange(-0.09, 0.0901, pitch) for y in np.arange(-0.04, 0.0401, pitch)]
+    box = [(-0.11, -0.06), (0.11, -0.06), (0.11, 0.06), (-0.11, 0.06)]
+    films = layout_of_cells([circle + p for p in places], outline=np.array(box))
+    middle = np.mean(places, axis=0)
+    for cop in middle + np.array([[0.0, 0.0], [0.02, 0.006], [-0.015, -0.007]]):
+        force = SolePressure(films).spread(box, 300.0, tuple(cop))
+        assert force.sum() == pytest.approx(300.0)
+        np.testing.assert_allclose(force @ films.positions[:, :2] / 300.0, cop, atol=1e-6)
