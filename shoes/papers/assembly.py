@@ -180,6 +180,13 @@ def _taxels(shoe: Shoe, build: ShoeBuild, views: _Views) -> str:
     begin = (
         f" Begin at id {int(shoe.layout.ids[plan.connectors[0]])}, the nearest to the heel." if plan.connectors else ""
     )
+    if plan.lands:  # films or a sheet, which the pad presses on
+        what = "One sheet" if plan.lines is not None else f"{count} films{groups}"
+        text = [
+            f"{what} for each foot, to be glued to the ceilings of the pockets, {p.pocket_depth:g} deep, the face that "
+            f"feels down; the pad's lands press there. The ids are on <code>drawing_{shoe.side}.png</code>.{begin}",
+        ]
+        return _step(text, views.of_cells(), f"From below: {what.lower()} before the pockets")
     return _step(
         [
             f"{count} taxels{groups} for each foot{kinds}. A head stands out by {p.taxel_protrusion:g}, a base goes "
@@ -333,7 +340,7 @@ class _Views:
         taxels = taxel_surfaces(shoe.plan, p)
         self.taxels: Bodies = [(t, _TAXELS[i % len(_TAXELS)]) for i, t in enumerate(taxels)]
         self.pad = pad_surface(shoe.plan, p) if p.pad_thickness > 0.0 else None
-        self.first = shoe.plan.connectors[0] if shoe.plan.connectors else 0
+        self.first = shoe.plan.connectors[0] if shoe.plan.connectors and shoe.plan.lines is None else 0
         self.apart = np.array([0.0, 0.0, 0.15 * float(np.ptp(shoe.surface[..., 1])) + p.bottom])
 
     def _shown(self, bodies: Bodies, view: Mapping[str, float]) -> bytes:
