@@ -33,32 +33,32 @@ def build_insole(
 ) -> ShoeBuild:
     """Fit taxels to the outline of a foot and build a flat insole around them.
 
-        Args:
-            foot: The left foot: of a scan, of a last, or of an outline.
-            thickness: From the ground's face of the pad to the face below the foot, in mm.
-            side: "left", "right" or "both"; the right insole mirrors the left.
-            cell_area: Area of a taxel in mm^2.
-            rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
-            cell: Other cells than hexagons of skin, as in `build_shoe`; then `rim` and `cell_area` are not read.
-            parameters: Dimensions; None takes the defaults.
-            name: Name of the layout; None takes the foot's.
-            layout_only: Leave the solid out, and with it cadquery.
-            progress: Receives fraction and text.
+    Args:
+        foot: The left foot: of a scan, of a last, or of an outline.
+        thickness: From the ground's face of the pad to the face below the foot, in mm.
+        side: "left", "right" or "both"; the right insole mirrors the left.
+        cell_area: Area of a taxel in mm^2.
+        rim: "fine" follows the edge with smaller cells, "whole" takes whole ones alone.
+        cell: Other cells than hexagons of skin, as in `build_shoe`; then `rim` and `cell_area` are not read.
+        parameters: Dimensions; None takes the defaults.
+        name: Name of the layout; None takes the foot's.
+        layout_only: Leave the solid out, and with it cadquery.
+        progress: Receives fraction and text.
 
-        Returns:
-            The insoles with their layouts and solids.
+    Returns:
+        The insoles with their layouts and solids.
 
-        Raises:
-            InputError: If an argument is out of its range.
-            FootError: If the foot cannot carry the taxels.
+    Raises:
+        InputError: If an argument is out of its range.
+        FootError: If the foot cannot carry the taxels.
 
-        Example:
-            >>> from shoes.cells.cell import Cell
-    from shoes.foot.foot import foot_from_dimensions
-            >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
-            >>> build = build_insole(foot, 6.0, layout_only=True)
-            >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
-            ('insole', 6.0, 0.94)
+    Example:
+        >>> from shoes.cells.cell import Cell
+        >>> from shoes.foot.foot import foot_from_dimensions
+        >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
+        >>> build = build_insole(foot, 6.0, layout_only=True)
+        >>> build.kind, build.parameters.thickness, round(build.fit.covered_area_ratio, 2)
+        ('insole', 6.0, 0.94)
     """
     sides = sides_of(side, rim)
     tell = progress or (lambda fraction, text: None)

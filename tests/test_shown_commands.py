@@ -21,6 +21,7 @@ import cli
 from plantar.errors import PlantarError
 from plantar.formats import read_recording
 from shoes import ShoeParameters
+from shoes.cells.cell_file import read_cell
 from sim.companion.machine import load_machine
 from sim.robots import load_robot
 from sim.run.listing import listed
@@ -109,10 +110,16 @@ def _takes(scene: str, setting: str) -> bool:
     return True
 
 
+def is_cell(block: str) -> bool:
+    """Whether a page shows the body of a sensor cell."""
+    return re.search(r"^shape = ", block, re.MULTILINE) is not None
+
+
 SCENES = [
     pytest.param(block, id=f"{page.stem}-{number}")
     for page in PAGES
     for number, block in enumerate(b for b in blocks(page.read_text("utf-8"), "toml") if "[model]" not in b)
+    if not is_cell(block)
 ]
 
 
@@ -122,6 +129,14 @@ def test_a_scene_that_is_shown_opens(block: str, tmp_path: Path) -> None:
     whole = block if re.search(r"^name =", block, re.MULTILINE) else f'robot = "h1"\n[terrain]\nkind = "flat"\n{block}'
     (tmp_path / "shown.toml").write_text(whole)
     open_scene(tmp_path / "shown.toml")
+
+
+def test_a_cell_that_is_shown_is_read(tmp_path: Path) -> None:
+    shown = [b for page in PAGES for b in blocks(page.read_text("utf-8"), "toml") if is_cell(b)]
+    assert shown
+    for block in shown:
+        (tmp_path / "my_cell.toml").write_text(block)
+        assert read_cell(str(tmp_path / "my_cell.toml")).about
 
 
 def shown_model(page: str) -> str:

@@ -25,6 +25,7 @@ __all__ = [
 ]
 
 _SLIVER = 0.02  # mm^2
+_BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
 
@@ -43,19 +44,19 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
-    joined = shapely.set_precision(shapely.union_all([openings, *_slivers(openings, cable, parameters)]), 1e-4)
+    ways, wall = shapely.union_all(cable), parameters.wall_min
+    # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
+    for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
+        openings = shapely.union_all([openings, *_slivers(openings, ways.buffer(near), thin, least)])
+    joined = shapely.set_precision(openings, 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
 
 
-def _slivers(openings: Any, cable: list[Any], parameters: ShoeParameters) -> list[Any]:
-    """What would be left of ribs beside the cable too thin to print: a wedge, cut off square."""
-    import shapely
-
-    half = 0.55 * parameters.wall_min
-    closed = openings.buffer(half, join_style="mitre").buffer(-half, quad_segs=1)
-    near = shapely.union_all(cable).buffer(parameters.wall_min)
-    thin = closed.difference(openings.buffer(1e-4)).intersection(near)
-    return [g.buffer(2e-3, join_style="mitre") for g in getattr(thin, "geoms", [thin]) if g.area > _SLIVER]
+def _slivers(openings: Any, near: Any, thin: float, least: float) -> list[Any]:
+    """What would be left of ribs near the cable thinner than `thin` in mm, where it is larger than `least` in mm^2."""
+    closed = openings.buffer(0.5 * thin, join_style="mitre").buffer(-0.5 * thin, quad_segs=1)
+    left = closed.difference(openings.buffer(1e-4)).intersection(near)
+    return [g.buffer(2e-3, join_style="mitre") for g in getattr(left, "geoms", [left]) if g.area > least]
 
 
 def cable_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:

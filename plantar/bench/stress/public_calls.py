@@ -50,6 +50,7 @@ INNER: frozenset[str] = frozenset(
         # Called some hundred times a control tick with arrays that the library made; they take float64 of their shape.
         *(f"rotation.{name}" for name in ("heading", "orthonormalised", "rotation_error", "rotation_from_vector")),
         *(f"rotation.{name}" for name in ("sine_vector", "vector_from_rotation")),
+        "reading.Reading.taken_over",
         *("wrench.wrench_in_frame", "wrench.Wrench.of", "contact.Contact", "contact.Contact.wrench_in_world"),
         *("link_skin.LinkWrench", "link_skin.SkinReading", "link_skin.link_wrenches", "net_wrench.NetWrench"),
         *("within_limits.Box", "within_limits.Box.of", "within_limits.nearest_within"),

@@ -1,0 +1,69 @@
+"""Shoes of other cells than hexagons: built, written, and judged by the witness; and as the command makes them."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cli
+from plantar.layouts.layout_file import read_layout
+from shoes import ShoeParameters, build_shoe, export_shoe
+from shoes.cells.cell_file import read_cell
+from shoes.foot.foot import Foot
+
+from .foot_family import prism
+from .shoe_witness import Witness
+
+Shape = Callable[..., np.ndarray]
+OWN = """shape = "rectangle"
+length = 26.0
+width = 14.0
+active_length = 20.0
+active_width = 9.0
+thickness = 0.8
+"""
+
+
+@pytest.mark.parametrize(
+    "name", ["own", *(pytest.param(n, marks=pytest.mark.long) for n in ("square", "fsr_402", "sheet"))]
+)
+def test_the_witness_finds_nothing_wrong(name: str, small_foot: Foot, tmp_path: Path) -> None:
+    (tmp_path / "own.toml").write_text(OWN)
+    cell = read_cell(str(tmp_path / "own.toml") if name == "own" else name)
+    folder = tmp_path / "shoe"
+    folder.mkdir()
+    build = build_shoe(small_foot, side="left", cell=cell, parameters=ShoeParameters(robot_mass=4.0))
+    report = export_shoe(build, folder)
+    assert report.holds
+    foot = prism(np.array(small_foot.sole.exterior.coords)[:-1], 0.0, 40.0)
+    assert Witness(folder, foot).problems() == []
+    layout = read_layout(folder / "layout_left.json")
+    with (folder / "wiring.csv").open(newline="") as file:
+        assert len(list(csv.DictReader(file))) == len(layout)
+
+
+def test_the_command_writes_a_layout_of_the_stated_cell(
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+    stl: Callable[..., Path],
+    box: Shape,
+    tmp_path: Path,
+) -> None:
+    own, out = tmp_path / "own.toml", tmp_path / "shoe"
+    own.write_text(OWN)
+    foot = stl(box((-40, 90), (-35, 35), (0, 50)))
+    words = ["plantar", "shoe", str(foot), "--cell", str(own), "--layout-only", "--json", "-o", str(out)]
+    monkeypatch.setattr(sys, "argv", words)
+    with pytest.raises(SystemExit) as stop:
+        cli.main()
+    assert stop.value.code in (0, None)
+    figures = json.loads(capfd.readouterr().out)
+    layout = read_layout(out / "layout_left.json")
+    assert figures["taxels"] == len(layout) > 10
+    np.testing.assert_allclose(layout.areas, 20e-3 * 9e-3, rtol=1e-6)
