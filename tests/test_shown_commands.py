@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shlex
@@ -183,6 +184,11 @@ def desk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     drawing = new(units=6)  # m
     drawing.modelspace().add_lwpolyline([(-0.1, -0.04), (0.12, -0.04), (0.12, 0.04), (-0.1, 0.04)], close=True)
     drawing.saveas(folder / "sole.dxf")
+    points = [(130 + 125 * math.cos(k / 30 * math.pi), 60 + 45 * math.sin(k / 30 * math.pi)) for k in range(60)]
+    ring = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+    size = 'width="260mm" height="120mm" viewBox="0 0 260 120"'
+    svg = f'<svg xmlns="http://www.w3.org/2000/svg" {size}><polygon points="{ring}"/></svg>'
+    (folder / "my_outline.svg").write_text(svg)
     subprocess.run([sys.executable, ROOT / "examples" / "insole_walk.py", folder / "walk.asc"], check=True)
     write_study(folder)
     return folder

@@ -73,7 +73,7 @@ def test_the_runs_do_not_depend_on_how_many_workers_there_are_nor_on_which_ends_
     [
         (0.02, 0.0, 20),
         pytest.param(0.02, 0.03, 200, marks=pytest.mark.long),
-        pytest.param(0.1, 0.0, 200, marks=pytest.mark.long),
+        pytest.param(0.1, 0.0, 20, marks=pytest.mark.long),
     ],
 )
 def test_95_of_100_searches_hold_the_limit_though_they_end_when_they_are_sure(
