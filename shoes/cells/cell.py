@@ -146,6 +146,11 @@ class Cell:
                 )
 
     @property
+    def label(self) -> str:
+        """What messages and lists call it: its name, or its shape where it has none."""
+        return self.name or self.shape
+
+    @property
     def kind(self) -> Kind:
         """How it is pressed."""
         if self.shape == "sheet":

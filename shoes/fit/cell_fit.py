@@ -97,7 +97,7 @@ def fit_cells(
 
 
 def _note(cell: Cell, pattern: CellPattern) -> str:
-    name, what = cell.name or cell.shape, {"tile": "tiles", "film": "films below lands of the pad"}[cell.kind]
+    name, what = cell.label, {"tile": "tiles", "film": "films below lands of the pad"}[cell.kind]
     return f"cell {name}: {what}, {pattern.width:.2f} mm apart in a row, rows {pattern.rise:.2f} mm apart"
 
 
@@ -152,7 +152,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     most = (high_x - low_x) / cell.pitch_x + (high_y - low_y) / cell.pitch_y
     if most > LINES_MOST + 2:
         raise FootError(
-            f"cell {cell.name or cell.shape}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
+            f"cell {cell.label}: a sheet of {most:.0f} rows and columns; allowed: {LINES_MOST} together, "
             "with a larger pitch_x and pitch_y"
         )
     best: tuple[tuple[float, ...], Array] | None = None
@@ -190,7 +190,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     rows, columns = (len(set(k)) for k in np.array(kept_lines).T.tolist())
     share = cell.line_width**2 / (cell.pitch_x * cell.pitch_y)
     note = (
-        f"cell {cell.name or cell.shape}: one sheet of {rows} rows and {columns} columns, {len(found)} crossings; "
+        f"cell {cell.label}: one sheet of {rows} rows and {columns} columns, {len(found)} crossings; "
         f"the electrodes cover {100 * share:.0f} % of a cell and stand for all of it"
     )
     recess = sheet.buffer(cell.play, join_style="mitre")

@@ -234,7 +234,7 @@ def _pitch(cell: Cell, axis: str, least: float, rib: float) -> float:
     stated: float = getattr(cell, f"pitch_{axis}", 0.0)
     if stated and stated < least - 1e-6:
         raise FootError(
-            f"cell {cell.name or cell.shape}: pitch_{axis} is {stated:g} mm; allowed: {math.ceil(100 * least) / 100:g} "
+            f"cell {cell.label}: pitch_{axis} is {stated:g} mm; allowed: {math.ceil(100 * least) / 100:g} "
             f"mm or more, which leaves a rib of {rib:g} mm between the pockets"
         )
     return float(stated or least)

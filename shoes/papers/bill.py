@@ -79,11 +79,11 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     elif plan.lines is not None:
         rows, columns = (len(np.unique(plan.lines[:, k])) for k in (0, 1))
         note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
-        parts.append(Part(f"sheet {cell.name}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
+        parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
     else:
         across = " x ".join(f"{v:g}" for v in dict.fromkeys(np.round(cell.body, 2).tolist()))
         size = f"{across} mm" + (f" x {cell.thickness:g} mm" if cell.thickness else "")
-        parts.append(Part(f"cell {cell.name or cell.shape}", len(shoe.layout), cell.shape, size, weights.skin, note))
+        parts.append(Part(f"cell {cell.label}", len(shoe.layout), cell.shape, size, weights.skin, note))
     if plan.heel.board:
         size = f"{p.board_length:g} x {BOARD_UP:g} x {p.board_thickness:g} mm"
         parts.append(Part("connection board", 1, "FR4", size, weights.board, "slides into the rails behind the heel"))

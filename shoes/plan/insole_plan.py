@@ -128,7 +128,7 @@ def fit_insole(
     share = even_share(fit.cells, foot.sole)
     if share < EVEN_SHARE and cell is not None:
         raise FootError(
-            f"{foot.name}: cells {cell.name or cell.shape} cover {100.0 * share:.0f} % of the foot's outline; an "
+            f"{foot.name}: cells {cell.label} cover {100.0 * share:.0f} % of the foot's outline; an "
             f"insole needs {100.0 * EVEN_SHARE:g} %, as it spreads no load over them: use smaller ones, or a sheet"
         )
     if share < EVEN_SHARE:
