@@ -166,7 +166,7 @@ def build_shoe(
     if rim == "fine" and taxels is not None:
         raise InputError("a fine rim takes as many taxels as it needs; leave their number out, or take rim whole")
     tell = progress or (lambda fraction, text: None)
-    p, of_cell = cell_parameters(cell, parameters or ShoeParameters()) if cell else (parameters or ShoeParameters(), ())
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     if not 0.0 <= overhang <= p.overhang_max:
         raise InputError(
             f"overhang of the taxels is {overhang:g} mm; allowed: 0 to {p.overhang_max:g} mm (overhang_max)"

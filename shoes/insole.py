@@ -53,7 +53,6 @@ def build_insole(
         FootError: If the foot cannot carry the taxels.
 
     Example:
-        >>> from shoes.cells.cell import Cell
         >>> from shoes.foot.foot import foot_from_dimensions
         >>> foot = foot_from_dimensions("a", length=0.26, width=0.095, corner_radius=0.03)
         >>> build = build_insole(foot, 6.0, layout_only=True)
@@ -62,7 +61,7 @@ def build_insole(
     """
     sides = sides_of(side, rim)
     tell = progress or (lambda fraction, text: None)
-    p, of_cell = cell_parameters(cell, parameters or ShoeParameters()) if cell else (parameters or ShoeParameters(), ())
+    p, of_cell = cell_parameters(cell, parameters or ShoeParameters())
     p, notes = insole_parameters(foot, thickness, p)
     tell(0.0, "fitting the taxels to the sole")
     fit = fit_insole(foot, p, cell_area=cell_area, fine=rim == "fine", cell=cell)

@@ -38,17 +38,19 @@ class LeadRoom:
         return self.needed <= self.room * (1.0 + 1e-9)
 
 
-def cell_parameters(cell: Cell, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
+def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[ShoeParameters, tuple[str, ...]]:
     """Dimensions for a cell: its pocket holds its body, and only tiles have grooves in their ribs.
 
     Args:
-        cell: The cell.
+        cell: The cell; None of hexagons of skin, which change nothing.
         parameters: Dimensions; a pocket of a depth that was set is deepened, never made flatter.
 
     Returns:
         The dimensions, and a note for what was changed.
     """
     p = parameters
+    if cell is None:
+        return p, ()
     if cell.kind != "tile":
         p = replace(p, scribe=0.0)
     default = ShoeParameters().pocket_depth
@@ -91,7 +93,7 @@ def led_parameters(
     if cell.kind == "sheet":
         width = tail_lines(plan) * cell.tail_pitch + 2.0 * _TAIL_PLAY
         if width > widest:
-            name, most = cell.name or cell.shape, widest - 2.0 * _TAIL_PLAY
+            name, most = cell.label, widest - 2.0 * _TAIL_PLAY
             raise FootError(
                 f"cell {name}: a tail of {tail_lines(plan)} lines is {width - 2.0 * _TAIL_PLAY:g} mm wide; allowed: "
                 f"{most:g} mm, by a smaller tail_pitch or a larger pitch"
