@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from plantar.errors import FootError, InputError
 from shoes.cells.cell import Cell
-from shoes.fit.cell_pattern import CellPattern, Lattice, RowLattice, active_shape, pattern_of, pocket_parts
+from shoes.fit.cell_pattern import CellPattern, Lattice, RowLattice, active_shape, joined, pattern_of, pocket_parts
 from shoes.fit.lattice_fit import fit_lattice
-from shoes.fit.taxels import TaxelFit
-from shoes.geometry.outline import CORNER, grown, tidy
+from shoes.fit.taxels import TaxelFit, covered_area
+from shoes.geometry.outline import CORNER, grown, ring, tidy
 
 __all__ = ["LINES_MOST", "fit_cells"]
 
@@ -74,9 +74,9 @@ def fit_cells(
         reach = fit.overhang
     lattice, axial = fit.lattice, fit.cells
     rooms = tuple(lattice.corners(axial))
-    pockets = _placed(lattice, axial, _pocket(cell))
+    pockets = _placed(lattice, axial, ring(joined(pocket_parts(cell))))
     cells = rooms if cell.kind == "tile" else _placed(lattice, axial, active_shape(cell))
-    covered = _covered(foot, cells)
+    covered = covered_area(foot, cells)
     return TaxelFit(
         cells=cells,
         shares=np.ones(len(cells)),
@@ -101,26 +101,12 @@ def _note(cell: Cell, pattern: CellPattern) -> str:
     return f"cell {name}: {what}, {pattern.width:.2f} mm apart in a row, rows {pattern.rise:.2f} mm apart"
 
 
-def _pocket(cell: Cell) -> Array:
-    """Corners (k, 2) of a pocket about the middle of the body, counter-clockwise."""
-    import shapely
-
-    shape = shapely.union_all([shapely.Polygon(p) for p in pocket_parts(cell)], grid_size=1e-6)
-    return np.asarray(shapely.geometry.polygon.orient(shape.simplify(1e-6)).exterior.coords)[:-1]
-
-
 def _placed(lattice: Lattice, axial: NDArray[np.int64], shape: Array) -> tuple[Array, ...]:
     """A shape (k, 2) about the centre of each cell."""
     if isinstance(lattice, RowLattice):
         return tuple(lattice.shapes(axial, shape))
     c, s = math.cos(lattice.angle), math.sin(lattice.angle)
     return tuple(lattice.centres(axial)[:, None] + shape @ np.array([[c, s], [-s, c]]))
-
-
-def _covered(foot: Any, cells: tuple[Array, ...]) -> float:
-    import shapely
-
-    return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], foot)).sum())
 
 
 def _links(
@@ -181,14 +167,16 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         part = whole if sheet.covers(whole) else shapely.intersection(whole, sheet, grid_size=1e-4)
         part = max(getattr(part, "geoms", [part]), key=lambda g: g.area)
         if part.area >= _LEAST_CELL * whole.area:
-            cells.append(np.asarray(shapely.geometry.polygon.orient(part.simplify(1e-4)).exterior.coords)[:-1])
+            cells.append(ring(shapely.geometry.polygon.orient(part.simplify(1e-4))))
             kept_lines.append(line)
             crossings.append((cx, cy))
     found = tuple(cells)
     areas = np.array([shapely.Polygon(c).area for c in found])
-    covered = _covered(foot, found)
+    covered = covered_area(foot, found)
     rows, columns = (len(set(k)) for k in np.array(kept_lines).T.tolist())
-    share = cell.line_width**2 / (cell.pitch_x * cell.pitch_y)
+    pattern = CellPattern(cell.pitch_x, cell.pitch_y, 0.0, (), math.pi)
+    whole_area = cell.pitch_x * cell.pitch_y
+    share = cell.line_width**2 / whole_area
     note = (
         f"cell {cell.label}: one sheet of {rows} rows and {columns} columns, {len(found)} crossings; "
         f"the electrodes cover {100 * share:.0f} % of a cell and stand for all of it"
@@ -196,9 +184,9 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     recess = sheet.buffer(cell.play, join_style="mitre")
     return TaxelFit(
         cells=found,
-        shares=areas / (cell.pitch_x * cell.pitch_y),
-        lattice=RowLattice(CellPattern(2 * px, 2 * py, 0.0, (), math.pi), (float(at[0, 0]), float(at[0, 1])), 0.0),
-        cell_area=cell.pitch_x * cell.pitch_y,
+        shares=areas / whole_area,
+        lattice=RowLattice(pattern, (float(at[0, 0]), float(at[0, 1])), 0.0),
+        cell_area=whole_area,
         overhang=overhang,
         covered=covered,
         covered_area_ratio=covered / foot.area,
@@ -207,8 +195,8 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
         lattice_cells=None,
         notes=(note,),
         cell=cell,
-        pockets=(np.asarray(tidy(recess).exterior.coords)[:-1],),
-        rooms=(np.asarray(region.exterior.coords)[:-1],),
+        pockets=(ring(tidy(recess)),),
+        rooms=(ring(region),),
         links=(),
         lines=np.array(kept_lines, dtype=np.int64),
         crossings=np.array(crossings),

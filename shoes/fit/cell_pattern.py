@@ -18,8 +18,18 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from plantar.layouts.hex_lattice import HexLattice, hexagon_side
 from shoes.cells.cell import Cell
+from shoes.geometry.outline import ring
 
-__all__ = ["CellPattern", "Lattice", "RowLattice", "active_shape", "hex_pattern", "pattern_of", "pocket_parts"]
+__all__ = [
+    "CellPattern",
+    "Lattice",
+    "RowLattice",
+    "active_shape",
+    "hex_pattern",
+    "joined",
+    "pattern_of",
+    "pocket_parts",
+]
 
 Array = NDArray[np.float64]
 
@@ -94,10 +104,7 @@ class CellPattern:
     @cached_property
     def room(self) -> Any:
         """The room of a cell about its centre, a shapely polygon."""
-        import shapely
-
-        shape = shapely.union_all([shapely.Polygon(p) for p in self.parts], grid_size=1e-6)
-        return shapely.geometry.polygon.orient(shape.simplify(1e-6))
+        return joined(self.parts)
 
     @property
     def reach(self) -> float:
@@ -141,7 +148,7 @@ class RowLattice:
 
     def corners(self, axial: Any) -> Array:
         """Corners (n, k, 2) of the room that cells take, in mm."""
-        return self.shapes(axial, np.asarray(self.pattern.room.exterior.coords)[:-1])
+        return self.shapes(axial, ring(self.pattern.room))
 
     def shapes(self, axial: Any, shape: Array) -> Array:
         """A shape about the centre of each cell.
@@ -290,6 +297,14 @@ def pocket_parts(cell: Cell, around: float = 0.0) -> tuple[Array, ...]:
     half = 0.5 * cell.tail_width + gap
     tail = np.array([[-0.5 * along - cell.tail_length - gap, -half], [0.0, -half], [0.0, half]])
     return body, np.concatenate([tail, [[tail[0, 0], half]]])
+
+
+def joined(parts: Sequence[Array]) -> Any:
+    """Convex parts (k, 2) that overlap as one shapely polygon, counter-clockwise and without needless corners."""
+    import shapely
+
+    shape = shapely.union_all([shapely.Polygon(p) for p in parts], grid_size=1e-6)
+    return shapely.geometry.polygon.orient(shape.simplify(1e-6))
 
 
 def active_shape(cell: Cell) -> Array:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from plantar.errors import FootError
 from shoes.fit.cell_pattern import Lattice, hex_pattern
 from shoes.fit.lattice_fit import fit_lattice
-from shoes.fit.taxels import TaxelFit
+from shoes.fit.taxels import TaxelFit, covered_area
 from shoes.fit.trimmed_cell import trimmed_cell
 from shoes.geometry.outline import grown, tidy
 
@@ -222,11 +222,12 @@ def fit_fine_rim(foot: Any, *, cell_area: float, overhang: float, border: float)
     polygons = [shapely.Polygon(c) for c in (*strip, *core)]
     polygons.sort(key=lambda c: (round(c.centroid.x, 3), round(c.centroid.y, 3)))
     areas = shapely.area(polygons)
-    covered = float(shapely.area(shapely.intersection(polygons, foot)).sum())
+    cells = tuple(shapely.get_coordinates(c.exterior)[:-1] for c in polygons)
+    covered = covered_area(foot, cells)
     least = min(shapely.Polygon(c).area for c in strip)
     note = f"fine rim: {len(strip)} cells of {least:.0f} mm^2 or more along the edge, {len(core)} of a lattice inside"
     return TaxelFit(
-        cells=tuple(shapely.get_coordinates(c.exterior)[:-1] for c in polygons),
+        cells=cells,
         shares=areas / cell_area,
         lattice=lattice,
         cell_area=cell_area,

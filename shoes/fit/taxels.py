@@ -18,7 +18,7 @@ from shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from shoes.fit.trimmed_cell import trimmed_cell
 from shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "fit_taxels"]
+__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "covered_area", "fit_taxels"]
 
 LEAST_SHARE = 0.6
 """Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
@@ -147,7 +147,7 @@ def _narrow(border: float) -> str:
 def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: tuple[str, ...]) -> TaxelFit:
     """Whole cells of a lattice."""
     cells = tuple(fit.lattice.corners(fit.cells))
-    covered = _covered(sole, cells)
+    covered = covered_area(sole, cells)
     return TaxelFit(
         cells=cells,
         shares=np.ones(len(cells)),
@@ -163,7 +163,16 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
     )
 
 
-def _covered(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
+def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:
+    """Area in mm^2 of a sole under cells that do not overlap.
+
+    Args:
+        sole: Its outline, a shapely polygon.
+        cells: Corners (k, 2) of each cell.
+
+    Returns:
+        The area.
+    """
     import shapely
 
     return float(shapely.area(shapely.intersection([shapely.Polygon(c) for c in cells], sole)).sum())
@@ -196,7 +205,7 @@ def _cut_fit(sole: Any, cell_area: float, taxels: int, reach: float) -> TaxelFit
     for corners, share in zip(lattice.corners(axial), shares, strict=True):
         whole = shapely.Polygon(corners)
         cells.append(corners if share > 1.0 - 1e-6 else trimmed_cell(whole, region))
-    covered = _covered(sole, cells)
+    covered = covered_area(sole, cells)
     cut = int((shares <= 1.0 - 1e-6).sum())
     bound = bound_whole_cells(region, hex_pattern(cell_area)).bound
     note = (

@@ -18,6 +18,7 @@ from plantar.layouts.layout_file import layout_to_dict
 from shoes.build import Progress, Shoe, ShoeBuild
 from shoes.checks.check import ShoeCheck, check_shoe
 from shoes.checks.weights import Weights
+from shoes.geometry.outline import ring
 from shoes.papers.assembly import assembly_page
 from shoes.papers.bill import Part, bill_of_parts, bill_text
 from shoes.papers.drawing import draw_shoe
@@ -125,7 +126,7 @@ def _layout_text(shoe: Shoe, build: ShoeBuild, weights: Weights | None) -> str:
         "thickness": round(to_m(build.parameters.thickness), 6),
         "overhang": round(to_m(plan.overhang), 6),
         "rim_stiffness": round(build.load_share.rim_stiffness, 4),
-        "foot_outline": to_m(np.array(plan.foot.exterior.coords)[:-1]).round(6).tolist(),
+        "foot_outline": to_m(ring(plan.foot)).round(6).tolist(),
     }
     if weights is not None:
         extra |= {
