@@ -77,7 +77,7 @@ def bill_of_parts(shoe: Shoe, build: ShoeBuild, weights: Weights) -> list[Part]:
     if cell is None:
         parts.append(Part("taxel", len(shoe.layout), "skin", size, weights.skin, note))
     elif plan.lines is not None:
-        rows, columns = (len(np.unique(plan.lines[:, k])) for k in (0, 1))
+        rows, columns = plan.sheet_lines
         note = f"{rows} rows x {columns} columns, tail of {tail_lines(plan)} lines; outline in cells_{side}.dxf"
         parts.append(Part(f"sheet {cell.label}", 1, "sensor sheet", f"{cell.thickness:g} mm thick", weights.skin, note))
     else:

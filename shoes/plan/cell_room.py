@@ -65,8 +65,7 @@ def cell_parameters(cell: Cell | None, parameters: ShoeParameters) -> tuple[Shoe
 
 def tail_lines(plan: ShoePlan) -> int:
     """Lines in the tail of a sheet: one for each row and column, and one more."""
-    assert plan.lines is not None
-    return sum(len(np.unique(plan.lines[:, k])) for k in (0, 1)) + 1
+    return sum(plan.sheet_lines) + 1
 
 
 def led_parameters(

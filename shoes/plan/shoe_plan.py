@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -72,7 +73,7 @@ class ShoePlan:
     lines: NDArray[np.int64] | None = None
     crossings: NDArray[np.float64] | None = None
 
-    @property
+    @cached_property
     def lands(self) -> tuple[Any, ...]:
         """What of the pad presses on films, or on a sheet: shapely polygons; none of tiles, which have heads."""
         if self.cell is None or self.cell.kind == "tile":
@@ -114,6 +115,13 @@ class ShoePlan:
         across = np.array([-step[1], step[0]])
         body = self.cell.tail_width or min(self.cell.body)
         return np.stack([ends[0] + leaves * step, ends[0] + enters * step]), across, _PORT_SHARE * body
+
+    @property
+    def sheet_lines(self) -> tuple[int, int]:
+        """Rows and columns of a sheet that have a cell."""
+        assert self.lines is not None
+        rows, columns = (len(np.unique(self.lines[:, k])) for k in (0, 1))
+        return rows, columns
 
     @property
     def overhang(self) -> float:
@@ -187,10 +195,8 @@ def plan_shoe(foot: Foot, fit: TaxelFit, parameters: ShoeParameters, *, name: st
     outline = foot.passing(parameters.rim_height)
     cavity = tidy(grown(outline, parameters.clearance))
     rim = tidy(grown(outline, parameters.clearance + parameters.rim_thickness))
-    cells = tuple(shapely.Polygon(c) for c in fit.cells)
-    cells = cells if fit.rooms is None else tuple(shapely.Polygon(c) for c in fit.rooms)
     # Corners that cells share are bit-identical, so the union leaks no slivers.
-    patch = shapely.union_all(cells)
+    patch = shapely.union_all([shapely.Polygon(c) for c in (fit.cells if fit.rooms is None else fit.rooms)])
     walls = patch.convex_hull if patch.geom_type == "Polygon" else patch
     shape = rim.union(grown(walls, fit.border))
     contact = flush(single_outline(shape, shape.convex_hull, detail=0.0), rim)
@@ -220,14 +226,15 @@ def plan_face(
     import shapely
 
     cells = tuple(shapely.Polygon(c) for c in fit.cells)
-    pockets = tuple(_pocket(c, parameters.rib) for c in cells)
     if fit.pockets is not None:
         pockets = tuple(shapely.Polygon(p) for p in fit.pockets)
-    elif any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
-        raise FootError(
-            f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
-            "use larger cells or a thinner rib"
-        )
+    else:
+        pockets = tuple(_pocket(c, parameters.rib) for c in cells)
+        if any(p is None or p.area < 0.1 * c.area for p, c in zip(pockets, cells, strict=True)):
+            raise FootError(
+                f"cells of {fit.cell_area:g} mm^2 leave no pocket between ribs of {parameters.rib:g} mm; "
+                "use larger cells or a thinner rib"
+            )
     layout = _layout(contact, fit, name)
     heel, note = find_heel(rim, outline, parameters)
     neighbours = _passable(layout) if fit.links is None else _linked(fit.links, len(layout))

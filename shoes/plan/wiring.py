@@ -102,9 +102,8 @@ def channel_lines(plan: ShoePlan, parameters: ShoeParameters) -> list[NDArray[np
     """
     if not plan.connectors:
         return []
-    pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets]
-    if plan.cell is not None:
-        pockets = list(to_mm(plan.layout.positions[:, :2]))
+    skin = plan.cell is None
+    pockets = [np.array(p.centroid.coords[0]) for p in plan.pockets] if skin else to_mm(plan.layout.positions[:, :2])
     heel = plan.heel
     # Straight into the hole behind the wall, or out of the plate where there is none.
     end = heel.point(-0.5 * parameters.board_gap if heel.board else -40.0, 0.0)
