@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
-import struct
-import zlib
 from pathlib import Path
 
 import numpy as np
@@ -131,16 +130,12 @@ def rendered_png(
     Returns:
         The file's bytes.
     """
+    from matplotlib.image import imsave
+
+    file = io.BytesIO()
     picture = _halved(render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width))
-    pixels = (255.0 * picture).round().astype(np.uint8)
-    rows = np.concatenate([np.zeros((len(pixels), 1), dtype=np.uint8), pixels.reshape(len(pixels), -1)], axis=1)
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", pixels.shape[1], pixels.shape[0], 8, 2, 0, 0, 0)  # 8 bit of red, green and blue
-    chunks = chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b"")
-    return b"\x89PNG\r\n\x1a\n" + chunks
+    imsave(file, picture, format="png")
+    return file.getvalue()
 
 
 def draw_picture(
