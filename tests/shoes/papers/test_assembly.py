@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import csv
 import re
-from html.parser import HTMLParser
 from pathlib import Path
 
 import cv2
@@ -18,31 +17,13 @@ from shoes.solid.pad import prism_surface
 
 from ...gait.analysis.browser import visit
 from ...gait.analysis.test_report_in_browser import READABLE
-
-
-class Balanced(HTMLParser):
-    """Keeps which elements are open, and every address."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.addresses: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.addresses += [v or "" for k, v in attrs if k in ("src", "href", "srcset", "action")]
-        if tag not in ("meta", "link", "br", "img"):
-            self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.open.pop() == tag
+from ...html_text import addresses_of
 
 
 def test_the_page_is_whole_and_asks_nobody(exported: tuple[ShoeReport, Path]) -> None:
     text = (exported[1] / "assembly.html").read_text()
-    parser = Balanced()
-    parser.feed(text)
-    assert parser.open == []
-    assert all(a.startswith(("#", "data:")) for a in parser.addresses)
+    addresses = addresses_of(text)
+    assert all(a.startswith(("#", "data:")) for a in addresses)
     assert "url(" not in text
 
 

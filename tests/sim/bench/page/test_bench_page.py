@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +15,7 @@ from sim.run.scene import load_scene
 
 from ....gait.analysis.browser import visit
 from ....gait.analysis.test_report_in_browser import READABLE
+from ....html_text import addresses_of
 
 
 def kernel(name: str, route: str, median: float, ratio: float, **named: Any) -> dict[str, Any]:
@@ -78,30 +78,10 @@ RESULT: dict[str, Any] = {
 }  # fmt: skip
 
 
-class Balanced(HTMLParser):
-    """Counts what is opened and not closed, and gathers addresses."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.open: list[str] = []
-        self.addresses: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.addresses += [v or "" for k, v in attrs if k in ("src", "href", "srcset", "action")]
-        if tag not in ("meta", "link", "br", "img", "path", "circle"):
-            self.open.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        if tag not in ("path", "circle"):
-            assert self.open.pop() == tag
-
-
 def test_the_page_is_whole_and_asks_nobody() -> None:
     text = bench_page(RESULT)
-    parser = Balanced()
-    parser.feed(text)
-    assert parser.open == []
-    assert {a for a in parser.addresses if not a.startswith("#")} == {"data:,"}
+    addresses = addresses_of(text)
+    assert {a for a in addresses if not a.startswith("#")} == {"data:,"}
     assert "url(" not in text
     assert "@import" not in text
 
