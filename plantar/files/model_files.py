@@ -114,6 +114,7 @@ def mesh_of_urdf(file: Path, name: str, error: type[PlantarError], where: str) -
     own = folders_of_model(file)
     if not name.startswith(("package:", "model:")):
         return named_file(file.parent / plain, own, error, where)
+    plain = plain.lstrip("/")  # of package:///name/..., which other readers take, too
     parts = Path(plain).parts
     inside = Path(*parts[1:]) if len(parts) > 1 else Path(plain)
     above = tuple(f for f in file.resolve().parents if parts and f.name == parts[0] and _is_a_package(f))

@@ -106,7 +106,13 @@ def test_the_home_folder_is_no_package(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize(
-    "name", ["package://robot/meshes/foot.stl", "model://robot/meshes/foot.stl", "../meshes/foot.stl"]
+    "name",
+    [
+        "package://robot/meshes/foot.stl",
+        "package:///robot/meshes/foot.stl",
+        "model://robot/meshes/foot.stl",
+        "../meshes/foot.stl",
+    ],
 )
 def test_a_mesh_of_a_urdf_is_found(package: Path, name: str) -> None:
     found = mesh_of_urdf(package / "xml" / "robot.urdf", name, RobotError, "robot.urdf")
