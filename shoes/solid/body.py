@@ -24,6 +24,7 @@ LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
 _STEP = 0.3  # mm by which two levels must differ to be two
 _TRIM = 0.8  # mm: bevel of the wall's upper outer edge
 _MARK_MOST = 10  # letters
+_MARK_OFF = 4.0  # mm from walls and from what rises below an arch
 
 
 def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: ShoeParameters) -> tuple[Step, ...]:
@@ -160,31 +161,38 @@ def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
     return tuple(mirrored_step(s) for s in steps)
 
 
-def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side) -> Any:
+def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: Any | None = None) -> Any:
     """Letters of the mark in the floor: L or R, and the name.
 
     Args:
         plan: The sole of that side.
         parameters: Dimensions; `mark_height` 0 leaves the mark out.
+        floor: Where the plate is not covered by what rises below the foot's arch, a shapely polygon; None: everywhere
+            between the walls.
         side: "left" or "right".
 
     Returns:
         A shapely multipolygon, read with the toes to the right, empty without a mark.
     """
     import shapely
+    from shapely.ops import polylabel
 
     name = "".join(c if c.isascii() and (c.isalnum() or c in "-_./") else " " for c in plan.layout.name)
     text = f"{side[0].upper()} {name[:_MARK_MOST]}".strip()
-    room = plan.cavity.buffer(-4.0)
+    between = plan.cavity.buffer(-_MARK_OFF)
+    room = between if floor is None else between.intersection(floor.buffer(-_MARK_OFF))
     if parameters.mark_height <= 0.0 or room.is_empty:
         return shapely.MultiPolygon()
+    widest = max(getattr(room, "geoms", [room]), key=lambda g: g.area)
+    middles = (between.centroid, widest.centroid, polylabel(widest, 1.0))
     for line in (text, text[0]):
         height = parameters.mark_height
         while height >= 4.0:
             letters = lettering(line, height)
-            x, y = room.centroid.x - letters.centroid.x, room.centroid.y - letters.centroid.y
-            placed = shapely.affinity.translate(letters, round(x, 3), round(y, 3))
-            if room.covers(placed):
-                return placed
+            for middle in middles:
+                x, y = middle.x - letters.centroid.x, middle.y - letters.centroid.y
+                placed = shapely.affinity.translate(letters, round(x, 3), round(y, 3))
+                if room.covers(placed):
+                    return placed
             height -= 1.0
     return shapely.MultiPolygon()

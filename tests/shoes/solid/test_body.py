@@ -16,7 +16,7 @@ from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
 from shoes.solid.body import cavity_levels, mark_outline
 
-from ..foot_family import FAMILY, small_turns, turned
+from ..foot_family import FAMILY, prism, small_turns, turned
 
 
 def test_upright_walls_have_one_level(small_foot: Foot) -> None:
@@ -55,6 +55,22 @@ def test_the_mark_says_side_and_name_and_fits(small_foot: Foot) -> None:
     assert mark_outline(plans["left"], replace(p, mark_height=0.0), "left").is_empty
     tight = replace(plans["left"], cavity=shapely.box(0, 0, 9, 9))
     assert mark_outline(tight, p, "left").is_empty
+
+
+def test_the_mark_lies_beside_what_rises_below_an_arch() -> None:
+    sole = np.array(
+        [[-80, -40], [-40, -40], [-38, 22], [55, 26], [60, -48], [190, -48], [190, 60], [60, 60], [-80, 40]]
+    )
+    plate = np.array([[-82, -42], [192, -50], [192, 62], [-82, 44]], dtype=float)
+    surface = np.concatenate([prism(sole.astype(float), 0.0, 9.0), prism(plate, 8.0, 40.0)])
+    foot = foot_from_triangles("arched foot", surface, where="arched")
+    p = ShoeParameters()
+    plan = build_shoe(foot, side="left", layout_only=True).shoes[0].plan
+    floor = cavity_levels(foot, plan, p)[0][2]
+    mark = mark_outline(plan, p, "left", floor)
+    assert not mark.is_empty
+    assert floor.buffer(-3.9).covers(mark)
+    assert not floor.covers(mark_outline(plan, p, "left"))  # the middle lies on what rises
 
 
 def test_levels_lie_on_each_other_or_clearly_apart() -> None:
