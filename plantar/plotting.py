@@ -6,6 +6,7 @@ cheap; matplotlib is loaded by the first figure.
 
 from __future__ import annotations
 
+import io
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,6 +26,7 @@ __all__ = [
     "draw_classes",
     "draw_raster",
     "new_figure",
+    "png_of",
     "save_figure",
     "thinned",
     "ticks_in_mm",
@@ -174,6 +176,22 @@ def draw_raster(axes: Any, picture: NDArray[np.uint8], pixel: float) -> Any:
     """
     height, width = picture.shape[:2]
     return axes.imshow(picture, extent=(0.0, width * pixel, 0.0, height * pixel))
+
+
+def png_of(picture: NDArray[np.float64]) -> bytes:
+    """A picture as the bytes of a PNG, pixel by pixel.
+
+    Args:
+        picture: Red, green and blue (height, width, 3), 0..1.
+
+    Returns:
+        The bytes.
+    """
+    from matplotlib.image import imsave
+
+    file = io.BytesIO()
+    imsave(file, picture, format="png")
+    return file.getvalue()
 
 
 def thinned(

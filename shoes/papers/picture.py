@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import os
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.plotting import new_figure, save_figure
+from plantar.plotting import new_figure, png_of, save_figure
 
 __all__ = ["draw_picture", "render", "rendered_png"]
 
@@ -130,12 +129,7 @@ def rendered_png(
     Returns:
         The file's bytes.
     """
-    from matplotlib.image import imsave
-
-    file = io.BytesIO()
-    picture = _halved(render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width))
-    imsave(file, picture, format="png")
-    return file.getvalue()
+    return png_of(_halved(render(bodies, azimuth=azimuth, elevation=elevation, width=2 * width)))
 
 
 def draw_picture(
