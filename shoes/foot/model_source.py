@@ -25,7 +25,7 @@ from plantar.files.model_files import check_model, folders_of_model, mesh_of_urd
 from plantar.files.xml_file import XML_MOST
 from plantar.optional_library import optional_library
 from shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
-from shoes.foot.urdf_text import urdf_for_mujoco
+from shoes.foot.urdf_text import BELOW, urdf_for_mujoco
 from shoes.geometry.primitives import primitive
 
 __all__ = ["FARTHEST", "BodyPlace", "ModelSource", "read_model_source"]
@@ -112,7 +112,7 @@ class ModelSource:
         return spec
 
     def bodies(self) -> dict[str, BodyPlace]:
-        """All bodies by name.
+        """All bodies of the robot by name.
 
         Raises:
             FootError: If MuJoCo cannot read the file.
@@ -132,7 +132,7 @@ class ModelSource:
         return {
             name: BodyPlace(shaped[name], carries[name], int(depth[i]), float(data.xpos[i, 2]))
             for i, name in names.items()
-            if name in parts
+            if name in parts and name != BELOW
         }
 
     def shapes(self, name: str, most: int) -> tuple[list[Array], list[Array]]:

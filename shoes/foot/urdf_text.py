@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-__all__ = ["urdf_for_mujoco"]
+__all__ = ["BELOW", "urdf_for_mujoco"]
 
 _COMPILER = {"discardvisual": "false", "fusestatic": "false", "strippath": "true"}
-_WORLD, _BELOW = "world", "plantar_world"
+_WORLD = "world"
+
+BELOW = "plantar_world"
+"""Name of the link that is put below the outermost ones: no body of the robot."""
 
 
 def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, str]]:
@@ -40,10 +43,10 @@ def urdf_for_mujoco(root: ElementTree.Element) -> tuple[str | None, dict[str, st
         return None, {}
     if tops != [_WORLD]:
         _rename_world(root)
-        root.insert(0, ElementTree.Element("link", {"name": _BELOW}))
+        root.insert(0, ElementTree.Element("link", {"name": BELOW}))
         for i, top in enumerate(_WORLD + "_link" if t == _WORLD else t for t in tops):
-            joint = ElementTree.SubElement(root, "joint", {"name": f"{_BELOW}_{i}", "type": "fixed"})
-            ElementTree.SubElement(joint, "parent", {"link": _BELOW})
+            joint = ElementTree.SubElement(root, "joint", {"name": f"{BELOW}_{i}", "type": "fixed"})
+            ElementTree.SubElement(joint, "parent", {"link": BELOW})
             ElementTree.SubElement(joint, "child", {"link": top})
     ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _COMPILER)
     return ElementTree.tostring(root, encoding="unicode"), names
