@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.steps.events import MINIMUM_SWING, smoothed
-from gait.analysis.steps.swing_levels import SwingLevels, swing_levels, true_runs
+from gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
+from gait.analysis.steps.swing_levels import SwingLevels, swing_levels
 from plantar.recordings.let_go import blocks_of_frames, let_go, room
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
 

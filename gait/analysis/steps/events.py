@@ -32,6 +32,7 @@ __all__ = [
     "force_levels",
     "run_together",
     "smoothed",
+    "true_runs",
 ]
 
 
@@ -251,16 +252,9 @@ def _contacts_of_span(
     """Contacts in frames without a long gap; `offset` is the number of the first one."""
     found = [
         _contact(time, force, levels, span, offset)
-        for span in _merged(time, force, levels, _spans_above(force, levels.release), minimum_swing)
+        for span in _merged(time, force, levels, true_runs(force >= levels.release), minimum_swing)
     ]
     return [c for c in found if not c.complete or cast(float, c.toe_off) - cast(float, c.heel_strike) >= minimum_stance]
-
-
-def _spans_above(force: NDArray[np.float64], level: float) -> list[tuple[int, int]]:
-    """First frame of each span in which the force is not below a level, and the frame after its last one."""
-    above = np.concatenate([[False], force >= level, [False]])
-    edges = np.flatnonzero(above[1:] != above[:-1])
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def _merged(
@@ -349,3 +343,20 @@ def run_together(force: NDArray[np.float64], rate: float, levels: Levels, contac
     reach = max(1, round(0.5 * _LANDING * rate))
     lands = (share[max(0, i - reach) : i + 1].min() < 0.2 and share[i : i + reach + 2].max() > 0.8 for i in edges)
     return int(sum(lands))
+
+
+def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Runs of true values.
+
+    Args:
+        mask: Any mask (n,).
+
+    Returns:
+        First frame of each run, and the frame after its last one.
+
+    Example:
+        >>> true_runs(np.array([True, False, True, True]))
+        [(0, 1), (2, 4)]
+    """
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import grey_opening, median_filter
 
-from gait.analysis.steps.events import MINIMUM_SWING, smoothed
+from gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
 
-__all__ = ["SwingLevels", "swing_levels", "true_runs"]
+__all__ = ["SwingLevels", "swing_levels"]
 
 _CONTACTS = (1.6, 0.9, 2.6)
 """Longest contacts in s that are tried: a window longer than a contact follows the level under it, one that is much
@@ -190,20 +190,38 @@ def _swings(
     lands = {a for (a, _), (rises, _) in zip(contacts, quick, strict=True) if rises}
     lifts = {b for (_, b), (_, falls) in zip(contacts, quick, strict=True) if falls}
     steps = sum(under[a:b].max() > 0.5 * span for a, b in contacts)
-    most = int(_LONGEST_SWING * rate)
+    most, least = int(_LONGEST_SWING * rate), max(3, round(MINIMUM_SWING * rate))
     found, inner = [], 0
     for a, b in true_runs(near):
         ends = (a == 0 or a in lifts) and (b == n or b in lands) and b - a < n
-        if not ends or b - a < MINIMUM_SWING * rate or (a > 0 and b < n and b - a > most):
+        if not ends or b - a < least or (a > 0 and b < n and b - a > most):
             continue
-        a, b = (max(a, b - most), b) if a == 0 else (a, min(b, a + most)) if b == n else (a, b)
+        at_start, at_end = a == 0, b == n
+        a, b = _level_at_end(course, a, b, span, least)
+        a, b = (max(a, b - most), b) if at_start else (a, min(b, a + most)) if at_end else (a, b)
+        if b - a < least:
+            continue
         edge = (b - a) // 5
         found.append((a + edge, b - edge))
-        inner += a > 0 and b < n
+        inner += not (at_start or at_end)
     levels = np.array([np.median(course[a:b]) for a, b in found])
     kept = [run for run, stands in zip(found, _stand_out(levels, _OUTLIER * span), strict=True) if not stands]
     share = inner / max(1, steps - 1)
     return (kept, share) if inner >= _FEWEST and share >= _OFTEN else ([], 0.0)
+
+
+def _level_at_end(course: NDArray[np.float64], a: int, b: int, span: float, least: int) -> tuple[int, int]:
+    """The frames a to b of a swing, at an end of the recording only as far as they are level beside the contact.
+
+    A contact that the recording cuts is no hump there, so that the opening follows it.
+    """
+    if a > 0 and b < len(course):
+        return a, b
+    beside = float(np.median(course[b - least : b] if a == 0 else course[a : a + least]))
+    off = np.flatnonzero(np.abs(course[a:b] - beside) > _NEAR * span)
+    if not len(off):
+        return a, b
+    return (a + int(off[-1]) + 1, b) if a == 0 else (a, a + int(off[0]))
 
 
 def _stand_out(levels: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
@@ -221,20 +239,3 @@ def _quick_ends(contact: NDArray[np.float64], span: float, rate: float) -> tuple
         return False, False
     longest = max(_QUICK * rate, _QUICK_SHARE * len(contact))
     return bool(half[0] <= longest), bool(len(contact) - 1 - half[-1] <= longest)
-
-
-def true_runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Runs of true values.
-
-    Args:
-        mask: Any mask (n,).
-
-    Returns:
-        First frame of each run, and the frame after its last one.
-
-    Example:
-        >>> true_runs(np.array([True, False, True, True]))
-        [(0, 1), (2, 4)]
-    """
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]])))
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
