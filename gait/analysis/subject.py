@@ -65,9 +65,10 @@ def mass_doubts(subject: Subject, implied: float | None) -> list[str]:
     weight = subject.weight
     if weight is None or implied is None or abs(implied / weight - 1.0) <= _DISAGREE:
         return []
+    lost = ", the sensor's zero (what it reads below zero may be cut off)" if implied < weight else ""
     return [
         f"the forces imply {implied / GRAVITY:.3g} kg, the stated mass is {subject.mass_kg:.3g} kg: check the unit, "
-        "the insole's size and the mass"
+        f"the insole's size{lost} and the mass"
     ]
 
 

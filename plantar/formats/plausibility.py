@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from plantar.recordings.let_go import column_maxima, let_go
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
@@ -23,6 +24,10 @@ _QUICK = 50.0
 """Rate in Hz from which that is so: at 30 Hz a heel strike may pass a cell within one frame."""
 _SEEN = 500_000
 """Readings of cells that are looked at for this, from the beginning on: a minute of 99 cells at 80 Hz, 4 MB."""
+_SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
+"""A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
+which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that tells such a
+sensor from one with an offset."""
 _LONGEST_FOOT = 0.40
 
 
@@ -72,9 +77,9 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
         return []
-    out: list[str] = []
     assert foot.layout is not None
     value = part / foot.layout.areas
+    out = _switched_on(foot.side, value)
     highest = float(value.max())
     full = value >= highest * (1.0 - 1e-9)
     runs = full[_FLAT - 1 :].copy()
@@ -102,3 +107,19 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
             f"{rate * (1.0 - share):.2g} new frames a second, and events are as coarse as that"
         )
     return out
+
+
+def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:
+    """What to say of cells that read nothing below a pressure that matters; values (n, k) in Pa."""
+    seen = value[:, value.max(axis=0) > 0.0]
+    positive = seen[seen > 0.0]
+    if not len(positive) or float((seen == 0.0).mean()) < _ZEROS:
+        return []
+    low, high = (float(v) for v in np.percentile(positive, (_LOW, 98.0)))
+    if low < _SWITCH * high:
+        return []
+    return [
+        f"no cell of the {side} foot reads between 0 and {low / 1e3:.3g} kPa, {100.0 * low / high:.0f} % of its high "
+        "readings: what is lower is not in the file, so that steps seem to begin later and end sooner, and forces and "
+        "areas to be smaller"
+    ]

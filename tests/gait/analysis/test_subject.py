@@ -13,8 +13,10 @@ from typer.testing import CliRunner
 
 from cli import app
 from gait.analysis.analyse import metrics_of
+from gait.analysis.body_weight import implied_weight
 from gait.analysis.pages.report import report_page, summary_text
 from gait.analysis.parameters import analyse_feet
+from gait.analysis.steps.baseline import without_baselines
 from gait.analysis.subject import Subject, device_of, mass_doubts
 from plantar import InputError
 from plantar.formats.nominal_insole import nominal_insole
@@ -42,6 +44,17 @@ def test_a_mass_that_is_not_of_these_forces_is_doubted() -> None:
     assert mass_doubts(Subject(), 700.0) == mass_doubts(Subject(mass_kg=70.0), None) == []
     (doubt,) = mass_doubts(Subject(mass_kg=70.0), 90.0 * 1.1 * GRAVITY)
     assert "the forces imply 99 kg, the stated mass is 70 kg" in doubt
+
+
+def test_an_offset_that_is_cut_off_below_zero_shows_beside_the_mass() -> None:
+    """It looks like a lighter person's walk with shorter steps: nothing but the mass tells."""
+    walk = made_walk(weight=700.0)
+    for cut, told in ((0.0, 0), (3.0, 1)):
+        feet = {side: replace(f, force=np.maximum(f.force - cut, 0.0)) for side, f in walk.recording.feet.items()}
+        recording = without_baselines(replace(walk.recording, feet=feet))
+        assert not any("in swing" in w for w in recording.warnings)
+        doubts = mass_doubts(Subject(mass_kg=700.0 / GRAVITY), implied_weight(recording, analyse_feet(recording)))
+        assert sum("what it reads below zero may be cut off" in d for d in doubts) == told
 
 
 def test_the_head_of_the_report_tells_of_whom_it_is() -> None:

@@ -52,6 +52,21 @@ def test_values_that_stand_alone_are_told() -> None:
     assert "3 value(s) of the left foot stand alone" in doubt
 
 
+@pytest.mark.parametrize(("threshold", "told"), [(15e3, 0), (28e3, 1), (40e3, 1)])
+def test_cells_that_read_nothing_at_low_load_are_told(threshold: float, told: int) -> None:
+    """Usual thresholds of vendors, up to an eighth of the high readings, move events by less than 20 ms."""
+    recording = steps()
+    foot = recording.feet["left"]
+    assert foot.layout is not None
+    force = np.where(foot.force < threshold * foot.layout.areas, 0.0, foot.force)
+    found = [doubt for doubt in doubts(with_force(recording, force)) if "reads between 0 and" in doubt]
+    assert len(found) == told
+    stated = [float(doubt.partition("between 0 and ")[2].split()[0]) * 1e3 for doubt in found]
+    assert stated == pytest.approx([threshold] * told, rel=0.05)
+    offset = with_force(recording, foot.force + 3.0 * threshold * foot.layout.areas)  # reads no zeros: no threshold
+    assert not any("reads between 0 and" in doubt for doubt in doubts(offset))
+
+
 def test_frames_that_repeat_are_told() -> None:
     recording = steps()
     slow = recording.feet["left"].force[np.arange(1000) // 5 * 5]
