@@ -100,12 +100,21 @@ class FittedGait:
         body: How large it is.
         inertia: Inertia about the joints of a leg.
         reach: What level steps of a third of a leg ask of it.
-        notes: What could not be met.
+        notes: What could not be met, and what was assumed.
+        rotors: Rotor inertia in kg m^2 about each joint of a leg that the copy of the model has and the model has not.
     """
 
-    def __init__(self, robot: Robot, body: BodyScale, inertia: JointInertia, reach: PlanReach, notes: list[str]):
+    def __init__(
+        self,
+        robot: Robot,
+        body: BodyScale,
+        inertia: JointInertia,
+        reach: PlanReach,
+        notes: list[str],
+        rotors: Array,
+    ) -> None:
         self.robot, self.body, self.inertia, self.reach = robot, body, inertia, reach
-        self.notes = tuple(notes)
+        self.notes, self.rotors = tuple(notes), rotors
 
 
 def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int = 6) -> Walked:
@@ -125,11 +134,12 @@ def straight_walk(robot: Robot, body: BodyScale, com_height: float, steps: int =
     return Walked(feet, plan, timing, SWING_SHARE * body.leg, com_height)
 
 
-def fit_gait(draft: Robot) -> FittedGait:
+def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
     """Fit a walk's numbers to a robot whose names, soles and limits are known.
 
     Args:
         draft: The robot; its posture, gait and gains are replaced.
+        rotors: Rotor inertia in kg m^2 about each joint of a leg that was assumed; None for none.
 
     Returns:
         The robot with them.
@@ -175,7 +185,14 @@ def fit_gait(draft: Robot) -> FittedGait:
         balance=_balance(body),
     )
     robot = replace(robot, approach_support=_approach_support(robot, legs, body))
-    return FittedGait(robot, body, inertia, reach, notes)
+    assumed = np.zeros(len(draft.legs["left"].joints)) if rotors is None else rotors
+    light = [name for name, value in zip(draft.legs["left"].joints, assumed, strict=True) if value > 0.0]
+    if light:
+        notes.append(
+            f"the model states no rotor inertia, and {', '.join(light)} would be too light for a servo: up to "
+            f"{assumed.max():.2g} kg m^2 is assumed as armature in model.xml, put the motors' there"
+        )
+    return FittedGait(robot, body, inertia, reach, notes, assumed)
 
 
 def _balance(body: BodyScale) -> dict[str, Any]:

@@ -22,10 +22,12 @@ from plantar.layouts.layout_file import read_layout
 from plantar.sides import SIDES
 from sim.robots.robot import LegNames, Robot
 from sim.robots.robot_file import load_robot
+from sim.run.controller_settings import CONTROL_PERIOD
 from sim.survey.fitted_gait import FittedGait, fit_gait
-from sim.survey.model_copy import write_model_copy
+from sim.survey.model_copy import add_rotors, write_model_copy
 from sim.survey.robot_picture import draw_robot
 from sim.survey.robot_text import robot_text
+from sim.survey.servo_gains import rotor_inertia
 from sim.survey.survey import Survey, survey_model
 
 __all__ = ["Introduced", "MakeShoes", "ShoesMade", "introduce"]
@@ -155,7 +157,7 @@ def introduce(
     shoes = make_shoes(name, survey.soles["left"].triangles, folder, survey.mass)
     tell(0.6, "fitting the walk")
     draft = _draft(survey, shoes, folder, name, upright)
-    fitted = fit_gait(draft)
+    fitted = _fitted(draft)
     write_text(folder / "robot.toml", robot_text(survey, fitted, shoes.notes, shoes.mass is not None))
     _copy_licences(path, folder)
     robot = load_robot(folder / "robot.toml")
@@ -163,6 +165,17 @@ def introduce(
     draw_robot(robot, folder / "robot.png")
     files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
     return Introduced(robot, survey, fitted, shoes, tuple(files))
+
+
+def _fitted(draft: Robot) -> FittedGait:
+    """The robot with the numbers of its walk; joints too light for any servo get a rotor in the copy of the model."""
+    fitted = fit_gait(draft)
+    assumed = rotor_inertia(fitted.inertia, fitted.body.mass, fitted.robot.com_height, CONTROL_PERIOD)
+    if draft.model_file is None or not assumed.any():
+        return fitted
+    joints = [(name, float(v)) for s in SIDES for name, v in zip(draft.legs[s].joints, assumed, strict=True)]
+    add_rotors(draft.model_file, {name: value for name, value in joints if value > 0.0})
+    return fit_gait(draft, assumed)
 
 
 def _draft(survey: Survey, shoes: ShoesMade, folder: Path, name: str, upright: str) -> Robot:

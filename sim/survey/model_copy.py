@@ -21,7 +21,7 @@ from plantar.atomic import write_text
 from sim.survey.leg_chains import Legs
 from sim.survey.surface_file import simplified, stl_bytes
 
-__all__ = ["MESH_FOLDER", "UPRIGHT", "write_model_copy"]
+__all__ = ["MESH_FOLDER", "UPRIGHT", "add_rotors", "write_model_copy"]
 
 MESH_FOLDER = "meshes"
 """Folder beside the copy that holds its meshes."""
@@ -61,6 +61,20 @@ def write_model_copy(
         Name of the body that is kept upright.
     """
     return _Copy(model, legs, folder, held).written(name, imu)
+
+
+def add_rotors(file: Path, rotors: Mapping[str, float]) -> None:
+    """Give joints of a copy a rotor inertia.
+
+    Args:
+        file: The copy.
+        rotors: Inertia in kg m^2 by the joint's name.
+    """
+    root = ElementTree.fromstring(file.read_text(encoding="utf-8"))
+    for joint in root.iter("joint"):
+        if joint.get("name") in rotors:
+            joint.set("armature", f"{rotors[joint.get('name', '')]:.9g}")
+    write_text(file, ElementTree.tostring(root, encoding="unicode") + "\n")
 
 
 class _Copy:

@@ -237,7 +237,13 @@ def _servo(survey: Survey, fitted: FittedGait) -> list[str]:
             "what swings or more, with the model's own."
         ),
     ]
-    if not inertia.armature.any():
+    if fitted.rotors.any():
+        lines += _told(
+            f"The model states no rotor inertia (armature). Assumed in model.xml: {_numbers(fitted.rotors, 2)} kg m^2, "
+            f"without which the least stiffness to stand on would swing a joint by more than {SAMPLED:g} rad in that "
+            "time, and it would chatter on the ground. Put there what the motors have, times the gear ratio squared."
+        )
+    elif not inertia.armature.any():
         lines += _told(
             "The model states no rotor inertia (armature): what swings is lighter than the robot's joints are."
         )

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from plantar.gravity import GRAVITY
 from sim.survey.joint_inertia import JointInertia
 
-__all__ = ["LEAST_STIFFNESS", "SAMPLED", "STIFFNESS", "servo_gains"]
+__all__ = ["LEAST_STIFFNESS", "SAMPLED", "STIFFNESS", "rotor_inertia", "servo_gains"]
 
 STIFFNESS = 12.0
 """Stiffness of a joint over m g h, which is the least at which two ankles of half of it each hold the pendulum up."""
@@ -48,6 +48,28 @@ def servo_gains(
     damping = np.maximum(2.0 * np.sqrt(stiffness * inertia.swing), _LEAD * beat * stiffness)
     damping = np.maximum(damping - inertia.damping, 0.02 * damping)
     return _two_digits(stiffness), _two_digits(damping)
+
+
+def rotor_inertia(inertia: JointInertia, mass: float, com_height: float, period: float) -> NDArray[np.float64]:
+    """Rotor inertia to assume where a model states none and a joint would be too light for its servo.
+
+    The least stiffness that holds the robot up swings a bare foot by more than `SAMPLED` in a control period: it
+    chatters on the ground. Real joints carry their motor's rotor, geared up. What is missing up to that phase is
+    assumed: for Unitree's G1, whose URDF states none, 0.0035 and 0.0066 kg m^2 about the ankle, which has 0.007.
+
+    Args:
+        inertia: Inertia about each joint of a leg.
+        mass: Mass of the robot in kg.
+        com_height: Height of its CoM in m.
+        period: Control period in s.
+
+    Returns:
+        Inertia in kg m^2 to add about each joint of a leg, of two digits; 0 where the model states a rotor's, or where
+        none is missing.
+    """
+    least = LEAST_STIFFNESS * mass * GRAVITY * com_height
+    missing = least * (period / SAMPLED) ** 2 - inertia.swing
+    return _two_digits(np.where(inertia.armature > 0.0, 0.0, np.maximum(missing, 0.0)))
 
 
 def _two_digits(values: NDArray[np.float64]) -> NDArray[np.float64]:

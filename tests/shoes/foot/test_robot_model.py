@@ -99,7 +99,7 @@ def test_a_urdf_link_with_what_is_fixed_to_it(tmp_path: Path, box: Shape) -> Non
     found = read_foot_body(path, "l_ankle")
     assert found.side == "left"
     assert bounds(found.triangles) == pytest.approx([-0.045, -0.07, -0.11, 0.045, 0.14, -0.05], abs=1e-5)
-    with pytest.raises(FootError, match="body 'r_ankle' has no geometry; .*: l_ankle, [^\n]*") as told:
+    with pytest.raises(FootError, match=r"body 'r_ankle' has no geometry; .*: l_ankle, ") as told:
         read_foot_body(path, "r_ankle")
     assert "plantar_world" not in str(told.value)
 
