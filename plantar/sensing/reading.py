@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
 from plantar.arrays import numbers, own
@@ -17,7 +17,7 @@ __all__ = ["Reading"]
 _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Reading:
     """What n taxels of one sole measured at one time. Arrays are copied in, and read-only.
 
@@ -43,18 +43,23 @@ class Reading:
     temperature: NDArray[np.float64] | None = None
     acceleration: NDArray[np.float64] | None = None
 
-    def __post_init__(self) -> None:
-        kept = self.__dict__  # past what keeps others from assigning
-        kept["time"] = number(self.time, _TIME, ReadingError, finite=True)
-        force = kept["force"] = own(numbers(self.force, _FORCE, ReadingError))
-        if force.ndim != 1:
-            raise ReadingError(f"{_FORCE} has shape {force.shape}; expected (taxels,)")
-        if self.proximity is not None:
-            kept["proximity"] = _field("proximity", self.proximity, force.shape)
-        if self.temperature is not None:
-            kept["temperature"] = _field("temperature", self.temperature, force.shape)
-        if self.acceleration is not None:
-            kept["acceleration"] = _field("acceleration", self.acceleration, (*force.shape, 3))
+    def __init__(
+        self,
+        time: float,
+        force: ArrayLike,
+        proximity: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+    ) -> None:
+        kept = self.__dict__  # past what keeps others from assigning, which takes a third of the time
+        kept["time"] = number(time, _TIME, ReadingError, finite=True)
+        kept["force"] = values = own(numbers(force, _FORCE, ReadingError))
+        if values.ndim != 1:
+            raise ReadingError(f"{_FORCE} has shape {values.shape}; expected (taxels,)")
+        shape = values.shape
+        kept["proximity"] = None if proximity is None else _field("proximity", proximity, shape)
+        kept["temperature"] = None if temperature is None else _field("temperature", temperature, shape)
+        kept["acceleration"] = None if acceleration is None else _field("acceleration", acceleration, (*shape, 3))
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
