@@ -7,6 +7,7 @@ cdef double _LARGEST
 cdef double _INFINITE
 cdef double _NONE
 cdef double _NOISE
+cdef int _FEW
 
 @cython.locals(
     total=double, k=Py_ssize_t, i=Py_ssize_t, x0=double, y0=double, ax=double, ay=double, bx=double, by=double
@@ -44,16 +45,28 @@ cdef void _place(
     const double[:, :] polygon, const double[:, :] rotation, const double[:] position, double[:, ::1] out
 ) noexcept
 
-@cython.locals(k=Py_ssize_t)
+@cython.final
+cdef class OffsetRoom:
+    cdef double[:, ::1] lines
+    cdef double[:, :, ::1] rings
+    cdef object result_room
+    cdef double[:, ::1] result
+    cdef list copies
+
+    cdef copied(self, Py_ssize_t size)
+
+cdef list _FREE
+
+@cython.locals(few=bint, room=OffsetRoom)
 cpdef inner_offset(const double[:, :] polygon, double distance)
 
 @cython.locals(
     i=Py_ssize_t, size=Py_ssize_t, turn=int, x0=double, y0=double, near=double, corners="double[:, ::1]"
 )
-cpdef offset(const double[:, :] polygon, double distance, double[:, ::1] lines, double[:, :, ::1] rings)
+cpdef Py_ssize_t offset(const double[:, :] polygon, double distance, OffsetRoom room) except -1
 
-@cython.locals(i=Py_ssize_t, ring="double[:, ::1]")
-cdef _shifted(double[:, :, ::1] rings, Py_ssize_t size, double x0, double y0, double near)
+@cython.locals(i=Py_ssize_t, rings="double[:, :, ::1]", result="double[:, ::1]", corners="double[:, ::1]")
+cdef Py_ssize_t _shifted(OffsetRoom room, Py_ssize_t size, double x0, double y0, double near) except -1
 
 @cython.locals(
     k=Py_ssize_t, reach=double, i=Py_ssize_t, j=Py_ssize_t, x=double, y=double, used=Py_ssize_t, ax=double, ay=double,

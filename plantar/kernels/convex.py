@@ -14,6 +14,7 @@ import numpy as np
 from . import clean
 
 __all__ = [
+    "OffsetRoom",
     "area",
     "area_and_centroid",
     "closest_point",
@@ -27,6 +28,7 @@ _LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their
 _INFINITE = float("inf")
 _NONE = float("nan")
 _NOISE = 1e-15  # of a polygon's extent: corners of its inner offset that are nearer to each other are one
+_FEW = 64  # vertices: room for polygons of up to so many is kept
 
 
 def area(polygon):
@@ -213,6 +215,29 @@ def _place(polygon, rotation, position, out):
         out[i, 1] = rotation[1, 0] * x + rotation[1, 1] * y + position[1]
 
 
+class OffsetRoom:
+    """What one inner offset works in at a time.
+
+    Args:
+        corners: Largest number of vertices of a polygon that fits.
+    """
+
+    def __init__(self, corners):
+        room = 2 * corners + 8
+        self.lines = np.zeros((corners, 3))
+        self.rings = np.zeros((3, room, 3))
+        self.result_room = np.zeros((room, 2))
+        self.result = self.result_room
+        self.copies = [self.result_room[:size].copy for size in range(min(room, _FEW))]
+
+    def copied(self, size):
+        """The polygon of `size` vertices that `offset` left in `result`, as an array of its own."""
+        return self.copies[size]() if size < len(self.copies) else self.result_room[:size].copy()
+
+
+_FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no call has borrowed
+
+
 def inner_offset(polygon, distance):
     """Convex polygon of the points that keep a distance from every edge.
 
@@ -221,54 +246,68 @@ def inner_offset(polygon, distance):
     in exact fractions. Every vertex keeps the distance to 1e-15 of the polygon's size.
 
     Args:
-        polygon: Convex polygon (k, 2) in m, either orientation.
+        polygon: Convex polygon (k, 2) in m, either orientation, with 1 vertex or more.
         distance: Distance in m, above 0.
 
     Returns:
         Counter-clockwise polygon (m, 2), clean; where nothing is left, the deepest point (1, 2), the middle where the
         polygon has no area; none (0, 2) where no vertex is finite.
     """
-    k = polygon.shape[0]
-    return offset(polygon, distance, np.empty((k, 3)), np.empty((3, 2 * k + 8, 3)))
+    few = polygon.shape[0] <= _FEW
+    try:
+        room = _FREE.pop() if few else OffsetRoom(polygon.shape[0])
+    except IndexError:
+        room = OffsetRoom(_FEW)
+    found = room.copied(offset(polygon, distance, room))
+    if few:
+        _FREE.append(room)
+    return found
 
 
-def offset(polygon, distance, lines, rings):
-    """`inner_offset` with room to work in.
+def offset(polygon, distance, room):
+    """`inner_offset` into the `result` of a room.
 
     Args:
-        polygon: As in `inner_offset`, with 1 vertex or more; likewise distance.
-        lines: Room (k, 3).
-        rings: Room (3, 2 k + 8, 3).
+        polygon: As in `inner_offset`; likewise distance.
+        room: The `OffsetRoom`.
+
+    Returns:
+        Number of vertices.
     """
     i = clean.anchor(polygon)
     x0, y0 = polygon[i, 0], polygon[i, 1]
     turn = clean.turning(polygon, x0, y0, 0.0)
     if turn != 0:
         near = _NOISE * clean.extent(polygon)
-        size = _inner_offset(polygon, x0, y0, turn < 0, distance, lines, rings)
+        size = _inner_offset(polygon, x0, y0, turn < 0, distance, room.lines, room.rings)
     else:
         ring = clean.clean_ring(polygon, x0, y0, 0.0)
         corners = ring
         near = _NOISE * clean.extent(corners)
         size = corners.shape[0]
         if size > 2:
-            size = _inner_offset(corners, 0.0, 0.0, False, distance, lines, rings)
+            size = _inner_offset(corners, 0.0, 0.0, False, distance, room.lines, room.rings)
         elif size > 0:
-            rings[0, 0, 0] = 0.5 * (corners[0, 0] + corners[size - 1, 0])
-            rings[0, 0, 1] = 0.5 * (corners[0, 1] + corners[size - 1, 1])
+            room.rings[0, 0, 0] = 0.5 * (corners[0, 0] + corners[size - 1, 0])
+            room.rings[0, 0, 1] = 0.5 * (corners[0, 1] + corners[size - 1, 1])
             size = 1
-    return _shifted(rings, size, x0, y0, near)
+    return _shifted(room, size, x0, y0, near)
 
 
-def _shifted(rings, size, x0, y0, near):
+def _shifted(room, size, x0, y0, near):
     """Ring 0, moved back to the polygon's place and clean there: edges that just vanish leave near-duplicates, and
     rounding far from the origin may turn a sliver over."""
-    out = np.empty((size, 2))
-    ring = out
+    rings, result = room.rings, room.result
     for i in range(size):
-        ring[i, 0] = rings[0, i, 0] + x0
-        ring[i, 1] = rings[0, i, 1] + y0
-    return out if size < 2 or clean.turning(ring, 0.0, 0.0, near) > 0 else clean.clean_ring(ring, 0.0, 0.0, near)
+        result[i, 0] = rings[0, i, 0] + x0
+        result[i, 1] = rings[0, i, 1] + y0
+    if size < 2 or clean.turning(result[:size], 0.0, 0.0, near) > 0:
+        return size
+    ring = clean.clean_ring(result[:size], 0.0, 0.0, near)
+    corners = ring
+    for i in range(corners.shape[0]):
+        result[i, 0], result[i, 1] = corners[i, 0], corners[i, 1]
+    return corners.shape[0]
 
 
 def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):

@@ -23,8 +23,11 @@ cdef class SoleScratch:
     cdef unsigned char[::1] other_mask
     cdef object sums_room
     cdef double[::1] sums
-    cdef double[:, :, ::1] rings
-    cdef double[:, ::1] lines
+    cdef object copy_wrench
+    cdef object copy_cop
+    cdef double[::1] pair
+    cdef object copy_pair
+    cdef convex.OffsetRoom offset
 
     @cython.locals(i=Py_ssize_t)
     cdef void copy_hull(self, Py_ssize_t size, double[:, ::1] out) noexcept nogil
@@ -62,6 +65,9 @@ cdef class SoleKernel:
     @cython.locals(scratch=SoleScratch)
     cpdef active(self, const double[:] force, double threshold, double saturation)
 
+    @cython.locals(scratch=SoleScratch)
+    cdef SoleScratch _borrow_with_active(self, const double[:] force, double threshold, double saturation)
+
     @cython.locals(i=Py_ssize_t)
     cdef void activate(
         self, const double[:] force, double threshold, double saturation, unsigned char[::1] out
@@ -85,12 +91,17 @@ cdef class SoleKernel:
     )
     cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept nogil
 
-    @cython.locals(scratch=SoleScratch, size=Py_ssize_t, area=double, x=double, y=double)
     cpdef hull(self, const unsigned char[:] active)
 
+    @cython.locals(scratch=SoleScratch)
+    cpdef hull_above(self, const double[:] force, double threshold, double saturation)
+
+    @cython.locals(size=Py_ssize_t, area=double, x=double, y=double)
+    cdef _hull(self, const unsigned char[:] active, SoleScratch scratch)
+
     @cython.locals(
-        scratch=SoleScratch, corners="double[:, ::1]", point="double[::1]", size=Py_ssize_t, area=double,
-        cx=double, cy=double, qx=double, qy=double, _margin=double
+        scratch=SoleScratch, sums="double[::1]", pushed=bint, pair="double[::1]", size=Py_ssize_t, left=Py_ssize_t,
+        area=double, _margin=double
     )
     cpdef tick(
         self, const double[:] force, double threshold, double saturation, double offset, double x, double y

@@ -46,10 +46,14 @@ class SoleScratch:
         self.mask = self.mask_room
         self.other_mask_room = np.zeros(taxels, dtype=bool)
         self.other_mask = self.other_mask_room
-        self.sums_room = np.zeros(9)
-        self.sums = self.sums_room
-        self.rings = np.zeros((3, 2 * corners + 8, 3))
-        self.lines = np.zeros((corners, 3))
+        sums = np.zeros(9)
+        self.sums_room = sums
+        self.sums = sums
+        self.copy_wrench, self.copy_cop = sums[:6].copy, sums[7:].copy
+        self.offset = convex.OffsetRoom(corners)
+        pair = np.zeros(2)
+        self.pair = pair
+        self.copy_pair = pair.copy
 
     def copy_hull(self, size, out):
         """Copy the hull that `SoleKernel.find_hull` left in `polygon`.
@@ -162,9 +166,7 @@ class SoleKernel:
         Returns:
             Mask (n,).
         """
-        self._check(force)
-        scratch = self.borrow()
-        self.activate(force, threshold, saturation, scratch.mask)
+        scratch = self._borrow_with_active(force, threshold, saturation)
         mask = scratch.mask_room.copy()
         self.give_back(scratch)
         return mask
@@ -180,6 +182,13 @@ class SoleKernel:
         if active is None or active.shape[0] != self.taxels:
             raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
         return 0
+
+    def _borrow_with_active(self, force, threshold, saturation):
+        """Borrowed arrays with `active` in their mask."""
+        self._check(force)
+        scratch = self.borrow()
+        self.activate(force, threshold, saturation, scratch.mask)
+        return scratch
 
     def activate(self, force, threshold, saturation, out):
         """`active` into an array (n,)."""
@@ -238,9 +247,7 @@ class SoleKernel:
         Returns:
             (9,), as `loads`.
         """
-        self._check(force)
-        scratch = self.borrow()
-        self.activate(force, threshold, saturation, scratch.mask)
+        scratch = self._borrow_with_active(force, threshold, saturation)
         self._loads(force, scratch.mask, scratch.sums)
         sums = scratch.sums_room.copy()
         self.give_back(scratch)
@@ -299,7 +306,24 @@ class SoleKernel:
             Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
         """
         self._check_mask(active)
-        scratch = self.borrow()
+        return self._hull(active, self.borrow())
+
+    def hull_above(self, force, threshold, saturation):
+        """`hull` of the taxels that `active` gives, without a mask for anybody else.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            As `hull`.
+        """
+        scratch = self._borrow_with_active(force, threshold, saturation)
+        return self._hull(scratch.mask, scratch)
+
+    def _hull(self, active, scratch):
+        """`hull` with what was borrowed, which is given back."""
         size = self.find_hull(active, scratch)
         area, x, y = scratch.measure_hull(size)
         polygon = scratch.hulls[size].copy()
@@ -319,29 +343,33 @@ class SoleKernel:
             y: The same.
 
         Returns:
-            Mask (n,); (9,) of `loads`; polygon (k, 2) in m, its area in m^2, x and y of its centroid in m; the smaller
-            polygon (m, 2) in m; the closest point (2,) in m. Coordinates are NaN without contact.
+            Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None without load; polygon (k, 2)
+            in m, its area in m^2, its centroid (2,) in m; the smaller polygon (m, 2) in m; the closest point (2,) in m.
+            The two points are None without contact.
         """
-        self._check(force)
-        scratch = self.borrow()
-        self.activate(force, threshold, saturation, scratch.mask)
-        self._loads(force, scratch.mask, scratch.sums)
+        scratch = self._borrow_with_active(force, threshold, saturation)
+        sums = scratch.sums
+        self._loads(force, scratch.mask, sums)
+        pushed = 0.0 < sums[2] < _INFINITE
+        felt = scratch.mask_room.copy(), scratch.copy_wrench(), sums[6], scratch.copy_cop() if pushed else None
         size = self.find_hull(scratch.mask, scratch)
-        area, cx, cy = scratch.measure_hull(size)
-        if size == 0 or offset <= 0.0:
+        polygon = scratch.hulls[size].copy()
+        if size == 0:
+            self.give_back(scratch)
+            return (*felt, polygon, 0.0, None, polygon.copy(), None)
+        pair = scratch.pair
+        area, pair[0], pair[1] = scratch.measure_hull(size)
+        centroid = scratch.copy_pair()
+        if offset <= 0.0:
             safe = scratch.hulls[size].copy()
+            _margin, pair[0], pair[1] = convex._nearest_of_any(scratch.polygon[:size], x, y)
         else:
-            safe = convex.offset(scratch.polygon[:size], offset, scratch.lines, scratch.rings)
-        corners = safe
-        nearest = np.empty(2)
-        point = nearest
-        qx = qy = _NONE
-        if size > 0:
-            _margin, qx, qy = convex._nearest_of_any(corners, x, y)
-        point[0], point[1] = qx, qy
-        felt = scratch.mask_room.copy(), scratch.sums_room.copy(), scratch.hulls[size].copy()
+            left = convex.offset(scratch.polygon[:size], offset, scratch.offset)
+            safe = scratch.offset.copied(left)
+            _margin, pair[0], pair[1] = convex._nearest_of_any(scratch.offset.result[:left], x, y)
+        nearest = scratch.copy_pair()
         self.give_back(scratch)
-        return (*felt, area, cx, cy, safe, nearest)
+        return (*felt, polygon, area, centroid, safe, nearest)
 
     def find_hull(self, active, scratch):
         """Find the hull of the active cells and leave it in the scratch's `polygon`.

@@ -94,18 +94,5 @@ def walking_tick(
         at_x, at_y = aim.tolist()
     else:
         at_x, at_y = plane_point(aim, "aim")
-    active, sums, hull, area, x, y, safe, nearest = layout.kernel.tick(
-        readings, level, layout.force_limit, distance, at_x, at_y
-    )
-    contact = len(hull) > 0
-    return FootTick(
-        active,
-        sums[:6],
-        float(sums[6]),
-        sums[7:] if 0.0 < sums[2] < np.inf else None,
-        hull,
-        area,
-        np.array((x, y)) if contact else None,
-        safe,
-        nearest if contact else None,
-    )
+    felt = layout.kernel.tick(readings, level, layout.force_limit, distance, at_x, at_y)
+    return tuple.__new__(FootTick, felt)

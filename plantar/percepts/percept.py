@@ -114,6 +114,10 @@ class Percept(ShapeMembers, VirtualMembers):
         """Whether a comparison leaves out what is faulty without a look at each fault."""
         return self._stuck is None and not self.options.fill
 
+    def _active_by_kernel(self) -> bool:
+        """Whether a kernel may find what is active on its way: it is nothing but a comparison, and not known yet."""
+        return self._given_active is None and self._plain and "active" not in self.__dict__
+
     @lazy
     def active_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
@@ -124,7 +128,7 @@ class Percept(ShapeMembers, VirtualMembers):
         loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
         if loads is None:
             force, kernel = self.sound_force if self.options.fill else self.reading.force, self.layout.kernel
-            if self._given_active is None and self._plain and "active" not in self.__dict__:
+            if self._active_by_kernel():
                 loads = kernel.loads_above(force, self.force_threshold, self.layout.force_limit)
             else:
                 loads = kernel.loads(force, self.active)
@@ -167,7 +171,12 @@ class Percept(ShapeMembers, VirtualMembers):
         """Support polygon, its area and its centroid, found together when the first of them is asked for."""
         hull: tuple[NDArray[np.float64], float, float, float] | None = self.__dict__.get("_hull_found")
         if hull is None:
-            hull = self.__dict__["_hull_found"] = self.layout.kernel.hull(self.active)
+            kernel = self.layout.kernel
+            if self._active_by_kernel():
+                hull = kernel.hull_above(self.reading.force, self.force_threshold, self.layout.force_limit)
+            else:
+                hull = kernel.hull(self.active)
+            self.__dict__["_hull_found"] = hull
         return hull
 
     @lazy

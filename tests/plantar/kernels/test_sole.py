@@ -59,6 +59,8 @@ def test_hull_is_that_of_the_active_cells_corners(seed, name):
     active = rng.random(len(layout)) < rng.random()
     active[rng.integers(len(layout))] = True
     polygon, size, x, y = layout.kernel.hull(active)
+    above = layout.kernel.hull_above(np.where(active, 5.0, 1.0), 1.0, 9.0)
+    assert (above[0].tobytes(), *above[1:]) == (polygon.tobytes(), size, x, y)
     assert polygon.tolist() == convex_hull(corners_of(layout, active)).tolist()
     assert size == pytest.approx(exact_hull_area(corners_of(layout, active)), rel=1e-12)
     assert size == pytest.approx(area(polygon), rel=1e-15)
@@ -156,6 +158,8 @@ def test_arrays_of_another_length_are_refused_and_not_read_past(form):
             lambda few=few: kernel.active(few, 0.0, 9.0),
             lambda few=few: kernel.faults(few, 9.0),
             lambda few=few: kernel.loads(few, mask),
+            lambda few=few: kernel.loads_above(few, 0.0, 9.0),
+            lambda few=few: kernel.hull_above(few, 0.0, 9.0),
             lambda few=few: kernel.tick(few, 0.0, 9.0, 0.0, 0.0, 0.0),
         ):
             with pytest.raises(ReadingError, match=f"{size} forces for {n} taxels"):

@@ -93,7 +93,7 @@ def test_a_controller_that_asks_for_the_cop_never_pays_for_the_polygon(sole, mon
     counting = SimpleNamespace(
         loads_above=kernel.loads_above,
         active=kernel.active,
-        hull=lambda active: calls.append(1) or kernel.hull(active),
+        hull_above=lambda *forces: calls.append(1) or kernel.hull_above(*forces),
     )
     monkeypatch.setitem(vars(sole), "kernel", counting)
     percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
