@@ -161,7 +161,7 @@ def _steps_show(course: NDArray[np.float64], near: NDArray[np.bool_], low: float
         part = course[a:b] - low
         if a == 0 or b == len(course) or part.max() < 0.5 * span or b - a > _LONGEST_CONTACT * rate:
             continue
-        half = np.flatnonzero(part > 0.5 * span)
+        half = np.flatnonzero(part >= 0.5 * span)
         flanks += [half[0] / rate, (b - a - 1 - half[-1]) / rate]
     return len(flanks) > 0 and max(flanks) <= _QUICK
 

@@ -98,6 +98,12 @@ def test_a_cell_that_stays_loaded_in_swing_is_in_contact_only_above_that() -> No
     assert not (force[swing] > gait.cell_threshold).any()
 
 
+def test_a_contact_of_just_half_of_the_range() -> None:
+    force = np.zeros(400)
+    force[200:260], force[360:] = 350.0, 700.0
+    assert resting_level(force, 100.0) is not None
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_standing_has_no_level_in_swing(seed: int) -> None:
     random = np.random.default_rng(seed)
