@@ -21,7 +21,7 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.number_rows import number_rows
 from plantar.formats.side import side_of
 from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides, with_numbers
-from plantar.formats.text import blocks_of_lines, encoding_of, number, number_in, open_text, row_of_numbers
+from plantar.formats.text import blocks_of_lines, head_text, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
@@ -44,10 +44,9 @@ _MOST_NAMED = 10
 
 def _recognises(head: bytes) -> bool:
     """Printable lines of which the last whole ones are rows of three numbers or more."""
-    encoding = encoding_of(head)
-    if encoding != "utf-16" and b"\0" in head[:64]:
+    text = head_text(head)
+    if text is None:
         return False
-    text = head.decode(encoding, errors="replace")
     lines = [x for x in text.splitlines() if x.strip() and not x.startswith("#")]
     lines = lines[1:-1] if len(lines) > 3 else lines[1:]
     if not lines:

@@ -20,7 +20,7 @@ from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import encoding_of, number, open_text, row_of_numbers
+from plantar.formats.text import head_text, number, open_text, row_of_numbers
 from plantar.formats.units import find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import (
@@ -45,11 +45,8 @@ _EXCEL = b"\xd0\xcf\x11\xe0"
 
 
 def _recognises(head: bytes) -> bool:
-    encoding = encoding_of(head)
-    text = head.decode(encoding, errors="replace")
-    return (encoding == "utf-16" or b"\0" not in head) and re.search(
-        r"(?:^|\n)" + _FRAME.pattern, text.replace("\r", "\n"), re.IGNORECASE
-    ) is not None
+    text = head_text(head)
+    return text is not None and re.search(r"(?:^|\n)" + _FRAME.pattern, text, re.IGNORECASE) is not None
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:

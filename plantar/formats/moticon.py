@@ -19,7 +19,7 @@ from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.moticon_insole import LENGTH, WIDTH, moticon_insole
 from plantar.formats.number_rows import number_rows
-from plantar.formats.text import blocks_of_lines, number, open_text
+from plantar.formats.text import blocks_of_lines, head_text, number, open_text
 from plantar.formats.units import Unit, find_unit
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -35,8 +35,11 @@ _FIRST = 32
 
 
 def _recognises(head: bytes) -> bool:
-    text = head.replace(b"\0", b"").decode("latin-1")
-    return re.search(r"^\W*#?\s*time[^\n]*(left|right) pressure 1", text, re.MULTILINE | re.IGNORECASE) is not None
+    text = head_text(head)
+    return (
+        text is not None
+        and re.search(r"^\W*#?\s*time[^\n]*(left|right) pressure 1", text, re.MULTILINE | re.IGNORECASE) is not None
+    )
 
 
 def _read(path: Path, options: ReadOptions) -> PressureRecording:

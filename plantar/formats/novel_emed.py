@@ -19,7 +19,7 @@ from plantar.errors import FormatError
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import number, number_in, open_text
+from plantar.formats.text import head_text, number, number_in, open_text
 from plantar.formats.units import LENGTHS, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import MOST_VALUES
@@ -45,8 +45,8 @@ _FACTS = {
 
 
 def _recognises(head: bytes) -> bool:
-    text = head.decode("latin-1")
-    return b"\0" not in head and re.search(r"Pict-No\.?\s*:", text) is not None and "ensor" in text
+    text = head_text(head)
+    return text is not None and re.search(r"Pict-No\.?\s*:", text) is not None and "ensor" in text
 
 
 @dataclass

@@ -23,7 +23,7 @@ from plantar.formats.nominal_insole import CELL_AREAS, DEFAULT_SIZE, nominal_ins
 from plantar.formats.number_rows import number_rows
 from plantar.formats.pliance_geometry import corner_table, layout_of_corners
 from plantar.formats.polygon_layout import subset
-from plantar.formats.text import blocks_of_lines, encoding_of, open_text
+from plantar.formats.text import blocks_of_lines, head_text, open_text
 from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
@@ -47,10 +47,7 @@ _LATEST = 1e9
 
 
 def _recognises(head: bytes) -> bool:
-    encoding = encoding_of(head)
-    if encoding != "utf-16" and b"\0" in head:
-        return False
-    text = head.decode(encoding, errors="replace").lower().replace("\r", "\n")
+    text = (head_text(head) or "").lower()
     columns = re.search(r"^\s*\"?time\s*\[\s*s(?:ecs?)?\s*\]\"?[\s;,]+\d+", text, re.MULTILINE) is not None
     return columns and ("pressure values" in text or "scanning rate" in text)
 
@@ -133,6 +130,8 @@ def _take_rows(
         for line in lines:
             if line[:24].lstrip()[:1].isdigit():  # labels begin with a letter: quicker than the pattern
                 yield line
+            elif _COLUMNS.match(line):
+                continue  # the names again, on another page or of another part
             elif _LABELS.match(line):
                 tail.extend(islice((x for x in chain([line], lines) if _CORNER.match(x)), _MOST_CORNERS))
                 return

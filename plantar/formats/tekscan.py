@@ -20,7 +20,7 @@ from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.number_rows import number_rows
 from plantar.formats.side import side_of
-from plantar.formats.text import encoding_of, number, number_in, open_text, row_of_numbers
+from plantar.formats.text import head_text, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.let_go import blocks_of_frames
@@ -52,11 +52,8 @@ _LONGEST_FOOT = 0.36
 
 
 def _recognises(head: bytes) -> bool:
-    encoding = encoding_of(head)
-    text = head.decode(encoding, errors="replace").upper()
+    text = (head_text(head) or "").upper()
     keys = sum(re.search(rf"^\W*{k}\b", text, re.MULTILINE) is not None for k in ("ROWS", "COLS", "UNITS", "DATA_TYPE"))
-    if encoding != "utf-16" and b"\0" in head:
-        return False
     return keys >= 3 or ("TEKSCAN" in text and keys >= 1) or "SECONDS_PER_FRAME" in text
 
 

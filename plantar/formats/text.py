@@ -14,9 +14,22 @@ from numpy.typing import NDArray
 from plantar.errors import FormatError
 from plantar.files.input_file import open_input
 
-__all__ = ["blocks_of_lines", "encoding_of", "number", "number_in", "open_text", "row_of_numbers", "seconds_of_clock"]
+__all__ = [
+    "blocks_of_lines",
+    "encoding_of",
+    "head_text",
+    "number",
+    "number_in",
+    "open_text",
+    "row_of_numbers",
+    "seconds_of_clock",
+]
 
 _LONGEST_LINE = 1_000_000
+_SEEN = 1024
+"""Bytes in which the zeros of UTF-16 are looked for."""
+_ZEROS = 0.01
+"""Share of zeros that damage may put into a text."""
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?")
 
 
@@ -89,7 +102,7 @@ def blocks_of_lines(lines: Iterator[str], most: int = 2048, characters: int = 16
 
 
 def encoding_of(head: bytes) -> str:
-    """Encoding of a text from its first bytes: UTF-16 and UTF-8 where they are marked or valid, else Latin-1.
+    """Encoding of a text from its first bytes: UTF-16 and UTF-8 where they are marked or seen, else Latin-1.
 
     Example:
         >>> encoding_of("N/cm²".encode()), encoding_of("N/cm²".encode("latin-1"))
@@ -98,12 +111,29 @@ def encoding_of(head: bytes) -> str:
     for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"), (b"\xef\xbb\xbf", "utf-8-sig")):
         if head.startswith(mark):
             return encoding
+    for first, encoding in ((0, "utf-16-be"), (1, "utf-16-le")):  # without a mark: every other byte of it is 0
+        zeros, others = head[first:_SEEN:2].count(0), head[1 - first : _SEEN : 2].count(0)
+        if len(head) > 64 and zeros > 0.45 * min(len(head), _SEEN) and others == 0:
+            return encoding
     try:
         head[: -4 if len(head) > 4096 else None].decode("utf-8")
     except UnicodeDecodeError:
         good = len(re.findall(rb"[\xc2-\xdf][\x80-\xbf]|[\xe0-\xef][\x80-\xbf]{2}", head))
         return "utf-8" if good else "latin-1"  # one damaged byte does not make another encoding
     return "utf-8"
+
+
+def head_text(head: bytes) -> str | None:
+    """The beginning of a text, its line ends made one; None of what is no text.
+
+    Example:
+        >>> head_text("Units:;N/cm²\r\n1;2\r\n".encode("utf-16")), head_text(bytes(range(20)) * 9)
+        ('Units:;N/cm²\n1;2\n', None)
+    """
+    text = head.decode(encoding_of(head), errors="replace")
+    if text.count("\0") > _ZEROS * len(text):
+        return None
+    return text.replace("\0", "").replace("\r\n", "\n").replace("\r", "\n")
 
 
 def number(text: str) -> float | None:

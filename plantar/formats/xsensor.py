@@ -20,7 +20,7 @@ from plantar.formats.cells_of_foot import scale_to_force
 from plantar.formats.format import Format, ReadOptions
 from plantar.formats.grid_cells import grid_cells
 from plantar.formats.side import side_of
-from plantar.formats.text import number, number_in, open_text, seconds_of_clock
+from plantar.formats.text import head_text, number, number_in, open_text, seconds_of_clock
 from plantar.formats.units import LENGTHS, Unit, find_unit
 from plantar.layouts.layout import Side
 from plantar.recordings.frame_table import FrameTable
@@ -40,7 +40,7 @@ _ENOUGH = 50.0
 
 
 def _recognises(head: bytes) -> bool:
-    text = head.replace(b"\0", b"").decode("latin-1")
+    text = head_text(head) or ""
     return re.search(r"^\W*SENSELS\b", text, re.MULTILINE) is not None and "SENSOR" in text and "FRAME" in text
 
 

@@ -32,6 +32,9 @@ RATES = (0.1, 1e5)
 _GAP = 2.5
 """Steps in time of more than so many usual ones are gaps, and tell nothing of the rate."""
 
+_COUNTED = 5.0
+"""Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers."""
+
 _LEAST_STEP = 1e-3
 """Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite."""
 
@@ -259,6 +262,9 @@ def _checked_times(
     warnings: list[str] = []
     if stated is not None:
         possible_rate(stated, "the file states")
+        if _counts(time) and stated >= _COUNTED:
+            time = time / stated
+            warnings.append(f"the frames' times count them: taken from the rate of {stated:g} Hz that the file states")
     steps = np.diff(time)
     forward = steps[np.isfinite(steps) & (steps > 0.0)]
     measured = None
@@ -301,6 +307,12 @@ def _checked_times(
         return time, rate, tuple(warnings)
     warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz")
     return grid, rate, tuple(warnings)
+
+
+def _counts(time: NDArray[np.float64]) -> bool:
+    """Whether times (n,) are the numbers of their frames."""
+    known = time[np.isfinite(time)]
+    return len(known) > 10 and bool((known == np.round(known)).all()) and float(np.median(np.diff(known))) == 1.0
 
 
 def _apart(time: NDArray[np.float64], usual: float) -> NDArray[np.float64]:

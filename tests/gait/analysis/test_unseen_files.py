@@ -47,12 +47,29 @@ def check(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> None:
         {"sep": ",", "encoding": "utf-8-sig", "unit": "psi"},
         {"sep": "   ", "end": "\r", "short": True},
         {"sides": ("right",)},
+        {"encoding": "utf-16-le"},
+        {"encoding": "utf-16-be"},
     ],
     ids=str,
 )
 def test_pedar(tmp_path: Path, changes: dict) -> None:
     how = replace(PLAIN, **changes)
     check(analysed(tmp_path / "walk.asc", pedar(WALK, how)), WALK, how.sides)
+
+
+def test_names_that_stand_on_each_page(tmp_path: Path) -> None:
+    lines = pedar(WALK, PLAIN).decode().splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("time"))
+    head, names, rows = lines[:first], lines[first], lines[first + 1 :]
+    pages = [line for i, row in enumerate(rows) for line in ([names, row] if i % 50 == 0 else [row])]
+    check(analysed(tmp_path / "walk.asc", "\n".join([*head, *pages]).encode()), WALK)
+
+
+def test_numbers_of_frames_for_times(tmp_path: Path) -> None:
+    found = analysed(tmp_path / "walk.asc", pedar(WALK, PLAIN, times=1.0 + np.arange(len(WALK.recording.time))))
+    assert any("the frames' times count them" in warning for warning in found.metrics["warnings"])
+    cadence = 120.0 / np.mean([np.diff(WALK.strikes[side]) for side in SIDES])
+    assert found.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(cadence, rel=3e-3)
 
 
 @pytest.mark.parametrize("rate", [30.0, 200.0])
@@ -98,14 +115,20 @@ def test_tekscan(tmp_path: Path, changes: dict) -> None:
     check(analysed(tmp_path / "walk.asf", text), walk, ("right",))
 
 
-@pytest.mark.parametrize("changes", [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True}, {"sep": "\t"}], ids=str)
+@pytest.mark.parametrize(
+    "changes",
+    [{"sep": ",", "unit": "mmhg"}, {"sep": ";", "comma": True, "encoding": "utf-16-le"}, {"sep": "\t", "end": "\r"}],
+    ids=str,
+)
 def test_xsensor(tmp_path: Path, changes: dict) -> None:
     walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(31, 11, 8.6e-3))
     check(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
 
 
 @pytest.mark.parametrize(
-    "changes", [{"sep": ";", "comma": True, "encoding": "utf-16"}, {"seconds": 1e-3, "decimals": 0}], ids=str
+    "changes",
+    [{"sep": ";", "comma": True, "encoding": "utf-16"}, {"seconds": 1e-3, "decimals": 0, "end": "\r"}],
+    ids=str,
 )
 def test_moticon(tmp_path: Path, changes: dict) -> None:
     walk = made_walk(strides=3, layouts={side: moticon_insole(7, side) for side in SIDES})
