@@ -26,7 +26,7 @@ __all__ = [
 
 _SLIVER = 0.02  # mm^2
 _BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
-_STEP = 3e-3  # mm
+_STEP = 0.01  # mm
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
 
@@ -50,7 +50,7 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
     for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
         slivers = _slivers(openings, ways.buffer(near), thin, least)
         if slivers:  # where they end, steps of some thousandths would be walls of no width
-            openings = shapely.union_all([openings, *slivers]).simplify(_STEP)
+            openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
     joined = shapely.set_precision(openings, 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
 
