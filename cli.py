@@ -48,7 +48,7 @@ def _commands(
     """Plantar skin and gait: build a tactile shoe, walk a robot on plantar feedback, analyse recordings."""
 
 
-@app.command()
+@app.command(short_help="Build a printable tactile shoe for a foot, and its taxel layout.")
 @with_option_groups
 def shoe(
     source: FootSource,
@@ -121,7 +121,7 @@ def shoe(
     end_command(summary, as_json, shoe_text(summary), (f"check does not hold: {line}" for line in failed), bool(failed))
 
 
-@app.command()
+@app.command(short_help="Measure the steps of a recording, or a study of many.")
 def analyze(
     recording: Annotated[
         Path | None,
@@ -275,7 +275,7 @@ def _analyze_folder(
         print(f"  not measured: {file}: {why}", file=sys.stderr)
 
 
-@app.command()
+@app.command(short_help="Make a robot of an MJCF or URDF, ready to walk, and check it.")
 def robot(
     model: Annotated[
         Path, Argument(metavar="MODEL", help="Robot's model (.xml .mjcf .urdf), or the word check.", show_default=False)
@@ -316,7 +316,7 @@ def robot(
     end_command(made.as_dict(output), as_json, made.text(output))
 
 
-@app.command()
+@app.command(short_help="Run one scenario in MuJoCo, judged by the true contacts.")
 def sim(
     scene: Annotated[str, Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],
     robot: Annotated[
@@ -363,7 +363,7 @@ def sim(
     end_command(summary, as_json, summary_text(summary), failed=not summary["completed"])
 
 
-@app.command()
+@app.command(short_help="Write a page that plays one or two recordings in 3D.")
 def view(
     recording: Annotated[Path, Argument(help="Recording (.mcap) of plantar sim --record, or of a robot's soles.")],
     other: Annotated[
@@ -390,7 +390,7 @@ def view(
     end_command(written, as_json, view_text(written), written["warnings"])
 
 
-@app.command()
+@app.command(short_help="Run a scene over settings and seeds, or search where it breaks.")
 def sweep(
     scene: Annotated[str, Argument(help="A built-in scene (plantar list scenes) or a scene .toml file.")],
     grid: Annotated[
@@ -450,7 +450,7 @@ def sweep(
     end_command(result, as_json, sweep_text(result, scene), () if as_json else sweep_errors(result, scene), failed)
 
 
-@app.command()
+@app.command(short_help="The main job in one go: shoe, walk on a beam, analysis.")
 def demo(
     output: Annotated[Path, Option("-o", "--output", help="Folder for everything that is made.")] = Path("out"),
     seed: Annotated[int, Option(help="Seed of the sensor noise.")] = 0,
@@ -493,7 +493,7 @@ def demo(
     end_command(made, as_json, demo_text(made, output), failed=not done)
 
 
-@app.command(name="list")
+@app.command(name="list", short_help="List robots, scenes, recording formats or settings.")
 def list_(
     what: Annotated[str, Argument(help="robots, scenes, formats or settings.")],
     name: Annotated[
@@ -532,7 +532,7 @@ def list_(
     end_command({what: [{"name": name, "description": text} for name, text in found.items()]}, as_json, text)
 
 
-@app.command()
+@app.command(short_help="Measure run time against error, and show it on a page.")
 def bench(
     what: Annotated[str, Argument(help="kernels, contact, scenes, skip, stress or all.")] = "all",
     layout: Annotated[
@@ -588,7 +588,7 @@ def bench(
     end_command(told.result, as_json, told.text, told.failures, bool(told.failures))
 
 
-@app.command()
+@app.command(short_help="Say what is installed, what is missing and how to get it.")
 def doctor(as_json: Json = False) -> None:
     """Say what is installed of what Plantar can use, what is missing or broken, and how to get it.
 

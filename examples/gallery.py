@@ -123,7 +123,7 @@ def polygons_of_a_sole(path):
     ring(axes[4], percept.preemptive_polygon_in_sole, TOUCH, "--", label="pre-touch polygon, d < 15 mm")
     ring(axes[4], percept.support_polygon_in_sole, FORCE, label="force polygon")
     finish(axes[4], "e) force and pre-touch")
-    axes[4].legend(fontsize=7, loc="lower center", frameon=False)
+    axes[4].legend(fontsize=7, loc="lower center", frameon=False, bbox_to_anchor=(0.5, -0.27))
 
     other, _ = on_stone("right")
     feet = FeetPercept([percept, other], [SolePose.flat(0.08, 0.11, yaw=0.1), SolePose.flat(-0.08, -0.11, yaw=-0.15)])
@@ -284,6 +284,7 @@ def main() -> None:
     if len(sys.argv) != 2:
         sys.exit("usage: python examples/gallery.py FOLDER")
     folder = Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
     polygons_of_a_sole(folder / "gallery_polygons.png")
     contact_and_its_models(folder / "gallery_contact.png")
     height_contours_of_an_obstacle(folder / "gallery_contours.png")
