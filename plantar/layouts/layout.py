@@ -196,12 +196,12 @@ class SoleLayout:
     def __len__(self) -> int:
         return len(self.corners)
 
-    @property
+    @cached_property
     def force_threshold(self) -> float:
         """Force in N at which a taxel counts as active (epsilon_f of T 4.22)."""
         return float(self.thresholds.get("force", DEFAULT_THRESHOLDS["force"]))
 
-    @property
+    @cached_property
     def force_limit(self) -> float:
         """Force in N from which a taxel is saturated: the upper end of its range; inf where the range is not stated."""
         return float(self.ranges["force"][1]) if "force" in self.ranges else math.inf

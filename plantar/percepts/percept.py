@@ -77,6 +77,8 @@ class Percept(ShapeMembers, VirtualMembers):
         self.options = options if options is _USUAL else instance(options, PerceptOptions, "options")
         self._given_active = None if active is None else taxel_mask(layout, active, "mask 'active'").copy()
         self._stuck = None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy()
+        # Whether what is active is nothing but a comparison, which a kernel then makes on its way.
+        self._compared = active is None and stuck is None and not options.fill
 
     @classmethod
     def members(cls) -> tuple[str, ...]:
@@ -103,20 +105,12 @@ class Percept(ShapeMembers, VirtualMembers):
     @lazy
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
-        force = self.reading.force if self._plain else self.sound_force
+        leaves_out = self._stuck is None and not self.options.fill  # what is faulty, without a look at each fault
+        force = self.reading.force if leaves_out else self.sound_force
         if self._given_active is None:
             mask: NDArray[np.bool_] = self.layout.kernel.active(force, self.force_threshold, self.layout.force_limit)
             return mask
         return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
-
-    @property
-    def _plain(self) -> bool:
-        """Whether a comparison leaves out what is faulty without a look at each fault."""
-        return self._stuck is None and not self.options.fill
-
-    def _active_by_kernel(self) -> bool:
-        """Whether a kernel may find what is active on its way: it is nothing but a comparison, and not known yet."""
-        return self._given_active is None and self._plain and "active" not in self.__dict__
 
     @lazy
     def active_force(self) -> NDArray[np.float64]:
@@ -128,7 +122,7 @@ class Percept(ShapeMembers, VirtualMembers):
         loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
         if loads is None:
             force, kernel = self.sound_force if self.options.fill else self.reading.force, self.layout.kernel
-            if self._active_by_kernel():
+            if self._compared and "active" not in self.__dict__:
                 loads = kernel.loads_above(force, self.force_threshold, self.layout.force_limit)
             else:
                 loads = kernel.loads(force, self.active)
@@ -172,7 +166,7 @@ class Percept(ShapeMembers, VirtualMembers):
         hull: tuple[NDArray[np.float64], float, float, float] | None = self.__dict__.get("_hull_found")
         if hull is None:
             kernel = self.layout.kernel
-            if self._active_by_kernel():
+            if self._compared and "active" not in self.__dict__:
                 hull = kernel.hull_above(self.reading.force, self.force_threshold, self.layout.force_limit)
             else:
                 hull = kernel.hull(self.active)
