@@ -28,7 +28,7 @@ from plantar.formats.units import Unit, find_unit, plain
 from plantar.layouts.layout import SoleLayout
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, layout_for, possible_rate, sampling
-from plantar.sides import SIDES, Side
+from plantar.sides import Side
 
 __all__ = ["FORMAT"]
 
@@ -231,12 +231,14 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
     """Which columns belong to which foot, left first."""
     restarts = [i for i in range(1, len(columns)) if columns[i] <= columns[i - 1]]
     listed: dict[Side, int] = {}
-    for side in SIDES:
-        cells = _field(text, rf"{side}\s+insole:[ \t]*([\d,;\t ]*)")
-        if cells:
-            listed[side] = len(re.findall(r"\d+", cells))
-    if len(restarts) == 1:
-        split = restarts[0]
+    for name, cells in re.findall(r"(left|right)\s+insole:[ \t]*([\d,;\t ]*)", text, re.IGNORECASE):
+        if count := len(re.findall(r"\d+", cells)):
+            listed.setdefault("left" if name.lower() == "left" else "right", count)
+    split = restarts[0] if len(restarts) == 1 else None
+    if list(listed) == ["right", "left"] and sum(listed.values()) == len(columns) and split in (None, listed["right"]):
+        warnings.append("the header's mask lists the right insole first: the first columns are taken as its cells")
+        return [("left", range(listed["right"], len(columns))), ("right", range(listed["right"]))]
+    if split is not None:
         if listed and (listed.get("left", 0), listed.get("right", 0)) != (split, len(columns) - split):
             warnings.append(
                 f"the header's mask lists other cells than the columns: the columns are used "

@@ -90,6 +90,7 @@ class _Scan:
 
     facts: dict[str, str] = field(default_factory=dict)
     clock: list[float | None] = field(default_factory=list)
+    numbers: list[float] = field(default_factory=list)
     sensors: dict[str, _Sensor] = field(default_factory=dict)
 
 
@@ -113,7 +114,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
             frames = whole
             warnings.append("the last frame is cut short: left out")
     unit = _unit(path, scan.facts, options, warnings)
-    time, rate, notes = _times(path, scan.clock[:frames], options, warnings)
+    time, rate, notes = _times(scan.clock[:frames], scan.numbers[:frames], options, warnings)
     feet: dict[Side, FootRecording] = {}
     grid = None
     for side, sensor in _sides(path, sensors, options, warnings):
@@ -189,6 +190,8 @@ def _scan(stream: TextIO, file_size: int) -> _Scan:
             finish()
             sensor = None
             scan.clock.append(None)
+            figure = number(value)
+            scan.numbers.append(np.nan if figure is None else figure)
             if len(scan.clock) > _MOST_EMPTY + 5 * max((len(s.frames) for s in scan.sensors.values()), default=0):
                 raise FormatError(f"fewer than one in five of {len(scan.clock)} frames hold a matrix of SENSELS")
         elif word == "GROUP":
@@ -282,17 +285,31 @@ def _unit(path: Path, facts: dict[str, str], options: ReadOptions, warnings: lis
 
 
 def _times(
-    path: Path, clock: list[float | None], options: ReadOptions, warnings: list[str]
+    clock: list[float | None], numbers: list[float], options: ReadOptions, warnings: list[str]
 ) -> tuple[NDArray[np.float64], float, tuple[str, ...]]:
     seconds = np.array([np.nan if t is None else t for t in clock])
     if options.rate_hz is not None:
-        return np.arange(len(seconds)) / options.rate_hz, options.rate_hz, ()
+        return _places(numbers, warnings) / options.rate_hz, options.rate_hz, ()
     if np.isfinite(seconds).sum() < 2:
         warnings.append(f"the frames have no times: {_USUAL_RATE:g} Hz is assumed (--rate overrides)")
-        return np.arange(len(seconds)) / _USUAL_RATE, _USUAL_RATE, ()
+        return _places(numbers, warnings) / _USUAL_RATE, _USUAL_RATE, ()
     seconds = seconds - seconds[np.isfinite(seconds)][0]
     seconds[seconds < -43200.0] += 86400.0  # past midnight
     return sampling(seconds, None)
+
+
+def _places(numbers: list[float], warnings: list[str]) -> NDArray[np.float64]:
+    """Places (n,) of frames in the recording by their numbers, or one after the other where these do not rise by 1."""
+    places = np.array(numbers) - numbers[0]
+    steps = np.diff(places)
+    if not np.isfinite(places).all() or not ((steps >= 1.0) & (steps == np.round(steps))).all():
+        return np.arange(len(numbers), dtype=np.float64)
+    missing = int(places[-1]) + 1 - len(numbers)
+    if missing > len(numbers):  # such numbers are damaged, or count something else
+        return np.arange(len(numbers), dtype=np.float64)
+    if missing:
+        warnings.append(f"{missing} frame number(s) are missing: gaps in time")
+    return places
 
 
 def _sides(

@@ -85,6 +85,17 @@ def test_two_insoles(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -
     assert any("nominal 99-cell insole of size Y" in w for w in recording.warnings)
 
 
+def test_a_mask_that_lists_the_right_insole_first(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    text = path.read_text(encoding="latin-1")
+    turned = text.replace("left insole", "*").replace("right insole", "left insole").replace("*", "right insole")
+    path.write_text(turned, encoding="latin-1")
+    assert any("lists the right insole first" in w for w in read_recording(path).warnings)
+    for side, truth in zip(("right", "left"), pressures, strict=True):
+        assert np.abs(read_pa(path, side) - truth * 1e3).max() < 1e-6
+
+
 @pytest.mark.parametrize(
     "options",
     [

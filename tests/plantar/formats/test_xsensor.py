@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -115,6 +116,16 @@ def test_ways_to_write_it(tmp_path: Path, feet: list[np.ndarray], options: dict[
     factor = float(options.get("factor", MMHG)) * float(options.get("true_area", 0.7412e-4))  # type: ignore[arg-type]
     assert recording.feet["right"].vertical_force == pytest.approx(feet[1].sum(axis=(1, 2)) * factor, rel=1e-3)
     assert recording.rate_hz == pytest.approx(1.0 / float(options.get("step", 1 / 75)), rel=0.01)  # type: ignore[arg-type]
+
+
+def test_frames_without_times_lie_where_their_numbers_say(tmp_path: Path, feet: list[np.ndarray]) -> None:
+    path = tmp_path / "walk.csv"
+    export(path, feet, clock=False)
+    blocks = re.split(r"(?m)^(?=FRAME)", path.read_text(encoding="utf-8-sig"))
+    path.write_text("".join(blocks[:3] + blocks[5:]), encoding="utf-8-sig")
+    recording = read_recording(path)
+    assert recording.time[:3] == pytest.approx([0.0, 0.01, 0.04])
+    assert "2 frame number(s) are missing: gaps in time" in recording.warnings
 
 
 def test_one_foot_other_names_and_missing_fields(tmp_path: Path, feet: list[np.ndarray]) -> None:
