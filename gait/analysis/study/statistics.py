@@ -127,7 +127,8 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     """How one measure differs.
 
     The interval of the difference is Student's (Welch's of independent samples), that of the effect size normal with
-    the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5.
+    the variance of Hedges & Olkin 1985, *Statistical Methods for Meta-Analysis*, ch. 5; of pairs with that of their
+    changes beside the pooled one, which it is where both conditions spread alike.
 
     Args:
         a: Values (n,) in A, two or more.
@@ -150,8 +151,8 @@ def effect_of(a: NDArray[np.float64], b: NDArray[np.float64], paired: bool, p: f
     pooled = math.sqrt(((n - 1) * va + (m - 1) * vb) / (n + m - 2))
     if paired:
         freedom, error = float(n - 1), float((b - a).std(ddof=1)) / math.sqrt(n)
-        shared = float(np.corrcoef(a, b)[0, 1]) if va > 0.0 and vb > 0.0 else 0.0
-        correction, scale = _correction(n - 1), 2.0 * (1.0 - shared) / n
+        # Of equal variances 2 (1 - r) / n, r the correlation; of others that would be too small where r is near 1.
+        correction, scale = _correction(n - 1), (error / pooled) ** 2 if pooled > 0.0 else 0.0
         weight = 1.0 / (2.0 * n)
     else:
         error = math.sqrt(va / n + vb / m)

@@ -46,6 +46,19 @@ def test_the_interval_of_an_effect_size_holds_it_in_95_of_100() -> None:
     assert 0.90 < np.mean([d.effect_low < 0.8 < d.effect_high for d in draws]) < 0.99
 
 
+@pytest.mark.parametrize("spread", [1.0, 1.3])
+@pytest.mark.parametrize("alike", [0.5, 0.9, 0.99])
+def test_the_interval_of_pairs_holds_it_whatever_they_share(alike: float, spread: float) -> None:
+    """Of conditions that spread differently, too: with the correlation alone it held it in 87 of 100."""
+    random, size, held = np.random.default_rng(0), 0.5, 0
+    for _ in range(300):
+        own, other = random.normal(size=(2, 20))
+        b = spread * (alike * own + np.sqrt(1.0 - alike**2) * other) + size * np.sqrt((1.0 + spread**2) / 2.0)
+        found = effect_of(own, b, True, 1.0, 1.0)
+        held += found.effect_low <= size <= found.effect_high
+    assert 0.91 < held / 300 < 0.99
+
+
 @pytest.mark.parametrize("paired", [True, False])
 def test_a_permutation_test_agrees_with_scipys(paired: bool) -> None:
     random = np.random.default_rng(1)
