@@ -34,6 +34,7 @@ __all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
 UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
 """Length of each unit in mm."""
 
+_FLAT = 1.0  # mm: no foot is so thin
 _SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below
 _HEIGHT_MIN = 5.0  # mm
 _TOUCHING = 1.0  # mm: what lies lower touches the floor
@@ -163,6 +164,7 @@ def _standing(
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
+    _check_flat(triangles, where)
     upright = triangles
     axis = forward
     if axis is None:
@@ -210,6 +212,15 @@ def _standing(
         lifted,
         support if support.area > 1.0 else None,
     )
+
+
+def _check_flat(triangles: Triangles, where: str) -> None:
+    """Refuse a surface that has no height: neither a sole nor an ankle can be found on it."""
+    high = float(np.ptp(triangles[..., 2]))
+    if high < _FLAT:
+        raise FootError(
+            f"{where}: the mesh is flat, {high:g} mm high; allowed: a foot's body, or an outline (.dxf, .svg, .geojson)"
+        )
 
 
 def unit_scale(extent: float, unit: Unit | None, file_unit: Unit | None, where: str) -> tuple[float, str]:

@@ -74,6 +74,9 @@ def read_mesh(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Unit |
         )
     if len(triangles) < 4:
         raise FootError(f"{file}: has {len(triangles)} triangles; a foot's body needs 4 or more")
+    extent = np.ptp(triangles.reshape(-1, 3), axis=0)
+    if extent.min() <= 1e-6 * extent.max():
+        raise FootError(f"{file}: the mesh is flat; allowed: a foot's body, or an outline (.dxf, .svg, .geojson)")
     return triangles, unit
 
 
@@ -85,10 +88,22 @@ def _read(file: Path, kind: str) -> tuple[NDArray[np.float64], Unit | None]:
         return _read_step(file), "mm"
     if kind == ".dae":
         return _read_confined(file, kind, *_BY_PYCOLLADA), "m"
+    if kind == ".off":
+        _check_off(file)
     if kind in (".ply", ".off"):
         return _read_confined(file, kind, *_BY_TRIMESH), None
     read = triangles_of_stl if kind == ".stl" else triangles_of_obj
     return read(read_input(file, FootError, _LARGEST), MOST_TRIANGLES, str(file)), None
+
+
+def _check_off(file: Path) -> None:
+    """Refuse an OFF file whose head states more faces than a foot has, before a library takes memory for them."""
+    with file.open("rb") as opened:
+        head = opened.read(4096)
+    words = [w for line in head.splitlines() for w in line.partition(b"#")[0].split()]
+    if len(words) > 2 and words[0].endswith(b"OFF") and words[2].isdigit() and int(words[2]) > MOST_TRIANGLES:
+        count = words[2].decode()
+        raise FootError(f"{file}: has {count:.20} faces; allowed: up to {MOST_TRIANGLES}; reduce the mesh")
 
 
 def _read_step(file: Path) -> NDArray[np.float64]:
