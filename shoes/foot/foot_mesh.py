@@ -170,7 +170,12 @@ def _standing(
     if axis is None:
         check_one_body(triangles, where)
         triangles, turns = straightened(triangles, where)
-        axis, how = forward_axis(triangles, where)
+        try:
+            axis, how = forward_axis(triangles, where)
+        except FootError:
+            # That there is no sole below comes first: on a foot that lies on its side no axis tells the toes.
+            _checked_sole(triangles - np.array([0.0, 0.0, triangles[..., 2].min()]), sole_band, forward, where)
+            raise
         notes += [*turns, how]
     elif axis != "x":
         notes.append(f"the mesh's {axis} axis points to the toes, as given")

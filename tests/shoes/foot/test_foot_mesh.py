@@ -146,6 +146,15 @@ def test_a_foot_that_lies_on_its_side_is_put_up(stl: Writer, prism: Shape) -> No
     assert lying.sole.bounds == pytest.approx(foot.sole.bounds)
 
 
+def test_a_foot_that_rests_on_a_slanted_side_is_put_up(prism: Shape, box: Shape, stl: Writer) -> None:
+    # Levelled on its outer side, which is 6 degrees askew, origin and ankle would contradict each other.
+    outline = np.array([[-75, -36], [60, -50], [130, -12], [138, 26], [118, 54], [40, 60], [-72, 34]], dtype=float)
+    standing = np.concatenate([prism(outline, 0, 28), box((-22, 22), (-24, 24), (15, 70))])
+    foot = foot_from_mesh(stl(standing[..., [0, 2, 1]] * np.array([1.0, -1.0, 1.0])))
+    assert foot.sole.bounds == pytest.approx((-75, -50, 138, 60), abs=0.01)
+    assert any("-y axis is taken to point up" in n for n in foot.notes)
+
+
 def test_a_tilted_sole_is_levelled(box: Shape, stl: Writer) -> None:
     angle = np.radians(6.0)
     turn = np.array([[np.cos(angle), 0, -np.sin(angle)], [0, 1, 0], [np.sin(angle), 0, np.cos(angle)]])
