@@ -256,8 +256,9 @@ def analyze(
     parts = {"": result} if compare is None else {"A": result["a"], "B": result["b"]}
     text = "\n".join(analysis_text(metrics, name) for name, metrics in parts.items())
     end_command(result, as_json, text + file_lines(result["files"]))
-    for warning in () if as_json else [w for metrics in parts.values() for w in metrics["warnings"]]:
-        print(f"  note: {warning}", file=sys.stderr)
+    for name, metrics in () if as_json else parts.items():
+        for warning in metrics["warnings"]:
+            print(f"  note{f' of {name}' if name else ''}: {warning}", file=sys.stderr)
 
 
 def _analyze_folder(

@@ -95,9 +95,11 @@ def progression_doubts(recording: PressureRecording, feet: Mapping[Side, FootGai
     for side, gait in feet.items():
         strides = _rolls(recording, gait)
         if len(strides) and float(np.median(strides[:, 0] - strides[:, 1])) > _BACKWARD:
+            flat = recording.kind == "robot"
+            reason = "this robot sets its soles down flat, or walks backwards" if flat else "this is walking backwards"
             out.append(
                 f"the {side} foot's CoP goes from the toes to the heel: check the order of the cells and the layout, "
-                "unless this is walking backwards"
+                f"unless {reason}"
             )
     return out
 

@@ -97,6 +97,8 @@ def test_a_foot_that_is_rolled_over_backwards_is_told() -> None:
     doubts = progression_doubts(recording, analyse_feet(recording))
     assert [d.split("'")[0] for d in doubts] == ["the left foot", "the right foot"]
     assert all("order of the cells" in d for d in doubts)
+    robot = replace(recording, kind="robot")
+    assert all("sets its soles down flat" in d for d in progression_doubts(robot, analyse_feet(robot)))
 
 
 def test_feet_that_were_not_recorded_at_one_time_are_told() -> None:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+import plantar
 from plantar.errors import InputError
 from plantar.mechanics.lip import GRAVITY, divergent_component, pendulum_frequency
 
@@ -30,7 +31,7 @@ def test_a_pendulum_whose_foot_is_at_the_dcm_settles_there() -> None:
 
 
 def test_free_fall_stands_in_one_place() -> None:
-    root = Path(__file__).resolve().parents[3]
+    root = Path(plantar.__file__).resolve().parents[1]  # of what is imported, a checkout or an installation
     folders = ("plantar", "gait", "wholebody", "sim", "shoes")
     files = [path for folder in folders for path in (root / folder).rglob("*.py")]
     # 9.80665 in plantar/formats/units.py is the definition of a unit.
