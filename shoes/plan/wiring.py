@@ -45,12 +45,14 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
+    corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
     ways, wall = shapely.union_all(cable), parameters.wall_min
     # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
     for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
         slivers = _slivers(openings, ways.buffer(near), thin, least)
         if slivers:  # where they end, steps of some thousandths would be walls of no width
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
+            openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
     joined = shapely.set_precision(openings, 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
 
