@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from plantar.arguments import number
 from plantar.arrays import numbers, own
@@ -46,10 +47,10 @@ class Reading:
     def __init__(
         self,
         time: float,
-        force: ArrayLike,
-        proximity: ArrayLike | None = None,
-        temperature: ArrayLike | None = None,
-        acceleration: ArrayLike | None = None,
+        force: NDArray[Any] | Sequence[float],
+        proximity: NDArray[Any] | Sequence[float] | None = None,
+        temperature: NDArray[Any] | Sequence[float] | None = None,
+        acceleration: NDArray[Any] | Sequence[Sequence[float]] | None = None,
     ) -> None:
         kept = self.__dict__  # past what keeps others from assigning, which takes a third of the time
         kept["time"] = number(time, _TIME, ReadingError, finite=True)
