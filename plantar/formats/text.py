@@ -124,7 +124,7 @@ def encoding_of(head: bytes) -> str:
 
 
 def head_text(head: bytes) -> str | None:
-    """The beginning of a text, its line ends made one; None of what is no text.
+    r"""The beginning of a text, its line ends made one; None of what is no text.
 
     Example:
         >>> head_text("Units:;N/cm²\r\n1;2\r\n".encode("utf-16")), head_text(bytes(range(20)) * 9)
