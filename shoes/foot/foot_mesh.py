@@ -34,7 +34,6 @@ __all__ = ["UNIT_SIZE", "foot_from_mesh", "foot_from_triangles", "unit_scale"]
 UNIT_SIZE: dict[str, float] = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
 """Length of each unit in mm."""
 
-_FLAT = 1.0  # mm: no foot is so thin
 _SOLE_SHARE = 0.4  # of the silhouette: a body whose lowest band is smaller is round below
 _HEIGHT_MIN = 5.0  # mm
 _TOUCHING = 1.0  # mm: what lies lower touches the floor
@@ -164,7 +163,7 @@ def _standing(
         triangles, tilt = levelled(triangles)
         if tilt > 0.0:
             notes.append(f"levelled: the plane that the foot rests on was tilted by {tilt:.1f} degrees")
-    _check_flat(triangles, where)
+    _check_height(triangles, where)
     upright = triangles
     axis = forward
     if axis is None:
@@ -219,12 +218,13 @@ def _standing(
     )
 
 
-def _check_flat(triangles: Triangles, where: str) -> None:
-    """Refuse a surface that has no height: neither a sole nor an ankle can be found on it."""
+def _check_height(triangles: Triangles, where: str) -> None:
+    """Refuse a surface without height: neither a sole nor an ankle can be found on it."""
     high = float(np.ptp(triangles[..., 2]))
-    if high < _FLAT:
+    if high < _HEIGHT_MIN:
         raise FootError(
-            f"{where}: the mesh is flat, {high:g} mm high; allowed: a foot's body, or an outline (.dxf, .svg, .geojson)"
+            f"{where}: the mesh is {high:.3g} mm high ({len(triangles)} triangles); allowed: a foot's body of "
+            f"{_HEIGHT_MIN:g} mm or more, or an outline (.dxf, .svg, .geojson)"
         )
 
 
@@ -265,11 +265,7 @@ def _checked_sole(triangles: Triangles, sole_band: float, forward: Axis | None, 
     """Outline of the lowest band, refused where the body cannot be a foot."""
     points = triangles.reshape(-1, 3)
     length, width, height = (float(v) for v in np.ptp(points, axis=0))
-    if height < _HEIGHT_MIN:
-        raise FootError(
-            f"{path}: the mesh is {height:.3g} mm high ({len(triangles)} triangles); "
-            f"allowed: a body of {_HEIGHT_MIN:g} mm or more"
-        )
+    _check_height(triangles, path)
     try:
         sole = outline_of(cut_below(triangles, sole_band), sole_band)
     except FootError as error:

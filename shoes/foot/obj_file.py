@@ -64,11 +64,9 @@ def _lines(data: bytes) -> Iterator[bytes]:
 
 def _add_fan(faces: array[int], line: bytes, known: int) -> None:
     """The triangles of a face "f 1/1/1 2/2/2 -1": numbers from 1, or back from the last corner so far."""
-    ring = []
-    for item in line.partition(b"#")[0].split()[1:]:
-        i = int(item.partition(b"/")[0])
-        if i == 0:
-            raise ValueError("a face names vertex 0")
-        ring.append(i - 1 if i > 0 else known + i)
+    named = [int(item.partition(b"/")[0]) for item in line.partition(b"#")[0].split()[1:]]
+    if 0 in named:
+        raise ValueError("a face names vertex 0")
+    ring = [i - 1 if i > 0 else known + i for i in named]
     for b, c in pairwise(ring[1:]):
         faces.extend((ring[0], b, c))
