@@ -24,7 +24,7 @@ from shoes.plan.cell_room import cell_parameters, led_parameters
 from shoes.plan.load_share import LoadShare, check_load_share, relieved
 from shoes.plan.shoe_plan import ShoePlan, mirrored_plan, plan_shoe
 from shoes.plan.strength import load_case, strengthened
-from shoes.solid.body import cavity_levels, mark_outline, mirrored_steps, shoe_steps
+from shoes.solid.body import bare_floor, mark_outline, mirrored_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
 
@@ -210,7 +210,7 @@ def build_shoe(
         return ShoeBuild(foot, fit, p, planned_sides(left, sides), share, notes=notes)
     retention = choose_retention(foot, left, p)
     steps = shoe_steps(foot, left, retention, p)
-    shoes = built_sides(left, steps, p, sides, tell, floor=cavity_levels(foot, left, p)[0][2])
+    shoes = built_sides(left, steps, p, sides, tell)
     return ShoeBuild(foot, fit, p, shoes, share, retention, (*notes, retention.note))
 
 
@@ -253,7 +253,6 @@ def built_sides(
     parameters: ShoeParameters,
     sides: tuple[Side, ...],
     tell: Progress,
-    floor: Any | None = None,
 ) -> tuple[Shoe, ...]:
     """The solids of the sides asked for, each with its mark.
 
@@ -263,13 +262,10 @@ def built_sides(
         parameters: Dimensions as used.
         sides: Which of the two.
         tell: Receives fraction and text.
-        floor: Where the left one's floor is bare, a shapely polygon; None: everywhere.
 
     Returns:
         The shoes.
     """
-    import shapely
-
     p = parameters
     tell(0.1, "loading the CAD kernel")
     load_cadquery()
@@ -277,12 +273,9 @@ def built_sides(
     for i, shoe in enumerate(planned_sides(left, sides)):
         plan, which = shoe.plan, shoe.side
         tell(0.4 + 0.6 * i / len(sides), f"building the {which} side")
-        bare = (
-            floor if floor is None or which == "left" else shapely.affinity.scale(floor, 1.0, -1.0, origin=(0.0, 0.0))
-        )
-        letters = mark_outline(plan, p, which, bare).geoms
-        mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
         own = steps if which == "left" else mirrored_steps(steps)
+        letters = mark_outline(plan, p, which, bare_floor(own)).geoms
+        mark = tuple(Block(g, p.thickness - p.mark_depth, p.thickness + 0.5) for g in letters)
         solid = build_solid((*own, Step("cut", "mark", mark)))
         shoes.append(Shoe(plan, solid, surface_of(solid)))
     tell(1.0, "all sides built")

@@ -16,12 +16,13 @@ from shoes.plan.wiring import pocket_outlines, wiring_steps
 from shoes.solid.lettering import lettering
 from shoes.solid.retention import Retention, retention_steps
 
-__all__ = ["LEVELS", "cavity_levels", "insole_steps", "mark_outline", "mirrored_steps", "shoe_steps"]
+__all__ = ["LEVELS", "bare_floor", "cavity_levels", "insole_steps", "mark_outline", "mirrored_steps", "shoe_steps"]
 
 LEVELS = (0.06, 0.14, 0.25, 0.4, 0.6, 1.0)
 """Shares of the wall's height at which the foot's outline is taken."""
 
 _STEP = 0.3  # mm by which two levels must differ to be two
+_PLACE = "the foot's place"  # name of the step that cuts it
 _TRIM = 0.8  # mm: bevel of the wall's upper outer edge
 _MARK_MOST = 10  # letters
 _MARK_OFF = 4.0  # mm from walls and from what rises below an arch
@@ -53,7 +54,7 @@ def shoe_steps(foot: Foot, plan: ShoePlan, retention: Retention, parameters: Sho
     return (
         Step("add", "plate, wall and what stands on them", body),
         Step("add", "fillet between wall and plate", tuple(_fillet(plan, p)), within=plan.contact),
-        Step("cut", "the foot's place", tuple(place)),
+        Step("cut", _PLACE, tuple(place)),
         *_cell_steps(plan, p),
         *after,
         *holes,
@@ -161,15 +162,27 @@ def mirrored_steps(steps: tuple[Step, ...]) -> tuple[Step, ...]:
     return tuple(mirrored_step(s) for s in steps)
 
 
+def bare_floor(steps: tuple[Step, ...]) -> Any | None:
+    """Where the floor is not covered by what rises below the foot's arch.
+
+    Args:
+        steps: A shoe's or an insole's body, of either side.
+
+    Returns:
+        A shapely polygon; None where no foot has a place in the body, and all of the plate is bare.
+    """
+    place = (b for s in steps if s.name == _PLACE for b in s.blocks)
+    return next((b.low for b in place if isinstance(b, Block)), None)
+
+
 def mark_outline(plan: ShoePlan, parameters: ShoeParameters, side: Side, floor: Any | None = None) -> Any:
     """Letters of the mark in the floor: L or R, and the name.
 
     Args:
         plan: The sole of that side.
         parameters: Dimensions; `mark_height` 0 leaves the mark out.
-        floor: Where the plate is not covered by what rises below the foot's arch, a shapely polygon; None: everywhere
-            between the walls.
         side: "left" or "right".
+        floor: That side's bare floor, a shapely polygon; None: everywhere between the walls.
 
     Returns:
         A shapely multipolygon, read with the toes to the right, empty without a mark.
