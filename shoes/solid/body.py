@@ -171,7 +171,7 @@ def bare_floor(steps: tuple[Step, ...]) -> Any | None:
     Returns:
         A shapely polygon; None where no foot has a place in the body, and all of the plate is bare.
     """
-    place = (b for s in steps if s.name == _PLACE for b in s.blocks)
+    place = (b for s in steps if s.name == _PLACE for b in s.blocks)  # from below: the first stands on the floor
     return next((b.low for b in place if isinstance(b, Block)), None)
 
 

@@ -83,6 +83,8 @@ def test_bodies_that_are_no_foot_are_refused(box: Shape, stl: Writer) -> None:
         foot_from_mesh(stl(box((0, 100), (0, 100), (0, 100))))
     with pytest.raises(FootError, match=r"0\.5 mm high"):
         foot_from_mesh(stl(box((0, 200), (0, 100), (0, 0.5))))
+    with pytest.raises(FootError, match=r"4 mm high .* allowed: a foot's body of 5 mm or more"):
+        foot_from_mesh(stl(box((0, 200), (0, 100), (0, 4.0))))
     for scale in (1.0, 1e-3):
         with pytest.raises(FootError, match="fits neither m nor mm; allowed: a foot of 60 to 450 mm"):
             foot_from_mesh(stl(box((0, 5000), (0, 2000), (0, 900)) * scale))

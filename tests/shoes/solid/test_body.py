@@ -14,7 +14,9 @@ from shoes import build_shoe
 from shoes.foot.foot import Foot
 from shoes.foot.foot_mesh import foot_from_triangles
 from shoes.parameters import ShoeParameters
-from shoes.solid.body import cavity_levels, mark_outline
+from shoes.plan.shoe_plan import mirrored_plan
+from shoes.solid.body import bare_floor, cavity_levels, insole_steps, mark_outline, mirrored_steps, shoe_steps
+from shoes.solid.retention import choose_retention
 
 from ..foot_family import FAMILY, prism, small_turns, turned
 
@@ -71,6 +73,13 @@ def test_the_mark_lies_beside_what_rises_below_an_arch() -> None:
     assert not mark.is_empty
     assert floor.buffer(-3.9).covers(mark)
     assert not floor.covers(mark_outline(plan, p, "left"))  # the middle lies on what rises
+    steps = shoe_steps(foot, plan, choose_retention(foot, plan, p), p)
+    assert bare_floor(steps) == floor
+    other = bare_floor(mirrored_steps(steps))
+    assert other is not None
+    assert other.equals(shapely.affinity.scale(floor, 1.0, -1.0, origin=(0.0, 0.0)))
+    assert other.buffer(-3.9).covers(mark_outline(mirrored_plan(plan), p, "right", other))
+    assert bare_floor(insole_steps(plan, p)) is None
 
 
 def test_levels_lie_on_each_other_or_clearly_apart() -> None:
