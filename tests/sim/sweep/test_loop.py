@@ -56,7 +56,7 @@ def test_a_cluster_gives_the_same_rows_to_the_last_bit(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     sweep = Sweep("flat", (("friction", ("0.7", "0.9")),), 2, None, ("steps=1", "settle=0.0", "noise=3"))
     with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"
     ) as cluster:
         run_sweep(sweep, tmp_path / "cluster", scheduler=cluster.scheduler_address)
     run_sweep(sweep, tmp_path / "local")
