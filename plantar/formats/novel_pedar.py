@@ -244,6 +244,10 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
                 f"the header's mask lists other cells than the columns: the columns are used "
                 f"({split} left, {len(columns) - split} right)"
             )
+        if not listed and not re.search(r"\dl.*\dr(?![a-z])", _sensor_type(text)):
+            warnings.append(
+                "nothing says which of the two insoles is which: the first columns are taken as the left one's"
+            )
         return [("left", range(split)), ("right", range(split, len(columns)))]
     if restarts:
         raise FormatError(f"the column names count {len(restarts) + 1} sensors; one or two feet can be read")
@@ -253,12 +257,16 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
         return [(options.side, range(len(columns)))]
     if len(listed) == 1:
         return [(next(iter(listed)), range(len(columns)))]
-    sensor = _field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or ""
-    marks = set(re.findall(r"\d([lr])(?![a-z])", sensor.lower()))
+    marks = set(re.findall(r"\d([lr])(?![a-z])", _sensor_type(text)))
     if len(marks) == 1:
         return [("left" if marks == {"l"} else "right", range(len(columns)))]
     warnings.append("the file does not say which foot it is: taken as the left one (--side overrides)")
     return [("left", range(len(columns)))]
+
+
+def _sensor_type(text: str) -> str:
+    """What the header says of the sensors in lower case, such as "y-1865l-1870r"."""
+    return (_field(text, r"(?:sensor|mat)\s+type:?[ \t]*([^\n]*)") or "").lower()
 
 
 def _layout(

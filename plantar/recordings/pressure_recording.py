@@ -35,6 +35,9 @@ _GAP = 2.5
 _COUNTED = 5.0
 """Stated rate in Hz from which times that rise by 1 are no seconds but the frames' numbers."""
 
+_BEGUN = 20
+"""Frames that go on in order, on the average, where a recording has begun again and is not merely out of order."""
+
 _LEAST_STEP = 1e-3
 """Least time from one frame to the next, as a share of the usual one: with less every velocity would be infinite."""
 
@@ -305,8 +308,19 @@ def _checked_times(
     elif np.isfinite(time).all() and (steps >= _LEAST_STEP / rate).all():
         warnings.append("the frames are not evenly spaced: their own times are used")
         return time, rate, tuple(warnings)
-    warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz")
+    warnings.append(f"the frame times are not in order: taken from the rate of {rate:g} Hz{_begun_again(time, rate)}")
     return grid, rate, tuple(warnings)
+
+
+def _begun_again(time: NDArray[np.float64], rate: float) -> str:
+    """What to say where times (n,) go back by a second or more and on from there."""
+    known = np.flatnonzero(np.isfinite(time))
+    steps = np.diff(time[known])
+    back = np.flatnonzero(steps < -max(1.0, _BEGUN / rate))
+    if not len(back) or int((steps < 0.0).sum()) > len(back) or _BEGUN * len(back) > len(steps):
+        return ""
+    frame = int(known[back[0] + 1]) + 1
+    return f"; they begin again at frame {frame}: several recordings in one file? A contact there may be made of two"
 
 
 def _counts(time: NDArray[np.float64]) -> bool:

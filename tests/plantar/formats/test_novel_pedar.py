@@ -96,6 +96,15 @@ def test_a_mask_that_lists_the_right_insole_first(tmp_path: Path, pressures: tup
         assert np.abs(read_pa(path, side) - truth * 1e3).max() < 1e-6
 
 
+@pytest.mark.parametrize(("mask", "sensor", "told"), [(True, "y", 0), (False, "y-1865l-1870r", 0), (False, "y", 1)])
+def test_which_insole_is_first_is_known_or_told(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], mask: bool, sensor: str, told: int
+) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, mask=mask, sensor=sensor)
+    assert sum("which of the two insoles is which" in w for w in read_recording(path).warnings) == told
+
+
 @pytest.mark.parametrize(
     "options",
     [
