@@ -11,6 +11,7 @@ from plantar.console.ending import one_line
 from plantar.errors import FormatError, InputError, PlantarError
 from plantar.files.input_file import check_input, is_file, open_input
 from plantar.formats.format import Format, ReadOptions
+from plantar.formats.marks import without_marks
 from plantar.formats.plausibility import doubts
 from plantar.formats.units import find_unit
 from plantar.layouts.layout import SoleLayout
@@ -142,7 +143,7 @@ def read_recording(
         check_input(path, FormatError)
         raise FormatError(f"{path}: a footprint image is no recording over time")
     try:
-        recording = chosen.read(Path(path), known)
+        recording = without_marks(chosen.read(Path(path), known))
     except FormatError as error:
         text = str(error)
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from None

@@ -28,8 +28,6 @@ _SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
 """A cell's smallest reading (0.1 % of the positive ones lie below), as a share of the readings' 98th percentile, from
 which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that tells such a
 sensor from one with an offset."""
-_MARK, _FEWEST_MARKS = 4e3, 3
-"""Pressure in Pa below zero that moves a result, and readings of it from which they are no chance."""
 _LONGEST_FOOT = 0.40
 
 
@@ -40,9 +38,11 @@ def doubts(recording: PressureRecording) -> list[str]:
         recording: The recording.
 
     Returns:
-        Warnings about peak force, peak pressure, cell area, insole length, rate and readings below zero.
+        Warnings about raw counts, peak force, peak pressure, cell area, insole length and rate.
     """
     out: list[str] = []
+    if recording.raw and not any("raw counts" in warning for warning in recording.warnings):
+        out.append("the readings are raw counts: forces and pressures cannot be given")
     if not _RATE[0] <= recording.rate_hz <= _RATE[1]:
         out.append(f"{recording.rate_hz:.4g} frames a second is an unusual rate: check it")
     for side, foot in recording.feet.items():
@@ -77,12 +77,11 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
     part = np.nan_to_num(measured)
     let_go(foot.force)
     loaded = part.sum(axis=1) > 0.2 * float(part.sum(axis=1).max(initial=0.0))
-    marks = _marks(foot, measured)
     if loaded.sum() < 20 or part.shape[1] <= _CELLS:
-        return marks
+        return []
     assert foot.layout is not None
     value = part / foot.layout.areas
-    out = marks + _switched_on(foot.side, value)
+    out = _switched_on(foot.side, value)
     highest = float(value.max())
     full = value >= highest * (1.0 - 1e-9)
     runs = full[_FLAT - 1 :].copy()
@@ -110,18 +109,6 @@ def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:
             f"{rate * (1.0 - share):.2g} new frames a second, and events are as coarse as that"
         )
     return out
-
-
-def _marks(foot: FootRecording, force: NDArray[np.float64]) -> list[str]:
-    """What to say of readings (n, k) below zero that are all the same: marks for what was not measured."""
-    assert foot.layout is not None
-    below = (force / foot.layout.areas)[force < 0.0]
-    if len(below) < _FEWEST_MARKS or float(below.max()) > -_MARK or float(np.ptp(below)) > 1e-6 * abs(float(below[0])):
-        return []
-    return [
-        f"{len(below)} value(s) of the {foot.side} foot are {below[0] / 1e3:.4g} kPa, and no others are below zero: a "
-        "mark for what was not measured? They count as readings; leave these cells empty in the file"
-    ]
 
 
 def _switched_on(side: str, value: NDArray[np.float64]) -> list[str]:

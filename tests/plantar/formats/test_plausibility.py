@@ -67,18 +67,6 @@ def test_cells_that_read_nothing_at_low_load_are_told(threshold: float, told: in
     assert not any("reads between 0 and" in doubt for doubt in doubts(offset))
 
 
-@pytest.mark.parametrize("mark", [-1e4, -999e3])
-def test_marks_for_what_was_not_measured_are_told(mark: float) -> None:
-    recording = steps()
-    foot = recording.feet["left"]
-    assert foot.layout is not None
-    lost = np.random.default_rng(0).random(foot.force.shape) < 0.001
-    found = doubts(with_force(recording, np.where(lost, mark * foot.layout.areas, foot.force)))
-    assert sum(f"{lost.sum()} value(s) of the left foot are {mark / 1e3:g} kPa" in doubt for doubt in found) == 1
-    noise = np.random.default_rng(0).normal(0.0, 5e3, foot.force.shape) * foot.layout.areas
-    assert not any("mark for" in doubt for doubt in doubts(with_force(recording, foot.force + noise)))
-
-
 def test_frames_that_repeat_are_told() -> None:
     recording = steps()
     slow = recording.feet["left"].force[np.arange(1000) // 5 * 5]
