@@ -23,17 +23,26 @@ from plantar.formats.side import side_of
 from plantar.formats.side_column import is_side_column, on_one_time, rows_of_sides, with_numbers
 from plantar.formats.text import blocks_of_lines, head_text, number, number_in, open_text, row_of_numbers
 from plantar.formats.units import find_unit
+from plantar.formats.written_cells import (
+    has_quoted_commas,
+    names_of_row,
+    seconds_of_time,
+    with_seconds,
+    without_quotes,
+)
 from plantar.recordings.frame_table import FrameTable
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
 
-_TIME = re.compile(
-    r"\s*(?:t|time|timestamp|zeit|secs?|seconds)(?:[_ ]?(?:s|ms|us|ns|sec|secs|seconds))?\s*(?:[\[(].*[\])])?\s*$",
-    re.I,
-)
 _SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+_SECONDS |= {"min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0}
+_UNITS = "|".join(_SECONDS)
+_TIME = re.compile(
+    rf"\s*(?:t|time|timestamp|zeit|secs?|seconds)(?:[_ ]?(?:{_UNITS}))?\s*(?:[\[(].*[\])])?\s*$", re.IGNORECASE
+)
+_TIME_UNIT = re.compile(rf"[\[(]\s*(\w+)\s*[\])]|[_ ]({_UNITS})\"?\s*$", re.IGNORECASE)
 _USUAL_RATE = 100.0
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
 _FIRST = 32
@@ -52,14 +61,17 @@ def _recognises(head: bytes) -> bool:
     if not lines:
         return False
     delimiter = _delimiter(lines)
-    rows = [x.split(delimiter) for x in lines[:50]]
+    plain = without_quotes(iter(lines[:50])) if delimiter == "," else lines[:50]
+    rows = [x.split(delimiter) for x in plain]
     good = [len(r) >= 3 and sum(_is_cell(c) for c in r) >= 0.9 * len(r) for r in rows]
     return sum(good) >= 0.9 * len(good)
 
 
 def _is_cell(text: str) -> bool:
-    """Whether a cell of a table holds a number, nothing, or the name of a foot."""
-    return number(text) is not None or not text.strip() or (len(text) < 12 and side_of(text.strip(' "')) is not None)
+    """Whether a cell of a table holds a number, nothing, the name of a foot, or a time of day."""
+    if number(text) is not None or not text.strip() or seconds_of_time(text[:40]) is not None:
+        return True
+    return len(text) < 12 and side_of(text.strip(' "')) is not None
 
 
 def _delimiter(lines: list[str]) -> str | None:
@@ -81,9 +93,17 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if len(head) < 2:
             raise FormatError(f"{path}: the table has no rows")
         delimiter = _delimiter(head[1:])
-        first = [c.strip().strip('"')[:_LONGEST_NAME] for c in head[0].split(delimiter)]
-        named = any(c and number(c) is None for c in first) or all(c.isdigit() for c in first)
+        first = [c[:_LONGEST_NAME] for c in names_of_row(head[0], delimiter)]
+        named = any(c and number(c) is None and seconds_of_time(c) is None for c in first) or all(
+            c.isdigit() for c in first
+        )
         lines: Iterator[str] = chain(head[1:] if named else head, _content(stream, comments))
+        if delimiter == "," and any(map(has_quoted_commas, head[1:])):
+            lines = without_quotes(lines)
+        clock = next((i for i, n in enumerate(first) if not named or _TIME.match(n)), None)
+        if clock is not None and seconds_of_time(head[-1].split(delimiter)[clock]) is not None:
+            lines = with_seconds(lines, delimiter, clock)
+            first[clock] = "time [s]" if named else first[clock]
         of_side = next((i for i, n in enumerate(first) if named and is_side_column(n)), None)
         if of_side is not None:
             lines = with_numbers(lines, delimiter, of_side)
@@ -234,7 +254,7 @@ def _times(
         rate = _USUAL_RATE if stated is None else possible_rate(stated, "the table states")
         return np.arange(len(table)) / rate, rate, ()
     name = names[at] if names else ""
-    match = re.search(r"[\[(]\s*(\w+)\s*[\])]|[_ ](s|ms|us|ns|secs?|seconds)\"?\s*$", name, re.IGNORECASE)
+    match = _TIME_UNIT.search(name)
     unit = (match[1] or match[2]).lower() if match else ""
     factor = _SECONDS.get(unit)
     if factor is None:

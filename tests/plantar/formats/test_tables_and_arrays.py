@@ -267,3 +267,88 @@ def test_a_table_with_a_column_of_sides_is_two_feet(
     assert recording.feet["right"].force == pytest.approx(truth, rel=1e-4)
     assert any("interpolated" in w for w in recording.warnings) == (shift > 0.0)
     assert any("smaller is taken as the left" in w for w in recording.warnings) == (words == ("1", "2"))
+
+
+def clock(seconds: float, form: str) -> str:
+    """A time after 23:59:59.8 on the last day of a year, so that midnight passes."""
+    hours, rest = divmod(86399.8 + seconds, 3600.0)
+    minutes, rest = divmod(rest, 60.0)
+    day = "2023-12-31" if hours < 24 else "2024-01-01"
+    text = f"{int(hours) % 24:02d}:{int(minutes):02d}:{rest:06.3f}"
+    return {"day": text, "comma": text.replace(".", ","), "iso": f"{day}T{text}", "date": f"{day} {text}"}[form]
+
+
+@pytest.mark.parametrize("form", ["day", "comma", "iso", "date"])
+@pytest.mark.parametrize("delimiter", [";", "\t", ","])
+@pytest.mark.parametrize("header", [True, False])
+def test_times_of_day_and_dates(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray, form: str, delimiter: str, header: bool
+) -> None:
+    if form == "comma" and delimiter == ",":
+        return  # would be two cells
+    names = delimiter.join(["Time", *(f"left {i} [kPa]" for i in layout.ids)])
+    rows = [delimiter.join([clock(0.01 * k, form), *(f"{v:g}" for v in row)]) for k, row in enumerate(values)]
+    path = tmp_path / "table.csv"
+    path.write_text("\n".join([names] * header + rows) + "\n")
+    assert detect_format(path).name == "csv"
+    options = ReadOptions(layout=layout, unit="kPa", side="left")
+    recording = read_recording(path, options=options)
+    assert recording.time == pytest.approx(np.arange(50) * 0.01, abs=1e-6)
+    assert recording.rate_hz == pytest.approx(100.0)
+    assert recording.feet["left"].force == pytest.approx(values * 1e3 * layout.areas)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"), [("time [min]", 60.0), ("time_min", 60.0), ("t (h)", 3600.0), ("time [s]", 1.0)]
+)
+def test_times_in_minutes_and_hours(
+    tmp_path: Path, layout: SoleLayout, values: np.ndarray, name: str, factor: float
+) -> None:
+    columns = both(layout, values)
+    columns = {name: columns.pop("time [s]") / factor, **columns}
+    path = tmp_path / "table.csv"
+    lines = [
+        ",".join(columns),
+        *(",".join(f"{v:.12g}" for v in row) for row in np.column_stack(list(columns.values()))),
+    ]
+    path.write_text("\n".join(lines) + "\n")
+    recording = read_recording(path, layout=layout)
+    assert recording.rate_hz == pytest.approx(100.0, rel=1e-6)
+    assert recording.time[-1] == pytest.approx(0.49, rel=1e-6)
+
+
+def test_quoted_numbers_may_have_a_decimal_comma(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    columns = both(layout, values)
+    names = ",".join(f'"{name}, of the insole"' if i == 0 else f'"{name}"' for i, name in enumerate(columns))
+    rows = [",".join(f'"{v:.6g}"'.replace(".", ",") for v in row) for row in np.column_stack(list(columns.values()))]
+    path = tmp_path / "table.csv"
+    path.write_text("\n".join([names, *rows]) + "\n")
+    assert detect_format(path).name == "csv"
+    recording = read_recording(path, layout=layout)
+    assert recording.feet["right"].force == pytest.approx(2.0 * values * 1e3 * layout.areas)
+
+
+def test_times_that_begin_again_are_told(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    """Two recordings one after the other, with the row of names between them or without."""
+    path = tmp_path / "table.csv"
+    values = np.tile(values, (3, 1))
+    columns = {"time [s]": np.arange(150) * 0.01} | {f"left {i} [kPa]": values[:, k] for k, i in enumerate(layout.ids)}
+    write_csv(path, columns)
+    text = path.read_text()
+    for again, frame in ((text, 152), (text.partition("\n")[2], 151)):
+        path.write_text(text + again)
+        (told,) = [w for w in read_recording(path, layout=layout).warnings if "not in order" in w]
+        assert told.endswith(
+            f"begin again at frame {frame}: several recordings in one file? A contact there may be made of two"
+        )
+    columns["time [s]"] = np.random.default_rng(0).permutation(columns["time [s]"])
+    write_csv(path, columns)
+    assert not any("begin again" in w for w in read_recording(path, layout=layout).warnings)
+
+
+def test_stated_raw_counts_are_told(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
+    path = tmp_path / "table.csv"
+    write_csv(path, both(layout, values, "[raw]"))
+    recording = read_recording(path, layout=layout)
+    assert recording.raw
+    assert sum("raw counts" in warning for warning in recording.warnings) == 1

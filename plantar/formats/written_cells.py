@@ -1,0 +1,102 @@
+"""Cells of tables that are numbers in other clothes: quoted ones with a comma inside, and times of day or dates."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterator
+from datetime import datetime
+
+__all__ = ["has_quoted_commas", "names_of_row", "seconds_of_time", "with_seconds", "without_quotes"]
+
+_QUOTED = re.compile(r'"([^"]*)"')
+_QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
+_CLOCK = re.compile(r"(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)")
+_DAY = 86400.0
+_EPOCH = datetime(2020, 1, 1).toordinal()
+"""Days are counted from here: from the year 1 on, a second's millionth is less than a double can tell."""
+
+
+def names_of_row(line: str, delimiter: str | None) -> list[str]:
+    """The cells of a row of names, without their quotes; what stands in quotes may hold the delimiter."""
+    if delimiter is None or '"' not in line:
+        return [cell.strip() for cell in line.split(delimiter)]
+    (cells,) = csv.reader([line], delimiter=delimiter)
+    return [cell.strip().strip('"') for cell in cells]
+
+
+def without_quotes(lines: Iterator[str]) -> Iterator[str]:
+    """Lines of a table with commas between cells, whose quoted numbers may have a decimal comma.
+
+    Args:
+        lines: The lines.
+
+    Yields:
+        The lines; `"1,5","2,5"` as `1.5,2.5`, and those without a comma in quotes as they are.
+
+    Example:
+        >>> list(without_quotes(iter(['0.01,"1,5","-2,25"', '"0.02","1","1,234.5"'])))
+        ['0.01,1.5,-2.25', '0.02,1,1234.5']
+    """
+    for line in lines:
+        yield _QUOTED.sub(_plain, line) if '"' in line else line
+
+
+def _plain(quoted: re.Match[str]) -> str:
+    text = quoted[1]
+    if "," in text and "." in text:  # one of them parts the thousands: the one that comes first
+        return text.replace(",", "") if text.rfind(",") < text.rfind(".") else text.replace(".", "").replace(",", ".")
+    return text.replace(",", ".")
+
+
+def has_quoted_commas(line: str) -> bool:
+    """Whether a cell of a line is in quotes and holds a comma."""
+    return _QUOTED_COMMA.search(line) is not None
+
+
+def seconds_of_time(text: str) -> float | None:
+    """Seconds of a time of day, or of a date and time since 2020 began; None where a text is neither.
+
+    Example:
+        >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("12.5")
+        (30077.5, 62.25, None)
+    """
+    text = text.strip().strip('"')
+    if ":" not in text:
+        return None
+    match = _CLOCK.fullmatch(text)
+    if match is not None:
+        return 3600.0 * int(match[1] or 0) + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
+    try:
+        moment = datetime.fromisoformat(text)
+    except ValueError:
+        return None
+    clock = 3600.0 * moment.hour + 60.0 * moment.minute + moment.second + 1e-6 * moment.microsecond
+    return _DAY * (moment.toordinal() - _EPOCH) + clock
+
+
+def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:
+    """Lines in whose time column seconds stand for times of day or dates; they go on beyond midnight.
+
+    Args:
+        lines: Lines of a table.
+        delimiter: What stands between its cells; None for blanks.
+        column: The column of times.
+
+    Yields:
+        The lines; those whose cell is no such time as they are. The first line's time counts as 0.
+    """
+    first: float | None = None
+    last = days = 0.0
+    for line in lines:
+        cells = line.split(delimiter)
+        seconds = seconds_of_time(cells[column]) if column < len(cells) else None
+        if seconds is not None:
+            if first is None:
+                first = last = seconds
+            if seconds < last - 0.5 * _DAY:
+                days += _DAY
+            last = seconds
+            cells[column] = f"{seconds - first + days:.6f}"
+            line = (delimiter or " ").join(cells)
+        yield line
