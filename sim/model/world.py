@@ -303,7 +303,7 @@ def build_world(
         other.add_to(spec)
     model = _compiled(spec, robot)
     body = body_of(robot, model)
-    _soften(model, soles, body, period)
+    _soften(model, soles, body, period, robot.contact_damping)
     keep_apart(model, robot)
     world = _world_of(model, robot, ground, body)
     if plant is not None:
@@ -328,10 +328,10 @@ def _set_contacts(spec: Any, friction: float) -> list[str]:
     return [geom.name for geom in touching]
 
 
-def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float) -> None:
+def _soften(model: Any, names: Sequence[str], body: BodyScale, period: float, damping: float) -> None:
     """Contact parameters of soles and ground, as `sim.contact_models` recommends them: 5 ms and 1 mm for H1."""
     ids = [model.geom(name).id for name in names]
-    model.geom_solref[ids] = [_CONTACT_STEPS * period, 1.0]
+    model.geom_solref[ids] = [_CONTACT_STEPS * period, damping]
     model.geom_solimp[ids] = [0.95, 0.99, _SOFT * body.leg, 0.5, 2]
     model.geom_gap[ids] = _SOFT * body.leg  # corners that hover by micrometres stay in the contact list
 

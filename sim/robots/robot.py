@@ -81,6 +81,7 @@ class Robot:
         shoe_mass: Mass of one shoe in kg.
         rim_stiffness: Stiffness of the shoe beside its taxels over theirs (`sim.sensing.blind_rim`); 0 where its pad is
             relieved.
+        contact_damping: Damping ratio of the shoe on the ground; 1 is critical for a sole that carries itself alone.
         sole_origins: Sole frame's origin (3,) of each foot in the frame of its body in m.
         sole_rotations: Rotation (3, 3) of each foot from the sole frame to the frame of its body.
         effort_limits: Torque limit of each leg joint in N m for a robot from a model file; empty for none.
@@ -126,6 +127,7 @@ class Robot:
     shoe_thickness: float
     shoe_mass: float
     rim_stiffness: float
+    contact_damping: float
     sole_origins: Mapping[Side, NDArray[np.float64]]
     sole_rotations: Mapping[Side, NDArray[np.float64]]
     effort_limits: tuple[float, ...]

@@ -35,7 +35,17 @@ _LARGEST_ANGLE = 360.0  # degrees, of a posture
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "model": ("kind", "file"),
     "foot": ("foot_length", "foot_width", "sole_center", "corner_radius", "taxels"),
-    "shoe": ("layout", "origin", "rotation", "origin_right", "rotation_right", "thickness", "mass", "rim_stiffness"),
+    "shoe": (
+        "layout",
+        "origin",
+        "rotation",
+        "origin_right",
+        "rotation_right",
+        "thickness",
+        "mass",
+        "rim_stiffness",
+        "contact_damping",
+    ),
     "legs": SIDES,
     "torso": ("body", "imu_site"),
     "posture": SIDES,
@@ -209,6 +219,7 @@ class _RobotFile(RobotTables):
             "shoe_thickness": self.number("thickness", "shoe", 0.0, 0.1, exported.get("thickness")),
             "shoe_mass": self.number("mass", "shoe", 0.0, 20.0, exported.get("mass")),
             "rim_stiffness": self.number("rim_stiffness", "shoe", 0.0, 100.0, exported.get("rim_stiffness", 0.0)),
+            "contact_damping": self.number("contact_damping", "shoe", 0.1, 10.0, 1.0),
         }
 
     def _sole_frames(self, kind: str) -> dict[Side, tuple[NDArray[np.float64], NDArray[np.float64]]]:

@@ -126,6 +126,11 @@ def _shoe(survey: Survey, robot: Robot, notes: Sequence[str], weighed: bool) -> 
     how = "of the shoe that was built" if weighed else "15.5 kg/m^2 of contact face, as built shoes have"
     lines.append(f"thickness = {robot.shoe_thickness:g}  # m, of the planned shoe")
     lines.append(f"mass = {robot.shoe_mass:.3g}  # kg, {how}")
+    lines += _told(
+        "Damping ratio of the sole on the ground. A contact is as stiff as suits the foot, but carries the robot: with "
+        "1 light feet rattle between the edges of what they stand on, at some 60 Hz."
+    )
+    lines.append(f"contact_damping = {robot.contact_damping:g}")
     return lines
 
 

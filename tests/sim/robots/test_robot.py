@@ -76,3 +76,10 @@ def test_mass_and_thickness_come_with_the_shoes_layout(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text)
     robot = load_robot(tmp_path / "robot.toml")
     assert (robot.shoe_mass, robot.shoe_thickness, robot.rim_stiffness) == (0.4, 0.015, 1.5)
+    assert robot.contact_damping == 1.0
+    file = tmp_path / "robot.toml"
+    file.write_text(file.read_text().replace("[shoe]\n", "[shoe]\ncontact_damping = 3.0\n"))
+    assert load_robot(file).contact_damping == 3.0
+    file.write_text(file.read_text().replace("= 3.0", "= 0.0"))
+    with pytest.raises(RobotError, match=r"contact_damping.*0\.1"):
+        load_robot(file)

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from plantar.errors import RobotError
+from plantar.recordings.recording import read_mcap
 from shoes.found_foot import shoe_for_surface, taxel_area
 from sim.robots import load_robot
 from sim.run.runner import run_scene
@@ -94,6 +95,25 @@ def test_it_walks(made: tuple[Truth, Introduced, Path]) -> None:
     summary = run_scene(load_scene("flat", ["steps=4"], robot=str(made[2] / "robot.toml")))
     assert summary["completed"], summary["reasons"]
     assert summary["final"]["tilt_deg"] < 0.5
+
+
+def test_its_soles_rattle_less_than_with_critical_damping(made: tuple[Truth, Introduced, Path], tmp_path: Path) -> None:
+    """On a beam's edges, by what the force on both soles does above 20 Hz, and by how far a standing sole slips."""
+    _, _, folder = made
+    text = (folder / "robot.toml").read_text()
+    (folder / "critical.toml").write_text(text.replace("contact_damping = 2\n", "contact_damping = 1\n"))
+    ripple, slip = {}, {}
+    for name in ("robot", "critical"):
+        scene = load_scene("beam", ("steps=8",), str(folder / f"{name}.toml"))
+        summary = run_scene(scene, 1000, record=tmp_path / f"{name}.mcap")
+        topics = read_mcap(tmp_path / f"{name}.mcap").topics
+        force = sum(topics[f"/truth/{side}"].fields["normal_force"][:, 0] for side in ("left", "right"))
+        spectrum = np.fft.rfft(force - force.mean())
+        quick = np.fft.rfftfreq(len(force), 0.005) > 20.0
+        ripple[name] = float(np.linalg.norm(spectrum[quick]))
+        slip[name] = summary["slip_max_m"]
+    assert ripple["robot"] < 0.8 * ripple["critical"]
+    assert slip["robot"] < slip["critical"]
 
 
 def test_a_soles_taxels_are_as_many_as_the_papers() -> None:
