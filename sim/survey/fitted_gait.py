@@ -26,6 +26,7 @@ from sim.survey.joint_inertia import JointInertia, joint_inertia
 from sim.survey.plan_reach import PlanReach, Walked, plan_reach, settled, standing_feet
 from sim.survey.rocking_gait import ankle_reach, has_ankle_roll, rocking
 from sim.survey.servo_gains import servo_gains
+from sim.survey.swing_yaw import least_single_support
 
 __all__ = [
     "APPROACH_HEIGHT",
@@ -173,6 +174,7 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
     crouch = _crouch(robot, legs, body)
     pace = _pace(robot, legs, body)
     own = _paced(robot, robot.com_height, pace) if pace > 1.0 and not robot.rocks else robot
+    held = 0.0 if robot.rocks else least_single_support(robot, legs, body, STEP_SHARE * body.leg)
     robot = replace(
         robot,
         stiffness=tuple(stiffness.tolist()),
@@ -180,7 +182,7 @@ def fit_gait(draft: Robot, rotors: Array | None = None) -> FittedGait:
         largest_crouch=crouch,
         largest_crouch_partial=crouch,
         pace=pace,
-        single_support=max(robot.single_support, own.single_support),
+        single_support=max(robot.single_support, own.single_support, held),
         double_support=max(robot.double_support, own.double_support),
         balance=_balance(body),
     )

@@ -189,7 +189,11 @@ def _gait(fitted: FittedGait) -> list[str]:
         *_loaded(robot),
         *_told(
             f"This pace is {pace:.2f} sqrt(com_height / g)"
-            + ("." if robot.rocks else "; that of h1 is 3.15, more spares the motors.")
+            + (
+                "."
+                if robot.rocks
+                else "; that of h1 is 3.15, more spares the motors, or friction where heavy legs swing."
+            )
         ),
         f"single_support = {robot.single_support:g}  # s",
         f"double_support = {robot.double_support:g}  # s, {robot.double_support / robot.single_support:.2f} of it",
