@@ -12,6 +12,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.bench.references import exact_hull, turn
 from plantar.geometry.polygon import convex_hull
 from plantar.layouts.hex_lattice import HexLattice
 
@@ -40,14 +41,14 @@ class ExactRing:
     @classmethod
     def of(cls, ring: Array) -> ExactRing:
         """The exact ring of vertices (k, 2) in m, not all at one place."""
-        hull = _hull([(Fraction(float(x)), Fraction(float(y))) for x, y in ring])
+        hull = exact_hull([(Fraction(float(x)), Fraction(float(y))) for x, y in ring])
         low = min(x for x, _ in hull), min(y for _, y in hull)
         size = max(max(x for x, _ in hull) - low[0], max(y for _, y in hull) - low[1])
         left = [((x - low[0]) / size, (y - low[1]) / size) for x, y in hull]
         i = 0
         while i < len(left) > 2:
             a, b, c = left[i - 1], left[i], left[(i + 1) % len(left)]
-            height = _turn(a, b, c) / max(abs(c[0] - a[0]), abs(c[1] - a[1]))
+            height = turn(a, b, c) / max(abs(c[0] - a[0]), abs(c[1] - a[1]))
             if max(abs(b[0] - a[0]), abs(b[1] - a[1])) < _RESOLVED or height < _RESOLVED:
                 left.pop(i)
                 i = 0
@@ -79,23 +80,6 @@ class ExactRing:
         normal = np.column_stack([-edge[:, 1], edge[:, 0]]) / np.hypot(*edge.T)[:, None]
         away: Array = points[:, None] - self.polygon
         return np.asarray((away * normal).sum(axis=2).min(axis=1))
-
-
-def _turn(a: Corner, b: Corner, c: Corner) -> Fraction:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
-def _hull(points: list[Corner]) -> list[Corner]:
-    ordered = sorted(set(points))
-    ring: list[Corner] = []
-    for sequence in (ordered, ordered[::-1]):
-        chain: list[Corner] = []
-        for p in sequence:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], p) <= 0:
-                chain.pop()
-            chain.append(p)
-        ring += chain[:-1]
-    return ring
 
 
 def chamfered_rectangle(rng: np.random.Generator) -> Array:

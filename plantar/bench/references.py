@@ -6,9 +6,10 @@ None shares code with the kernels; all are slow.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import combinations, pairwise
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ __all__ = [
     "centroid_exact",
     "circle_radius",
     "closest_point_exact",
+    "exact_hull",
     "hull_area_exact",
     "inner_offset_area",
     "integers",
@@ -29,11 +31,13 @@ __all__ = [
     "rectangle_area_any_angle",
     "search_period",
     "triangle_area_exact",
+    "turn",
     "wrench_exact",
 ]
 
 Array = NDArray[np.float64]
 Point = tuple[int, int]
+Number = TypeVar("Number", int, Fraction)
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
@@ -56,8 +60,31 @@ def integers(points: Array) -> tuple[list[Point], int]:
     return list(zip(flat[::2], flat[1::2], strict=True)), scale
 
 
-def _turn(a: Point, b: Point, c: Point) -> int:
+def turn(a: tuple[Number, Number], b: tuple[Number, Number], c: tuple[Number, Number]) -> Number:
+    """Twice the signed area of a triangle with corners (x, y), positive counter-clockwise; exact as its numbers are."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Number]]:
+    """Convex hull of points (x, y) by the monotone chain: its corners, counter-clockwise from the leftmost one.
+
+    Args:
+        points: The points, in whole numbers or fractions.
+
+    Example:
+        >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])
+        [(0, 0), (2, 0), (0, 2)]
+    """
+    ordered = sorted(set(points))
+    ring: list[tuple[Number, Number]] = []
+    for sequence in (ordered, ordered[::-1]):
+        chain: list[tuple[Number, Number]] = []
+        for p in sequence:
+            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 0:
+                chain.pop()
+            chain.append(p)
+        ring += chain[:-1]
+    return ring
 
 
 def _twice(ring: Sequence[Point]) -> int:
@@ -72,15 +99,7 @@ def hull_area_exact(points: Array) -> float:
         0.5
     """
     whole, scale = integers(points)
-    ordered = sorted(set(whole))
-    ring: list[Point] = []
-    for sequence in (ordered, ordered[::-1]):
-        chain: list[Point] = []
-        for p in sequence:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], p) <= 0:
-                chain.pop()
-            chain.append(p)
-        ring += chain[:-1]
+    ring = exact_hull(whole)
     return float(Fraction(_twice(ring), 2 * scale * scale)) if len(ring) > 2 else 0.0
 
 
@@ -173,7 +192,7 @@ def _rounded(value: Fraction, unit: int) -> Fraction:
 def triangle_area_exact(polygon: Array) -> float:
     """Area in m^2 of the largest triangle on a polygon's vertices (k, 2): all triples, in integers."""
     whole, scale = integers(polygon)
-    most = max((abs(_turn(a, b, c)) for a, b, c in combinations(whole, 3)), default=0)
+    most = max((abs(turn(a, b, c)) for a, b, c in combinations(whole, 3)), default=0)
     return float(Fraction(most, 2 * scale * scale))
 
 

@@ -16,7 +16,7 @@ import pytest
 import shapely
 
 from plantar import InputError
-from plantar.bench.references import inner_offset_area
+from plantar.bench.references import exact_hull, inner_offset_area, turn
 from plantar.geometry import enclosing, inscribed, polygon
 from plantar.percepts.support import feet_support_polygon
 
@@ -97,29 +97,11 @@ def flat(result):
     return b"".join(np.asarray(part, dtype=float).tobytes() for part in parts)
 
 
-def exact_hull(points):
-    """Hull by the monotone chain in fractions, counter-clockwise."""
-    ordered = sorted({(Fraction(x), Fraction(y)) for x, y in points.tolist()})
-    ring = []
-    for way in (ordered, ordered[::-1]):
-        chain = []
-        for p in way:
-            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 0:
-                chain.pop()
-            chain.append(p)
-        ring += chain[:-1]
-    return ring
-
-
-def turn(a, b, c):
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
 def check_right(points, rng):
     """Hull, area, closest point, margin and inner offset of points are those of fractions and of GEOS."""
     hull = polygon.convex_hull(points)
     assert {tuple(p) for p in hull.tolist()} <= {tuple(p) for p in points.tolist()}
-    truth = exact_hull(points)
+    truth = exact_hull((Fraction(x), Fraction(y)) for x, y in points.tolist())
     size = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
     rounding = 1e-12 * size + 1e-14 * float(np.abs(points).max(initial=0.0))
     area = abs(sum((turn(truth[0], a, b) for a, b in pairwise(truth)), Fraction(0))) / 2

@@ -2,7 +2,6 @@
 
 import itertools
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -10,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import HexLattice, ReadingError, hex_layout
+from plantar.bench.references import hull_area_exact
 from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.kernels import python_form
 from plantar.kernels.sole import SoleKernel
@@ -25,25 +25,6 @@ LAYOUTS = {
 }
 seeds = st.integers(0, 2**32 - 1)
 layouts = st.sampled_from(sorted(LAYOUTS))
-
-
-def exact_hull_area(points):
-    """Area of the hull by the monotone chain in fractions."""
-    cloud = sorted({(Fraction(x), Fraction(y)) for x, y in points})
-
-    def chain(sequence):
-        out = []
-        for p in sequence:
-            while len(out) > 1:
-                (ax, ay), (bx, by) = out[-2:]
-                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0:
-                    break
-                out.pop()
-            out.append(p)
-        return out[:-1]
-
-    ring = chain(cloud) + chain(cloud[::-1])
-    return float(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) / 2)
 
 
 def corners_of(layout, active):
@@ -62,7 +43,7 @@ def test_hull_is_that_of_the_active_cells_corners(seed, name):
     above = layout.kernel.hull_above(np.where(active, 5.0, 1.0), 1.0, 9.0)
     assert (above[0].tobytes(), *above[1:]) == (polygon.tobytes(), size, x, y)
     assert polygon.tolist() == convex_hull(corners_of(layout, active)).tolist()
-    assert size == pytest.approx(exact_hull_area(corners_of(layout, active)), rel=1e-12)
+    assert size == pytest.approx(hull_area_exact(corners_of(layout, active)), rel=1e-12)
     assert size == pytest.approx(area(polygon), rel=1e-15)
     assert (x, y) == pytest.approx(centroid(polygon).tolist(), rel=1e-15)
 
@@ -82,7 +63,7 @@ def test_every_pattern_of_three_rows_has_the_exact_hull():
                 assert polygon.shape == (0, 2)
                 continue
             integers = keys[active].reshape(-1, 2).tolist()
-            assert size == pytest.approx(exact_hull_area(integers) * unit, rel=1e-12)
+            assert size == pytest.approx(hull_area_exact(integers) * unit, rel=1e-12)
 
 
 @given(seeds, layouts)
