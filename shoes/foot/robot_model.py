@@ -81,19 +81,19 @@ def read_foot_body(path: str | os.PathLike[str], body: str | None) -> BodyGeomet
     bodies = source.bodies()
     if body is None or body not in bodies:
         what = "name the foot's body (--body)" if body is None else f"there is no body '{body}'"
-        raise FootError(f"{source.file}: {what}; allowed: {_shown(bodies, body or '')}")
+        raise FootError(f"{source.file}: {what}; allowed: {_names_shown(bodies, body or '')}")
     where = f"{source.file}: body '{body}'"
     drawn, colliding = source.shapes(body, _MOST_SHAPES)
     shapes = drawn or colliding
     if not shapes:
-        raise FootError(f"{where} has no geometry; name the body that has the foot's: {_shown(bodies, body)}")
+        raise FootError(f"{where} has no geometry; name the body that has the foot's: {_names_shown(bodies, body)}")
     triangles = _together(shapes, where)
     mass, note = source.mass(body)
     told = f"body '{body}': {len(shapes)} {'drawn' if drawn else 'colliding'} shape(s), in m as models are"
     return BodyGeometry(triangles, side_of_name(body), mass, (told, note))
 
 
-def _shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
+def _names_shown(bodies: dict[str, BodyPlace], wanted: str) -> str:
     """The bodies that are most like the wanted one and like feet, for a message."""
     likely = _like_feet(bodies, wanted)
     return (", ".join(likely[:_SHOWN]) + (", ..." if len(likely) > _SHOWN else "")) or "there is none"
