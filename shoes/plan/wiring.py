@@ -26,7 +26,7 @@ __all__ = [
 
 _SLIVER = 0.02  # mm^2
 _BARB, _BARB_AREA = 0.1, 1e-3  # mm, mm^2
-_STEP = 0.01  # mm
+_STEP = 0.01  # mm between two corners that are one
 _WIDER = 0.3  # mm
 _WITHIN = 1.0  # mm
 
@@ -45,13 +45,13 @@ def pocket_outlines(plan: ShoePlan, parameters: ShoeParameters) -> list[Any]:
 
     cable = cable_outlines(plan, parameters)
     openings = shapely.union_all([*plan.pockets, *cable])
-    corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
     ways, wall = shapely.union_all(cable), parameters.wall_min
     # A wedge is cut off square, so far as it is near; where that ends, a barb of some hundredths may be left.
     for near, thin, least in ((wall, 1.1 * wall, _SLIVER), (2.0 * wall, _BARB, _BARB_AREA)):
         slivers = _slivers(openings, ways.buffer(near), thin, least)
         if slivers:  # where they end, steps of some thousandths would be walls of no width
             openings = shapely.remove_repeated_points(shapely.union_all([openings, *slivers]), _STEP)
+            corners = shapely.multipoints(shapely.get_coordinates(list(plan.pockets)))
             openings = shapely.snap(openings, corners, _STEP)  # and the pockets' corners stay where they are
     joined = shapely.set_precision(openings, 1e-4)
     return sorted(getattr(joined, "geoms", [joined]), key=lambda g: g.bounds)
