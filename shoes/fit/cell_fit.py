@@ -12,7 +12,7 @@ from plantar.errors import FootError, InputError
 from shoes.cells.cell import Cell
 from shoes.fit.cell_pattern import CellPattern, Lattice, RowLattice, active_shape, joined, pattern_of, pocket_parts
 from shoes.fit.lattice_fit import fit_lattice
-from shoes.fit.taxels import TaxelFit, covered_area
+from shoes.fit.taxels import TaxelFit, covered_area, rows_and_columns
 from shoes.geometry.outline import CORNER, grown, ring, tidy
 
 __all__ = ["LINES_MOST", "fit_cells"]
@@ -173,7 +173,7 @@ def _sheet(foot: Any, region: Any, cell: Cell, rib: float, overhang: float, bord
     found = tuple(cells)
     areas = np.array([shapely.Polygon(c).area for c in found])
     covered = covered_area(foot, found)
-    rows, columns = (len(set(k)) for k in np.array(kept_lines).T.tolist())
+    rows, columns = rows_and_columns(np.array(kept_lines))
     pattern = CellPattern(cell.pitch_x, cell.pitch_y, 0.0, (), math.pi)
     whole_area = cell.pitch_x * cell.pitch_y
     share = cell.line_width**2 / whole_area

@@ -18,7 +18,7 @@ from shoes.fit.lattice_fit import LatticeFit, fit_lattice
 from shoes.fit.trimmed_cell import trimmed_cell
 from shoes.geometry.outline import CORNER, grown, tidy
 
-__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "covered_area", "fit_taxels"]
+__all__ = ["CUT_CORNER", "LEAST_BORDER", "LEAST_SHARE", "TaxelFit", "covered_area", "fit_taxels", "rows_and_columns"]
 
 LEAST_SHARE = 0.6
 """Share of a cell that is left at least where the rim cuts it: below, the taxel's board does not fit."""
@@ -161,6 +161,15 @@ def _whole(sole: Any, fit: LatticeFit, cell_area: float, border: float, notes: t
         lattice_cells=fit.cells,
         notes=notes,
     )
+
+
+def rows_and_columns(lines: NDArray[np.int64]) -> tuple[int, int]:
+    """How many rows and columns of a sheet have a cell.
+
+    Args:
+        lines: Row and column (n, 2) of each cell.
+    """
+    return len(np.unique(lines[:, 0])), len(np.unique(lines[:, 1]))
 
 
 def covered_area(sole: Any, cells: Sequence[NDArray[np.float64]]) -> float:

@@ -18,7 +18,7 @@ from plantar.layouts.layout import Side, SoleLayout, mirrored
 from plantar.layouts.tiling import hex_layout
 from shoes.cells.cell import Cell
 from shoes.fit.fine_rim import blind_rim
-from shoes.fit.taxels import TaxelFit
+from shoes.fit.taxels import TaxelFit, rows_and_columns
 from shoes.foot.foot import Foot
 from shoes.geometry.outline import GRID, flush, grown, ring, single_outline, tidy
 from shoes.parameters import ShoeParameters
@@ -120,8 +120,7 @@ class ShoePlan:
     def sheet_lines(self) -> tuple[int, int]:
         """Rows and columns of a sheet that have a cell."""
         assert self.lines is not None
-        rows, columns = (len(np.unique(self.lines[:, k])) for k in (0, 1))
-        return rows, columns
+        return rows_and_columns(self.lines)
 
     @property
     def overhang(self) -> float:
