@@ -27,6 +27,7 @@ from plantar.formats.written_cells import (
     has_quoted_commas,
     names_of_row,
     seconds_of_time,
+    time_unit,
     with_seconds,
     without_quotes,
 )
@@ -36,13 +37,6 @@ from plantar.sides import SIDES, Side
 
 __all__ = ["FORMAT"]
 
-_SECONDS = {"s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-_SECONDS |= {"min": 60.0, "minutes": 60.0, "h": 3600.0, "hours": 3600.0}
-_UNITS = "|".join(_SECONDS)
-_TIME = re.compile(
-    rf"\s*(?:t|time|timestamp|zeit|secs?|seconds)(?:[_ ]?(?:{_UNITS}))?\s*(?:[\[(].*[\])])?\s*$", re.IGNORECASE
-)
-_TIME_UNIT = re.compile(rf"[\[(]\s*(\w+)\s*[\])]|[_ ]({_UNITS})\"?\s*$", re.IGNORECASE)
 _USUAL_RATE = 100.0
 _BLOCK, _BLOCK_VALUES = 2048, 4_000_000
 _FIRST = 32
@@ -100,7 +94,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         lines: Iterator[str] = chain(head[1:] if named else head, _content(stream, comments))
         if delimiter == "," and any(map(has_quoted_commas, head[1:])):
             lines = without_quotes(lines)
-        clock = next((i for i, n in enumerate(first) if not named or _TIME.match(n)), None)
+        clock = next((i for i, n in enumerate(first) if not named or time_unit(n) is not None), None)
         if clock is not None and seconds_of_time(head[-1].split(delimiter)[clock]) is not None:
             lines = with_seconds(lines, delimiter, clock)
             first[clock] = "time [s]" if named else first[clock]
@@ -112,7 +106,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
     names = first if named else []
     if not named:
         warnings.append("the table has no row of names: the first column is taken as time in s if it increases")
-    at = next((i for i, n in enumerate(names) if _TIME.match(n)), None)
+    at = next((i for i, n in enumerate(names) if time_unit(n) is not None), None)
     if at is None and (not named or not names[0]):
         column = table[:, 0]
         at = 0 if np.isfinite(column).all() and (np.diff(column) > 0.0).all() else None
@@ -253,10 +247,7 @@ def _times(
             )
         rate = _USUAL_RATE if stated is None else possible_rate(stated, "the table states")
         return np.arange(len(table)) / rate, rate, ()
-    name = names[at] if names else ""
-    match = _TIME_UNIT.search(name)
-    unit = (match[1] or match[2]).lower() if match else ""
-    factor = _SECONDS.get(unit)
+    factor = (time_unit(names[at]) if names else None) or None
     if factor is None:
         factor = 1.0
         step = np.nanmedian(np.diff(table[:, at])) if len(table) > 1 else 0.0

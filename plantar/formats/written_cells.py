@@ -7,11 +7,24 @@ import re
 from collections.abc import Iterator
 from datetime import datetime
 
-__all__ = ["has_quoted_commas", "names_of_row", "seconds_of_time", "with_seconds", "without_quotes"]
+__all__ = ["has_quoted_commas", "names_of_row", "seconds_of_time", "time_unit", "with_seconds", "without_quotes"]
 
 _QUOTED = re.compile(r'"([^"]*)"')
 _QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
 _CLOCK = re.compile(r"(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)")
+_SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "ms": 1e-3, "msec": 1e-3, "millisec": 1e-3, "millisecond": 1e-3}
+_SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
+_SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
+_BY = "elapsed|frame|sample|sampling|relative|rel|recording|measurement|system|local|unix|utc"
+_TIMES = "ts|t|times?|time[ _-]?stamps?|date[ /_-]?time|zeit|uhrzeit|zeitstempel|temps|tempo|tiempo|tijd"
+_UNIT = "|".join(rf"{name}s?" for name in _SECONDS)
+_NAMED = re.compile(
+    rf"(?:(?:{_BY})[ _.-]*)?(?:{_TIMES})"
+    r"(?:[ _/,.-]*(?:in )?(?:[\[(]\s*)?"
+    rf"(?:(?P<unit>{_UNIT})\.?|(?P<clock>[hms:.,f ]{{4,}}))\s*[\])]?)?|(?P<alone>{_UNIT})"
+)
+_ALONE = ("sec", "second", "msec", "millisec", "millisecond")
+"""Units that are a column's name by themselves; "min" may be the least of something."""
 _DAY = 86400.0
 _EPOCH = datetime(2020, 1, 1).toordinal()
 """Days are counted from here: from the year 1 on, a second's millionth is less than a double can tell."""
@@ -23,6 +36,23 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
         return [cell.strip() for cell in line.split(delimiter)]
     (cells,) = csv.reader([line], delimiter=delimiter)
     return [cell.strip().strip('"') for cell in cells]
+
+
+def time_unit(name: str) -> float | None:
+    """What a column's name says of times: their unit in s, 0 where it states none, None where it names no times.
+
+    Example:
+        >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "left 3")]
+        [0.001, 60.0, 1.0, 0.0, None, None]
+    """
+    match = _NAMED.fullmatch(name.strip().strip('"').strip().lower().replace("µ", "u").replace("μ", "u"))
+    if match is None:
+        return None
+    unit = match["unit"] or match["alone"] or ""
+    known = next((unit[:k] for k in (len(unit), len(unit) - 1) if unit[:k] in _SECONDS), "")
+    if match["alone"] and known not in _ALONE:
+        return None
+    return _SECONDS.get(known, 0.0)
 
 
 def without_quotes(lines: Iterator[str]) -> Iterator[str]:

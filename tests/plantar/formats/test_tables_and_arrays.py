@@ -11,6 +11,7 @@ import pytest
 from plantar import FormatError, InputError, SoleLayout, hex_layout, write_layout
 from plantar.formats import detect_format, read_recording
 from plantar.formats.format import ReadOptions
+from plantar.formats.written_cells import time_unit
 from plantar.layouts.layout_file import layout_to_dict
 
 from .corruption import survive_corruption
@@ -315,6 +316,22 @@ def test_times_in_minutes_and_hours(
     recording = read_recording(path, layout=layout)
     assert recording.rate_hz == pytest.approx(100.0, rel=1e-6)
     assert recording.time[-1] == pytest.approx(0.49, rel=1e-6)
+
+
+@pytest.mark.parametrize("before", ["", "Elapsed ", "frame_"])
+@pytest.mark.parametrize("word", ["Time", "t", "Timestamp", "Zeit"])
+@pytest.mark.parametrize(
+    ("after", "seconds"), [(" [s]", 1.0), ("_ms", 1e-3), ("/s", 1.0), (" (usec)", 1e-6), (" in min", 60.0), ("", 0.0)]
+)
+def test_names_of_times_say_their_unit(before: str, word: str, after: str, seconds: float) -> None:
+    assert time_unit(before + word + after) == seconds
+
+
+@pytest.mark.parametrize(
+    "name", ["T [C]", "T (deg)", "min", "h", "left 1", "t1", "time to peak", "total [N]", "temperature", ""]
+)
+def test_other_names_are_no_times(name: str) -> None:
+    assert time_unit(name) is None
 
 
 def test_quoted_numbers_may_have_a_decimal_comma(tmp_path: Path, layout: SoleLayout, values: np.ndarray) -> None:
