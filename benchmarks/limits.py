@@ -56,7 +56,7 @@ def main(folder: Path, names: list[str]) -> None:
             f"{used / found['runs']:.2f}" if found["runs"] else "-",
         )
         lines.append(f"| {' | '.join(cells)} |")
-    write_table(FOLDER / "limits.md", lines)
+        write_table(FOLDER / "limits.md", lines)  # after each: one takes up to half an hour
 
 
 if __name__ == "__main__":
