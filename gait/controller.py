@@ -157,6 +157,7 @@ class WalkingController:
         self._state: BaseState | None = None
         self._hearing = BodySensors(period, _BRIDGED * settings.body.beat)
         self._last: Command | None = None
+        self._lost = False
         self._push = WrenchFilter(settings.push_expected, self.omega, period)
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -265,9 +266,11 @@ class WalkingController:
     def safe_state(self) -> str | None:
         """The state in which it stays because it cannot go on, None while it walks: "no way on", where no footstep is
         left that may be stepped on, and it stands; "blind", where encoders or IMU have said nothing for too long, and
-        it holds its last command."""
+        "lost", where the CoM would have to be farther beside the feet than it is high: it holds its last command."""
         if self._hearing.blind:
             return "blind"
+        if self._lost:
+            return "lost"
         return "no way on" if self.guard is not None and self.guard.stopped else None
 
     @property
@@ -279,17 +282,27 @@ class WalkingController:
         return (*sides, last) if looks and last is not None and last not in sides else sides
 
     def step(self, sensors: Sensors) -> Command:
-        """One control tick: sensors in, command out; a blind controller commands what it did last."""
+        """One control tick: sensors in, command out; one that is blind or lost commands what it did last."""
         told = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
         heard = self._hearing.heard(told)
-        if heard is None:
+        if heard is None or self._lost:
             assert self._last is not None
             return replace(self._last, footholds=(), moved_steps=())
         if heard is not told:
             joints, gyro, accelerometer = heard
             sensors = replace(sensors, joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
-        self._last = self._stepped(sensors)
-        return self._last
+        command = self._stepped(sensors)
+        if self._last is not None and self._is_lost(command):
+            self._lost = True
+            return replace(self._last, footholds=(), moved_steps=())
+        self._last = command
+        return command
+
+    def _is_lost(self, command: Command) -> bool:
+        """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""
+        (x, y, _), feet = command.com.tolist(), [foot.position.tolist() for foot in command.feet.values()]
+        away = math.hypot(x - 0.5 * (feet[0][0] + feet[1][0]), y - 0.5 * (feet[0][1] + feet[1][1]))
+        return away > self.settings.com_height
 
     def _stepped(self, sensors: Sensors) -> Command:
         """A tick whose encoders and IMU are there."""

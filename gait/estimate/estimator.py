@@ -93,7 +93,7 @@ class EstimatorGains(Settings):
         gravity: Roll and pitch correction by the accelerometer in 1/s.
         averaging: Time in s for which the robot holds still at the start and gravity is averaged.
         yaw: Heading correction by the loaded feet in 1/s.
-        observer: Bandwidth of the CoM velocity observer in rad/s.
+        observer: Bandwidth of the CoM velocity observer in rad/s, more than the pendulum's frequency.
         tare: Time constant in s with which a foot in the air finds its zero.
         minimum_load: Vertical force in N that a foot must exceed to count as loaded; above the noise that many unloaded
             taxels add up to. Feet weigh in with what they carry beyond it.
@@ -136,6 +136,11 @@ class FloatingBaseEstimator:
 
     def __post_init__(self) -> None:
         gains = self.gains
+        if not gains.observer > self.omega:  # its poles lie at -observer +- omega
+            raise InputError(
+                f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast as "
+                "a pendulum of this height falls: what is slower runs away with it"
+            )
         self._rotation, self._position = np.eye(3), np.zeros(3)
         self._com, self._velocity = np.zeros(3), np.zeros(3)
         self._places, self._turns = np.zeros((2, 3)), np.zeros((2, 3, 3))

@@ -279,7 +279,7 @@ class FloatingBase:
     def observe(self, push_x, push_y):
         """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 that a push gives."""
         com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
-        # Both poles of the observer lie at -b: gains 2 b and b^2.
+        # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
         near = min(1.0, 2.0 * self.bandwidth * period)
         fast = min(1.0, self.bandwidth * self.bandwidth * period)
         rotations.turn(self.rotation, self.com_in_base, self.vector)

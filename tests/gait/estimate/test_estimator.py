@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from gait.estimate.dcm_filter import DcmFilter, DcmFilterRules
-from gait.estimate.estimator import FloatingBaseEstimator, Posture
+from gait.estimate.estimator import EstimatorGains, FloatingBaseEstimator, Posture
 from gait.estimate.gyro_bias import GyroBias
-from plantar import Percept, Reading, SoleLayout, hex_layout
+from plantar import InputError, Percept, Reading, SoleLayout, hex_layout
 from plantar.layouts.layout import Side
 
 PERIOD, OMEGA = 0.005, 3.5
@@ -171,3 +171,11 @@ def test_an_airborne_robot_keeps_finite_answers() -> None:
     assert state.zmp is None
     assert np.isfinite(state.com).all()
     assert np.isfinite(state.com_velocity).all()
+
+
+def test_an_observer_that_runs_away_with_the_pendulum_is_refused() -> None:
+    robot = Swaying(0.0, 0.0)
+    for bandwidth in (0.1, 1.0, OMEGA):
+        with pytest.raises(InputError, match=r"estimator\.observer.*more than 3\.5 rad/s"):
+            FloatingBaseEstimator(robot, OMEGA, PERIOD, START, EstimatorGains(observer=bandwidth))
+    FloatingBaseEstimator(robot, OMEGA, PERIOD, START, EstimatorGains(observer=1.01 * OMEGA))
