@@ -138,8 +138,8 @@ class FloatingBaseEstimator:
         gains = self.gains
         if not gains.observer > self.omega:  # its poles lie at -observer +- omega
             raise InputError(
-                f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast as "
-                "a pendulum of this height falls: what is slower runs away with it"
+                f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast "
+                "as a pendulum of this height falls: what is slower runs away with it"
             )
         self._rotation, self._position = np.eye(3), np.zeros(3)
         self._com, self._velocity = np.zeros(3), np.zeros(3)
