@@ -92,6 +92,7 @@ class ModelSource:
         """
         with optional_library("mujoco", "sim"):
             import mujoco
+        mujoco.set_mju_user_warning(_quiet)
         try:
             spec = (
                 mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
@@ -301,6 +302,10 @@ def read_model_source(file: Path) -> ModelSource:
     for path in attached:
         check_input(path, FootError, XML_MOST)
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
+
+
+def _quiet(text: str) -> None:
+    """MuJoCo's warnings go nowhere: it prints each among our own lines. What matters of them it raises, too."""
 
 
 def _few_parts(file: Path, root: Element) -> None:
