@@ -11,7 +11,8 @@ __all__ = ["has_quoted_commas", "names_of_row", "seconds_of_time", "time_unit", 
 
 _QUOTED = re.compile(r'"([^"]*)"')
 _QUOTED_COMMA = re.compile(r'"[^",]*,[^"]*"')
-_CLOCK = re.compile(r"(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)")
+_CLOCK = re.compile(r"(?:\d[\d./-]+\d[ T]+)?(?:(\d{1,2}):)?(\d{1,2}):(\d{2}(?:[.,]\d+)?)(?: ?([AaPp])\.?[Mm]\.?)?")
+"""A time of day, which may stand after a date of any order: by itself it goes on beyond midnight all the same."""
 _SECONDS = {"s": 1.0, "sec": 1.0, "second": 1.0, "ms": 1e-3, "msec": 1e-3, "millisec": 1e-3, "millisecond": 1e-3}
 _SECONDS |= {"us": 1e-6, "usec": 1e-6, "microsec": 1e-6, "microsecond": 1e-6, "ns": 1e-9, "nsec": 1e-9}
 _SECONDS |= {"min": 60.0, "minute": 60.0, "h": 3600.0, "hour": 3600.0}
@@ -85,22 +86,27 @@ def has_quoted_commas(line: str) -> bool:
 
 
 def seconds_of_time(text: str) -> float | None:
-    """Seconds of a time of day, or of a date and time since 2020 began; None where a text is neither.
+    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time; None where a text is neither.
+
+    Of another date, whose order nobody knows, only the time of day counts.
 
     Example:
-        >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("12.5")
-        (30077.5, 62.25, None)
+        >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("1/2/2024 1:00:00 PM")
+        (30077.5, 62.25, 46800.0)
     """
     text = text.strip().strip('"')
     if ":" not in text:
         return None
-    match = _CLOCK.fullmatch(text)
-    if match is not None:
-        return 3600.0 * int(match[1] or 0) + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
     try:
         moment = datetime.fromisoformat(text)
     except ValueError:
-        return None
+        match = _CLOCK.fullmatch(text)
+        if match is None:
+            return None
+        hours = int(match[1] or 0)
+        if match[4]:
+            hours = hours % 12 + (12 if match[4] in "Pp" else 0)
+        return 3600.0 * hours + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
     clock = 3600.0 * moment.hour + 60.0 * moment.minute + moment.second + 1e-6 * moment.microsecond
     return _DAY * (moment.toordinal() - _EPOCH) + clock
 
