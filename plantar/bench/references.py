@@ -61,7 +61,16 @@ def integers(points: Array) -> tuple[list[Point], int]:
 
 
 def turn(a: tuple[Number, Number], b: tuple[Number, Number], c: tuple[Number, Number]) -> Number:
-    """Twice the signed area of a triangle with corners (x, y), positive counter-clockwise; exact as its numbers are."""
+    """Twice the signed area of a triangle, exact as its numbers are.
+
+    Args:
+        a: A corner (x, y).
+        b: The next one.
+        c: The last one.
+
+    Returns:
+        The area, positive where they go counter-clockwise.
+    """
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
@@ -70,6 +79,9 @@ def exact_hull(points: Iterable[tuple[Number, Number]]) -> list[tuple[Number, Nu
 
     Args:
         points: The points, in whole numbers or fractions.
+
+    Returns:
+        The corners.
 
     Example:
         >>> exact_hull([(0, 0), (2, 0), (1, 0), (0, 2), (1, 1)])

@@ -32,7 +32,15 @@ _EPOCH = datetime(2020, 1, 1).toordinal()
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
-    """The cells of a row of names, without their quotes; what stands in quotes may hold the delimiter."""
+    """The cells of a row of names; what stands in quotes may hold the delimiter.
+
+    Args:
+        line: The row.
+        delimiter: What stands between its cells; None for blanks.
+
+    Returns:
+        The cells without their quotes.
+    """
     if delimiter is None or '"' not in line:
         return [cell.strip() for cell in line.split(delimiter)]
     (cells,) = csv.reader([line], delimiter=delimiter)
@@ -40,7 +48,13 @@ def names_of_row(line: str, delimiter: str | None) -> list[str]:
 
 
 def time_unit(name: str) -> float | None:
-    """What a column's name says of times: their unit in s, 0 where it states none, None where it names no times.
+    """What a column's name says of times.
+
+    Args:
+        name: The name.
+
+    Returns:
+        Their unit in s, 0 where it states none; None where it names no times.
 
     Example:
         >>> [time_unit(name) for name in ("Time [ms]", "t_min", "Elapsed time (s)", "Date/Time", "T [°C]", "left 3")]
@@ -81,14 +95,27 @@ def _plain(quoted: re.Match[str]) -> str:
 
 
 def has_quoted_commas(line: str) -> bool:
-    """Whether a cell of a line is in quotes and holds a comma."""
+    """Whether a cell of a line is in quotes and holds a comma.
+
+    Args:
+        line: The line.
+
+    Returns:
+        True where one does.
+    """
     return _QUOTED_COMMA.search(line) is not None
 
 
 def seconds_of_time(text: str) -> float | None:
-    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time; None where a text is neither.
+    """Seconds of a time of day, or since 2020 began of an ISO 8601 date and time.
 
     Of another date, whose order nobody knows, only the time of day counts.
+
+    Args:
+        text: The cell.
+
+    Returns:
+        The seconds; None where the text is neither.
 
     Example:
         >>> seconds_of_time("08:21:17.5"), seconds_of_time("01:02.25"), seconds_of_time("1/2/2024 1:00:00 PM")

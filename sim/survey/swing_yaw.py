@@ -36,6 +36,9 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
     Args:
         robot: The robot, in its posture.
         legs: Its kinematics.
+
+    Returns:
+        The mass.
     """
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
