@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+import gait
+
+ROOT = Path(gait.__file__).resolve().parent.parent  # of what is imported: the checkout, or where it is installed
 OWNER = "gait/plan/walk_plan.py"
 PLANNED = {"_view", "_vrps", "_record", "vrps", "schedule", "phases", "steps", "foothold", "timing"}
 """Names by which what is planned can be reached."""
