@@ -16,6 +16,7 @@ from plantar.plane_points import plane_points
 
 __all__ = ["edge_neighbours", "joined_layout", "layout_of_cells", "shared_vertices"]
 
+_GRID = 1e-6  # of the smallest cell's side
 _OVERLAP = 1e-3
 """Share of the smaller cell that two cells may overlap by: rounding, not a fault."""
 
@@ -76,9 +77,9 @@ def layout_of_cells(
         raise LayoutError(f"cell {min(i for i, c in enumerate(corners) if len(c) < 3)} has corners that coincide")
     corners = _with_touching_vertices(vertices, corners, grain)
     merged = [shapely.Polygon(vertices[list(c)]) for c in corners]
-    centres = [p.centroid.coords[0] for p in merged] if positions is None else positions
+    centres = [p.centroid.coords[0] for p in polygons] if positions is None else positions
     centres = array(centres, "layout field 'positions'", (len(corners), 2), LayoutError)
-    areas = np.array([p.area for p in merged])
+    areas = shapely.area(polygons)  # as given: corners that become one move by up to a grain
     n = len(corners)
     turns = np.broadcast_to(np.eye(3), (n, 3, 3))
     if rotations is not None:
@@ -242,7 +243,9 @@ def _check_overlap(polygons: NDArray[np.object_]) -> None:
     one, other = shapely.STRtree(polygons).query(polygons, predicate="intersects")
     pairs = one < other
     one, other = one[pairs], other[pairs]
-    common = shapely.area(shapely.intersection(polygons[one], polygons[other]))
+    # Without a grid GEOS may give a whole cell as what two have in common that touch along a part of an edge.
+    grid = _GRID * math.sqrt(float(shapely.area(polygons).min()))
+    common = shapely.area(shapely.intersection(polygons[one], polygons[other], grid_size=grid))
     smaller = np.minimum(shapely.area(polygons[one]), shapely.area(polygons[other]))
     for k in np.flatnonzero(common > _OVERLAP * smaller):
         raise LayoutError(f"cells {one[k]} and {other[k]} overlap by {common[k] * 1e6:.3g} mm^2")

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from plantar import (
@@ -47,6 +47,8 @@ def insole(seed: int) -> list[np.ndarray]:
 
 
 @given(seeds)
+@example(124)  # two corners within a thousandth of the smallest cell
+@example(307)  # GEOS gave a whole cell as the overlap of two that touch
 def test_cells_that_touch_along_a_part_of_an_edge_are_neighbours(seed):
     rings = insole(seed)
     layout = layout_of_cells(rings)
