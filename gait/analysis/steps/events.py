@@ -52,7 +52,7 @@ class EventLevels:
 
 
 EVENT_LEVELS: Mapping[Kind, EventLevels] = {
-    "insole": EventLevels(0.05, 0.11, 0.11),
+    "insole": EventLevels(0.05, 0.10, 0.10),
     "robot": EventLevels(0.05, 0.10, 0.05),
     "platform": EventLevels(0.02, 0.05, 0.02),
     "plate": EventLevels(0.02, 0.05, 0.02),
