@@ -95,7 +95,7 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         if delimiter == "," and any(map(has_quoted_commas, head[1:])):
             lines = without_quotes(lines)
         clock = next((i for i, n in enumerate(first) if not named or time_unit(n) is not None), None)
-        if clock is not None and seconds_of_time(head[-1].split(delimiter)[clock]) is not None:
+        if clock is not None and any(seconds_of_time(c) is not None for c in _column(head[1:], delimiter, clock)):
             lines = with_seconds(lines, delimiter, clock)
             first[clock] = "time [s]" if named else first[clock]
         of_side = next((i for i, n in enumerate(first) if named and is_side_column(n)), None)
@@ -129,6 +129,11 @@ def _read(path: Path, options: ReadOptions) -> PressureRecording:
         warnings=(*warnings, *notes),
         raw=raw,
     )
+
+
+def _column(lines: list[str], delimiter: str | None, column: int) -> Iterator[str]:
+    """The cells of a column, of lines that have one."""
+    return (cells[column] for cells in (line.split(delimiter) for line in lines) if column < len(cells))
 
 
 def _side_by_side(

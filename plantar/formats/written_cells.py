@@ -27,8 +27,8 @@ _NAMED = re.compile(
 _ALONE = ("sec", "second", "msec", "millisec", "millisecond")
 """Units that are a column's name by themselves; "min" may be the least of something."""
 _DAY = 86400.0
-_EPOCH = datetime(2020, 1, 1).toordinal()
-"""Days are counted from here: from the year 1 on, a second's millionth is less than a double can tell."""
+_SINCE = datetime(2020, 1, 1)
+"""Dates are counted from here: from the year 1 on, a second's millionth is less than a double can tell."""
 
 
 def names_of_row(line: str, delimiter: str | None) -> list[str]:
@@ -134,8 +134,7 @@ def seconds_of_time(text: str) -> float | None:
         if match[4]:
             hours = hours % 12 + (12 if match[4] in "Pp" else 0)
         return 3600.0 * hours + 60.0 * int(match[2]) + float(match[3].replace(",", "."))
-    clock = 3600.0 * moment.hour + 60.0 * moment.minute + moment.second + 1e-6 * moment.microsecond
-    return _DAY * (moment.toordinal() - _EPOCH) + clock
+    return (moment.replace(tzinfo=None) - _SINCE).total_seconds()
 
 
 def with_seconds(lines: Iterator[str], delimiter: str | None, column: int) -> Iterator[str]:

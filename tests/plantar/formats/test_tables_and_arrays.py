@@ -301,6 +301,19 @@ def test_times_of_day_and_dates(
     assert recording.feet["left"].force == pytest.approx(values * 1e3 * layout.areas)
 
 
+def test_times_of_day_in_the_last_column_of_rows_that_may_be_damaged(tmp_path: Path, layout: SoleLayout) -> None:
+    """Also where the last line that is looked at first is the damaged one."""
+    names = [*(f"left {i} [kPa]" for i in layout.ids), "Time"]
+    rows = [[*("1" for _ in layout.ids), clock(0.01 * k, "day")] for k in range(100)]
+    for damaged in (0, 30, 58, 59):
+        lines = [",".join(row if k != damaged else row[:3]) for k, row in enumerate([names, *rows], -1)]
+        path = tmp_path / "table.csv"
+        path.write_text("\n".join(lines) + "\n")
+        recording = read_recording(path, layout=layout)
+        assert recording.time == pytest.approx(np.arange(100) * 0.01 + recording.time[0], abs=1e-6)
+        assert any("damaged row" in warning for warning in recording.warnings)
+
+
 @pytest.mark.parametrize(
     ("name", "factor"), [("time [min]", 60.0), ("time_min", 60.0), ("t (h)", 3600.0), ("time [s]", 1.0)]
 )
