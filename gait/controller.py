@@ -286,17 +286,21 @@ class WalkingController:
         told = (sensors.joint_positions, sensors.gyro, sensors.accelerometer)
         heard = self._hearing.heard(told)
         if heard is None or self._lost:
-            assert self._last is not None
-            return replace(self._last, footholds=(), moved_steps=())
+            return self._held()
         if heard is not told:
             joints, gyro, accelerometer = heard
             sensors = replace(sensors, joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
         command = self._stepped(sensors)
-        if self._last is not None and self._is_lost(command):
-            self._lost = True
-            return replace(self._last, footholds=(), moved_steps=())
+        self._lost = self._last is not None and self._is_lost(command)
+        if self._lost:
+            return self._held()
         self._last = command
         return command
+
+    def _held(self) -> Command:
+        """What was commanded last, without what was new then."""
+        assert self._last is not None
+        return replace(self._last, footholds=(), moved_steps=())
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""
