@@ -11,7 +11,7 @@ from types import FrameType
 
 from plantar.errors import DependencyError
 
-__all__ = ["need_libraries", "optional_library"]
+__all__ = ["need_libraries", "optional_library", "unheard"]
 
 _INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 
@@ -93,3 +93,14 @@ def _interrupts_held_back() -> Iterator[None]:
             signal.signal(number, handler)
         if came:
             before[signal.Signals(came[0])](came[0], None)
+
+
+def unheard(text: str) -> None:
+    """What hears a library's warnings so that nobody else does.
+
+    MuJoCo by itself prints each and writes MUJOCO_LOG.TXT into the working directory. A model that cannot be read
+    raises all the same, and what a simulation warns of stands in its data.
+
+    Args:
+        text: The warning.
+    """

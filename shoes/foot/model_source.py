@@ -23,7 +23,7 @@ from plantar.errors import FootError
 from plantar.files.input_file import check_input
 from plantar.files.model_files import check_model, folders_of_model, mesh_of_urdf, named_file, parsed_model
 from plantar.files.xml_file import XML_MOST
-from plantar.optional_library import optional_library
+from plantar.optional_library import optional_library, unheard
 from shoes.foot.mesh_file import MOST_TRIANGLES, read_mesh
 from shoes.foot.urdf_text import BELOW, urdf_for_mujoco
 from shoes.geometry.primitives import primitive
@@ -92,7 +92,7 @@ class ModelSource:
         """
         with optional_library("mujoco", "sim"):
             import mujoco
-        mujoco.set_mju_user_warning(_quiet)
+        mujoco.set_mju_user_warning(unheard)
         try:
             spec = (
                 mujoco.MjSpec.from_file(str(self.file)) if self.urdf is None else mujoco.MjSpec.from_string(self.urdf)
@@ -302,10 +302,6 @@ def read_model_source(file: Path) -> ModelSource:
     for path in attached:
         check_input(path, FootError, XML_MOST)
     return ModelSource(file, None, folders=(file.parent, *(path.parent for path in attached)))
-
-
-def _quiet(text: str) -> None:
-    """MuJoCo's warnings go nowhere: it prints each among our own lines. What matters of them it raises, too."""
 
 
 def _few_parts(file: Path, root: Element) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import RobotError, SceneError
+from plantar.optional_library import unheard
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 from plantar.sides import SIDES, Side
 from sim.model.body import body_of
@@ -52,7 +53,7 @@ def robot_spec(robot: Robot) -> Any:
     Raises:
         RobotError: If the model cannot be read.
     """
-    mujoco.set_mju_user_warning(_quiet)
+    mujoco.set_mju_user_warning(unheard)
     if robot.biped is not None:
         center, half = robot.sole_rectangle("left")
         text = biped_mjcf(
@@ -70,13 +71,6 @@ def robot_spec(robot: Robot) -> Any:
         add_leg_shapes(spec, robot)
         return spec
     return spec_from_file(robot)
-
-
-def _quiet(text: str) -> None:
-    """MuJoCo's warnings go nowhere: by itself it prints each and writes MUJOCO_LOG.TXT into the working directory.
-
-    What matters of them is asked for: a model that cannot be read raises, and see `check_stable`.
-    """
 
 
 def check_stable(warnings: NDArray[np.int32]) -> None:
