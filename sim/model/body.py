@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import mujoco
 import numpy as np
 
@@ -9,7 +11,7 @@ from plantar.settings.body_scale import BodyScale
 from plantar.sides import SIDES, Side
 from sim.robots.robot import Robot
 
-__all__ = ["body_of", "leg_length", "pitching_joints", "rolling_joints", "stood"]
+__all__ = ["body_of", "hanging_on", "leg_length", "pitching_joints", "rolling_joints", "stood"]
 
 _RESOLUTION = 6  # decimals of a leg's length in m: sums of link lengths differ in their last bits
 _ALONG = 0.7  # cosine with an axis of the torso from which a joint turns about it: nearer to it than to the others
@@ -52,6 +54,23 @@ def leg_length(robot: Robot, model: mujoco.MjModel) -> float:
     """
     data = stood(robot, model)
     return round(float(np.mean([_length(robot, side, model, data) for side in SIDES])), _RESOLUTION)
+
+
+def hanging_on(model: Any, body: int) -> list[int]:
+    """A body and all that hang on it, in the model's order, in which none comes before what it hangs on.
+
+    Args:
+        model: The model.
+        body: The body's number.
+
+    Returns:
+        Numbers of the bodies.
+    """
+    found = [body]
+    for part in range(body + 1, model.nbody):
+        if int(model.body_parentid[part]) in found:
+            found.append(part)
+    return found
 
 
 def stood(robot: Robot, model: mujoco.MjModel) -> mujoco.MjData:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.sides import SIDES
+from sim.model.body import hanging_on
 from sim.robots.robot import Robot
 
 __all__ = ["JointInertia", "floating_inertia", "joint_inertia"]
@@ -85,11 +86,10 @@ def _floating(model: Any, data: Any) -> NDArray[np.float64]:
 def _above(model: Any, data: Any, joint: int) -> float:
     """Inertia in kg m^2 about a joint's axis of all bodies that do not hang on it."""
     axis, anchor = data.xaxis[joint], data.xanchor[joint]
-    hanging = {int(model.jnt_bodyid[joint])}
+    hanging = set(hanging_on(model, int(model.jnt_bodyid[joint])))
     total = 0.0
     for body in range(1, model.nbody):
-        if body in hanging or int(model.body_parentid[body]) in hanging:
-            hanging.add(body)
+        if body in hanging:
             continue
         rotation = data.ximat[body].reshape(3, 3)
         along = rotation.T @ axis

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 
-import mujoco
 import numpy as np
 
 from plantar.gravity import GRAVITY
 from plantar.settings.body_scale import BodyScale
-from sim.model.body import stood
+from sim.model.body import hanging_on, stood
 from sim.model.leg_model import LegModel
 from sim.robots.robot import Robot
 
@@ -42,16 +41,10 @@ def swinging_mass(robot: Robot, legs: LegModel) -> float:
     """
     model, data = legs.model, stood(robot, legs.model)
     hip = int(model.joint(robot.legs["left"].joints[0]).bodyid[0])
-    parts = [i for i in range(hip, model.nbody) if _hangs_on(model, i, hip)]
+    parts = hanging_on(model, hip)
     top, sole = data.xpos[hip, 2], data.site_xpos[model.site(robot.legs["left"].sole_site).id, 2]
     share = np.clip((top - data.xipos[parts, 2]) / (top - sole), 0.0, 1.0)
     return float(share @ model.body_mass[parts])
-
-
-def _hangs_on(model: mujoco.MjModel, part: int, hip: int) -> bool:
-    while part > hip:
-        part = int(model.body_parentid[part])
-    return part == hip
 
 
 def least_single_support(robot: Robot, legs: LegModel, body: BodyScale, step: float) -> float:
