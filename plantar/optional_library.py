@@ -103,4 +103,7 @@ def unheard(text: str) -> None:
 
     Args:
         text: The warning.
+
+    Example:
+        >>> unheard("WARNING: Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.")
     """
