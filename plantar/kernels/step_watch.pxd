@@ -7,12 +7,13 @@ cdef class StepWatch:
     cdef const double[:] ground
     cdef const double[:] legs
     cdef const double[:] speeds
+    cdef const Py_ssize_t[::1] places
+    cdef const double[::1] per_speed
     cdef double least
     cdef Py_ssize_t airborne
-    cdef double slow
     cdef readonly Py_ssize_t now
     cdef Py_ssize_t left
     cdef Py_ssize_t right
 
-    @cython.locals(seen=int, total=double, i=Py_ssize_t)
+    @cython.locals(seen=int, i=Py_ssize_t)
     cpdef int step(self) noexcept

@@ -8,7 +8,7 @@ LEGS = 4
 """What `StepWatch.step` adds where the legs touch each other; 1 and 2 stand for a left and a right foot that lands."""
 
 FAST = 8
-"""What it adds where a joint may be faster than its limit."""
+"""What it adds where a joint is faster than its limit."""
 
 
 class StepWatch:
@@ -18,21 +18,23 @@ class StepWatch:
         ground: Force (2,) of the ground on the feet in N, where the simulator writes it.
         legs: A number (1,) that is above 0 where the legs touch each other, likewise.
         speeds: Speeds (n,) of joints in rad/s, likewise.
+        places: Where the speed of each joint that has a limit stands there (k,).
+        per_speed: One over each limit (k,) in s/rad.
         least: Force in N from which on a foot touches the ground.
         airborne: Steps without the ground after which a touch is a landing.
-        slow: Sum of the squares of all speeds up to which no joint is faster than its limit.
 
     Attributes:
         now: Number of steps so far.
     """
 
-    def __init__(self, ground, legs, speeds, least, airborne, slow):
+    def __init__(self, ground, legs, speeds, places, per_speed, least, airborne):
         self.ground = ground
         self.legs = legs
         self.speeds = speeds
+        self.places = places
+        self.per_speed = per_speed
         self.least = least
         self.airborne = airborne
-        self.slow = slow
         self.now = 0
         self.left = 0
         self.right = 0
@@ -55,9 +57,8 @@ class StepWatch:
             self.right = self.now
         if self.legs[0] > 0.0:
             seen += 4
-        total = 0.0
-        for i in range(self.speeds.shape[0]):
-            total += self.speeds[i] * self.speeds[i]
-        if not total <= self.slow:
-            seen += 8
+        for i in range(self.places.shape[0]):
+            if not -1.0 <= self.speeds[self.places[i]] * self.per_speed[i] <= 1.0:
+                seen += 8
+                break
         return seen

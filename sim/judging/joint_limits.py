@@ -27,7 +27,8 @@ class JointLimits:
     Attributes:
         longest: For how long in s without a break each joint (k,) was faster than its limit, at most.
         speeds: Speeds of the joints, and of others between them, where MuJoCo writes them.
-        slow: Sum of the squares of `speeds` up to which no joint is faster than its limit.
+        places: Where each joint's speed (k,) stands among them.
+        per_speed: One over each joint's limit (k,) in s/rad; 0 without one.
     """
 
     def __init__(self, world: World) -> None:
@@ -39,17 +40,16 @@ class JointLimits:
         self._period = world.period
         self._over = np.zeros(k)
         limits = np.array([*robot.velocity_limits] * 2) if self.limited else np.full(k, np.inf)
-        self._per_speed = 1.0 / limits
-        self.slow = float(limits.min()) ** 2
+        self.per_speed = 1.0 / limits
         dofs = world.joint_qvel
         first, end = int(dofs.min()), int(dofs.max()) + 1
         self.speeds = world.data.qvel[first:end]  # a view, without a copy at each step; may hold other joints, too
-        self._places = dofs - first
+        self.places = dofs - first
         self._fast = False
         limited = model.actuator_forcelimited[world.servos] > 0
         torques = np.where(limited, model.actuator_forcerange[world.servos, 1], np.inf)
         per_torque = 1.0 / (_AT_LIMIT * torques)
-        self._extremes = JointExtremes(self.speeds, self._places, world.data.actuator_force, world.servos, per_torque)
+        self._extremes = JointExtremes(self.speeds, self.places, world.data.actuator_force, world.servos, per_torque)
         self._at_limit = np.zeros(k)
         self._held: list[tuple[int, NDArray[np.bool_]]] = []
         self._any_at_limit = self._ticks = 0
@@ -58,7 +58,7 @@ class JointLimits:
     def fastest(self) -> NDArray[np.float64]:
         """Largest speed of each joint (k,) as a share of its limit; 0 without limits."""
         high, low = np.asarray(self._extremes.high), np.asarray(self._extremes.low)
-        return np.asarray(np.maximum(high, -low) * self._per_speed)
+        return np.asarray(np.maximum(high, -low) * self.per_speed)
 
     @property
     def was_fast(self) -> bool:
@@ -66,9 +66,8 @@ class JointLimits:
         return self._fast
 
     def step(self) -> None:
-        """After each physics step in which the squares of `speeds` add up to more than `slow`, and after one in which a
-        joint was faster than its limit: speeds."""
-        shares = np.abs(self.speeds[self._places]) * self._per_speed
+        """After each physics step in which a joint is faster than its limit, and after the one that follows: speeds."""
+        shares = np.abs(self.speeds[self.places]) * self.per_speed
         self._fast = float(_most(shares)) > 1.0
         if not self._fast:
             self._over[:] = 0.0

@@ -102,9 +102,10 @@ class Judge:
             self._touched,
             data.sensordata[leg : leg + 1],
             self.joints.speeds,
+            self.joints.places,
+            self.joints.per_speed,
             self._touch,
             round(_AIRBORNE * body.beat / self.world.period),
-            self.joints.slow,
         )
 
     @property

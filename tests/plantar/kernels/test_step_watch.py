@@ -13,14 +13,15 @@ from plantar.kernels import joint_extremes, python_form, step_watch
 def test_each_step_says_who_lands_who_touches_and_who_is_fast(module, seed):
     rng = np.random.default_rng(seed)
     ground, legs, speeds = np.zeros(2), np.zeros(1), np.zeros(5)
-    watch = module.StepWatch(ground, legs, speeds, 20.0, 30, 9.0)
+    places, limits = np.array([4, 0, 2]), np.array([3.0, 2.0, np.inf])
+    watch = module.StepWatch(ground, legs, speeds, places, 1.0 / limits, 20.0, 30)
     last, landings = [0, 0], 0
     for now in range(1, 2000):
         if rng.random() < 0.03:
             ground[:] = rng.choice([0.0, 19.9, 20.0, 300.0], 2)
         legs[:] = rng.choice([0.0, 1.0])
         speeds[:] = rng.normal(0.0, 1.4, 5)
-        wanted = module.LEGS * int(legs[0]) + module.FAST * int((speeds * speeds).sum() > 9.0)
+        wanted = module.LEGS * int(legs[0]) + module.FAST * bool((np.abs(speeds[places]) > limits).any())
         for foot in range(2):
             if ground[foot] >= 20.0:
                 wanted += (1 << foot) * (now - last[foot] > 30)
@@ -29,6 +30,8 @@ def test_each_step_says_who_lands_who_touches_and_who_is_fast(module, seed):
         assert watch.step() == wanted
     assert watch.now == 1999
     assert landings > 3
+    speeds[:] = 1.0, np.nan, 100.0, np.nan, 2.0
+    assert not watch.step() & module.FAST  # joints without a limit, or that are not asked for
     speeds[2] = np.nan
     assert watch.step() & module.FAST  # what is no number is looked at
 
