@@ -74,6 +74,9 @@ _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
 _MEDIAN_OF_NORMAL = 0.6745
 """Median of the magnitude of a normal variable, in standard deviations."""
 
+_LIGHT = 0.7
+"""Share of the middle load that a contact has to reach for its peak to count."""
+
 _LONGEST_STEP, _DEEP, _LANDING = 1.5, 0.5, 0.25
 """Contacts of more than 1.5 s are looked at for steps in them: force that rises by more than half of the foot's range
 within 0.25 s, from 0.2 to 0.8 of what it ranges over there; weight is shifted more slowly."""
@@ -167,10 +170,17 @@ def _peak_above_noise(measured: NDArray[np.float64], smooth: NDArray[np.float64]
     top = float(smooth.max())
     if not top > 0.0:
         return None
-    peak = float(np.percentile(smooth[smooth >= 0.2 * top], 90.0))
+    peak = _peak_of_contacts(smooth, 0.2 * top)
     # Second differences see the noise and not the slopes; that of white noise is sqrt(1 + 4 + 1) times as large.
     bend = np.abs(np.diff(measured, 2))
     return peak if peak > _NOISE_CONTACT * float(np.median(bend)) / (_MEDIAN_OF_NORMAL * np.sqrt(6.0)) else None
+
+
+def _peak_of_contacts(smooth: NDArray[np.float64], floor: float) -> float:
+    """Middle one of the contacts' peaks in N: however long someone stands before a walk, its levels are the same."""
+    least = _LIGHT * float(np.median(smooth[smooth >= floor]))  # chatter about the floor is no contact
+    loads = [smooth[a:b] for a, b in true_runs(smooth >= floor)]
+    return float(np.median([np.percentile(load, 90.0) for load in loads if load.max() >= least]))
 
 
 def _rest_and_noise(

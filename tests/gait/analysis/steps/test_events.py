@@ -38,6 +38,28 @@ def test_levels_follow_the_foot(scale: float, rest: float) -> None:
     assert [c.complete for c in find_contacts(time, force)] == [True] * 5
 
 
+@pytest.mark.parametrize("stands", [2.0, 20.0, 300.0])
+def test_levels_do_not_depend_on_how_long_someone_stands(stands: float) -> None:
+    time, force = steps()
+    alone = force_levels(force)
+    before = np.concatenate([np.full(round(stands * 100.0), 350.0), force])
+    found = force_levels(before)
+    assert alone is not None
+    assert found is not None
+    assert (found.peak, found.release) == pytest.approx((alone.peak, alone.release), rel=1e-9)
+    assert len([c for c in find_contacts(np.arange(len(before)) * 0.01, before) if c.complete]) == 5
+
+
+def test_a_single_leap_does_not_raise_the_levels_of_a_walk() -> None:
+    _, force = steps(n=12)
+    leap = force.copy()
+    leap[500:600] *= 4.0
+    before, after = force_levels(force), force_levels(leap)
+    assert before is not None
+    assert after is not None
+    assert after.release == pytest.approx(before.release, rel=0.01)
+
+
 def test_contacts_cut_by_the_ends_are_incomplete() -> None:
     time, force = steps()
     keep = (time >= 0.5) & (time < 4.5)
