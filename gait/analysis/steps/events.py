@@ -4,9 +4,10 @@ A foot's load is measured against its own range: from the level it rests at in s
 noise that is clipped at zero has a mean) to its robust peak. A contact begins when the force rises above one share of
 that range and ends when it falls below another; two levels keep noise from splitting a contact, and where noise is
 large they are raised to 4 and 8 of its standard deviations. The time of an event is where the force crosses its level,
-between samples by a straight line, or midway where it jumps by half of the range. Shares serve a child's insole and a
-robot alike. They depend on what measures (`EVENT_LEVELS`): a shoe presses on its insole after the foot has left the
-ground, a platform does not.
+between samples by a straight line, or midway where it jumps by half of the range. The toe off from an insole is where
+the fall of push-off, continued straight, ends: what the shoe still presses then is not the foot. Shares serve a child's
+insole and a robot alike. They depend on what measures (`EVENT_LEVELS`): a shoe presses on its insole after the foot has
+left the ground, a platform does not.
 """
 
 from __future__ import annotations
@@ -43,16 +44,18 @@ class EventLevels:
     Attributes:
         strike: Share below which a foot is not in contact any more, and whose rising crossing is the heel strike.
         contact: Share that a contact has to reach.
-        lift: Share whose last falling crossing is the toe off.
+        lift: Share whose last falling crossing is the earliest toe off.
+        clear: Share whose falling crossing is the latest toe off; None where it is at `lift`.
     """
 
     strike: float
     contact: float
     lift: float
+    clear: float | None = None
 
 
 EVENT_LEVELS: Mapping[Kind, EventLevels] = {
-    "insole": EventLevels(0.05, 0.10, 0.10),
+    "insole": EventLevels(0.05, 0.10, 0.10, 0.02),
     "robot": EventLevels(0.05, 0.10, 0.05),
     "platform": EventLevels(0.02, 0.05, 0.02),
     "plate": EventLevels(0.02, 0.05, 0.02),
@@ -74,6 +77,9 @@ _NOISE_RELEASE, _NOISE_CONTACT = 4.0, 8.0
 _MEDIAN_OF_NORMAL = 0.6745
 """Median of the magnitude of a normal variable, in standard deviations."""
 
+_FALL = (0.30, 0.15)
+"""Shares of the range between which push-off falls straight: above, it is rounded; below, the shoe presses too."""
+
 _LIGHT = 0.7
 """Share of the middle load that a contact has to reach for its peak to count."""
 
@@ -94,8 +100,10 @@ class Levels:
         peak: Its robust peak.
         release: Level of the heel strike, below which a foot is off the ground.
         contact: Level that a contact has to reach.
-        lift: Level of the toe off.
+        lift: Level of the earliest toe off.
         noise: Standard deviation of the force in swing.
+        clear: Level of the latest toe off, where the fall of push-off is continued to `rest`; None where the toe off is
+            at `lift`.
     """
 
     rest: float
@@ -104,6 +112,7 @@ class Levels:
     contact: float
     noise: float
     lift: float
+    clear: float | None = None
 
 
 @dataclass(frozen=True)
@@ -157,6 +166,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
         contact=rest + max(share.contact * span, _NOISE_CONTACT * noise),
         noise=noise,
         lift=rest + max(share.lift * span, _NOISE_RELEASE * noise),
+        clear=None if share.clear is None else rest + max(share.clear * span, _NOISE_RELEASE * noise),
     )
 
 
@@ -299,7 +309,31 @@ def _contact(
         level = min(levels.lift, levels.contact)
         end = begin + int(np.flatnonzero(force[begin:end] >= level)[-1]) + 1
         lift = _crossing(time, force, end, level, jump)
+        if levels.clear is not None and force[end - 1] - force[end] <= jump:
+            lift = _end_of_push_off(time, force, (begin, end), levels, lift)
+            end = max(end, int(np.searchsorted(time, lift)))
     return Contact(strike, lift, begin + offset, end + offset)
+
+
+def _end_of_push_off(
+    time: NDArray[np.float64], force: NDArray[np.float64], span: tuple[int, int], levels: Levels, lift: float
+) -> float:
+    """Time at which push-off, continued straight, ends: after `lift`, and not after the force is clear of the foot."""
+    begin, end = span
+    assert levels.clear is not None
+    at = []
+    for share in _FALL:
+        level = levels.rest + share * (levels.peak - levels.rest)
+        loaded = np.flatnonzero(force[begin:end] >= level)
+        if not len(loaded):
+            return lift  # a light contact
+        at.append(_crossing(time, force, begin + int(loaded[-1]) + 1, level))
+    straight = at[1] + (at[1] - at[0]) * _FALL[1] / (_FALL[0] - _FALL[1])
+    stop = int(np.searchsorted(time, straight))
+    light = np.flatnonzero(force[end : stop + 1] <= levels.clear)
+    if len(light):
+        straight = min(straight, _crossing(time, force, end + int(light[0]), levels.clear))
+    return max(lift, min(straight, float(time[-1])))
 
 
 def _longest_gap(

@@ -39,7 +39,8 @@ def test_a_rolling_half_sine_has_the_measures_of_its_formula() -> None:
     step = gait.steps[1]
     assert gait.levels is not None
     late = 0.6 / np.pi * np.arcsin(gait.levels.release / 800.0)
-    early = 0.6 / np.pi * np.arcsin(gait.levels.lift / 800.0)
+    before = {share: 0.6 / np.pi * np.arcsin(share * gait.levels.peak / 800.0) for share in (0.02, 0.15, 0.30)}
+    early = max(before[0.02], 2.0 * before[0.15] - before[0.30])  # push-off continued straight from 30 and 15 %
     assert gait.levels.lift == pytest.approx(2 * gait.levels.release, rel=0.01)  # a shoe presses on after toe off
     assert step["contact_time_s"] == pytest.approx(0.6 - late - early, rel=0.01)
     assert step["stride_time_s"] == pytest.approx(1.0, abs=1e-6)

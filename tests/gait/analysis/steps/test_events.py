@@ -9,6 +9,8 @@ import pytest
 
 from gait.analysis.steps.events import find_contacts, force_levels
 
+from ..walks import two_humps
+
 
 def steps(rate: float = 100.0, n: int = 5, peak: float = 700.0, rest: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """Half-sine contacts of 0.6 s every second, from 0.2 s on."""
@@ -38,16 +40,63 @@ def test_levels_follow_the_foot(scale: float, rest: float) -> None:
     assert [c.complete for c in find_contacts(time, force)] == [True] * 5
 
 
+def toe_offs(course: Callable[[np.ndarray], np.ndarray], rate: float, stride: float) -> tuple[np.ndarray, np.ndarray]:
+    """Toe offs found in insoles, and the true ones, of contacts over 62 % of each stride."""
+    time = np.arange(0.0, 10.0 * stride, 1.0 / rate)
+    share = (time - 0.137) % stride / (0.62 * stride)
+    force = np.where((time > 0.137) & (share < 1.0), 700.0 * course(np.clip(share, 0.0, 1.0)), 0.0)
+    levels = force_levels(force, "insole")
+    contacts = [c for c in find_contacts(time, np.asarray(force, dtype=np.float64), levels) if c.complete]
+    return np.array([c.toe_off for c in contacts]), 0.137 + 0.62 * stride + stride * np.arange(len(contacts))
+
+
+@pytest.mark.parametrize("rate", [50.0, 100.0, 500.0])
+@pytest.mark.parametrize("stride", [0.8, 1.1, 1.9])
+@pytest.mark.parametrize(
+    "course",
+    [
+        two_humps,
+        lambda share: np.sin(np.pi * share),
+        lambda share: np.clip(10.0 * np.minimum(share, 1.0 - share), 0, 1),
+    ],
+    ids=["walk", "half sine", "trapezium"],
+)
+def test_toe_off_from_an_insole_is_where_push_off_ends(
+    course: Callable[[np.ndarray], np.ndarray], rate: float, stride: float
+) -> None:
+    found, true = toe_offs(course, rate, stride)
+    assert len(found) >= 9
+    assert np.abs(found - true).max() < 0.008
+
+
+def test_what_a_shoe_presses_after_push_off_is_not_the_foot() -> None:
+    def with_tail(share: np.ndarray) -> np.ndarray:
+        """Push-off that would end at 0.9 of the contact, and 8 % of the peak until its end."""
+        return np.asarray(np.maximum(np.clip(6.0 * np.minimum(share, 0.9 - share), 0.0, 1.0), 0.08 * (share < 1.0)))
+
+    found, true = toe_offs(with_tail, 200.0, 1.1)
+    assert found == pytest.approx((true - 0.1 * 0.62 * 1.1).tolist(), abs=0.004)
+
+
 @pytest.mark.parametrize("stands", [2.0, 20.0, 300.0])
 def test_levels_do_not_depend_on_how_long_someone_stands(stands: float) -> None:
-    time, force = steps()
+    _, force = steps()
     alone = force_levels(force)
     before = np.concatenate([np.full(round(stands * 100.0), 350.0), force])
     found = force_levels(before)
     assert alone is not None
     assert found is not None
     assert (found.peak, found.release) == pytest.approx((alone.peak, alone.release), rel=1e-9)
-    assert len([c for c in find_contacts(np.arange(len(before)) * 0.01, before) if c.complete]) == 5
+    assert (
+        len(
+            [
+                c
+                for c in find_contacts(np.asarray(np.arange(len(before)) * 0.01, dtype=np.float64), before)
+                if c.complete
+            ]
+        )
+        == 5
+    )
 
 
 def test_a_single_leap_does_not_raise_the_levels_of_a_walk() -> None:
