@@ -121,7 +121,7 @@ def warning_list(warnings: Iterable[str]) -> str:
     return f'<ul class="warnings">{rows}</ul>' if rows else ""
 
 
-def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str]) -> str:
+def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str], words: Iterable[str] = ()) -> str:
     """A table that scrolls by itself where the page is narrow.
 
     Args:
@@ -129,14 +129,19 @@ def table(label: str, caption: str, head: Iterable[str], rows: Iterable[str]) ->
         caption: HTML of its caption.
         head: HTML of each column's head.
         rows: What `row` and `group_row` give.
+        words: Heads of the columns that hold words, which begin at the left; numbers end at the right.
 
     Returns:
         HTML.
     """
-    names = "".join(f'<th scope="col">{name}</th>' for name in head)
+    heads, left = list(head), set(words)
+    names = "".join(f'<th scope="col">{name}</th>' for name in heads)
+    aligned = " ".join(f"words-{i}" for i, name in enumerate(heads, start=1) if name in left)
+    kind = f' class="{aligned}"' if aligned else ""
     return (
         f'<div class="scroll" tabindex="0" role="region" aria-label="Table: {label}">'
-        f"<table><caption>{caption}</caption><thead><tr>{names}</tr></thead>"
+        f"<table{kind}><caption><span>{caption}</span></caption>"
+        f"<thead><tr>{names}</tr></thead>"
         f"<tbody>{''.join(rows)}</tbody></table></div>\n"
     )
 

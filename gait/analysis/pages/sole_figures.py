@@ -100,12 +100,19 @@ def figure_pressure(recording: PressureRecording, feet: Mapping[Side, FootGait])
     for panel, (side, gait) in zip(axes[0], pictured.items(), strict=True):
         drawn = _draw_picture(panel, gait, shown[side], factor, highest)
         _draw_paths(panel, gait)
-        panel.set_title(f"{side} foot, {len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}")
+        panel.set_title(f"{side} foot, {_steps_of_picture(gait)}")
         panel.set_xlabel(_RIGHT)
     what = "maximum pressure" if platform else "maximum pressure, mean of the steps"
     _finish(figure, axes, drawn, what, recording.raw)
     _legend(figure, axes[0], "outside lower center", ncols=2, facecolor="#8a8f98", labelcolor="#111111")
     return figure
+
+
+def _steps_of_picture(gait: FootGait) -> str:
+    """What a picture is of: the complete steps, or all that was measured where there is none."""
+    if not gait.steps:
+        return "no complete step:\nlargest of all frames"
+    return f"{len(gait.steps)} step{'' if len(gait.steps) == 1 else 's'}"
 
 
 def _legend(figure: Any, panels: Iterable[Any], place: str, **look: Any) -> None:

@@ -140,7 +140,7 @@ def steps_table(metrics: Mapping[str, Any]) -> str:
     ]
     more = "" if len(steps) <= _MOST_STEPS else f" The first {_MOST_STEPS} of {len(steps)}; steps.csv has all."
     head = ("Step", "Heel strike (s)", *(s.title for s in shown), "Note")
-    return table("Steps", f"The complete steps in the order of time.{more}", head, rows)
+    return table("Steps", f"The complete steps in the order of time.{more}", head, rows, words=("Note",))
 
 
 def regions_tables(metrics: Mapping[str, Any]) -> str:

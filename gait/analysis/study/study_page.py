@@ -168,7 +168,7 @@ def _look(summary: Mapping[str, Any]) -> str:
     if rows:
         caption = "More than 3.5 robust standard deviations from the median of the condition. They are in all results."
         head = ("Participant", "Condition", "Measure", "Value", "Median of the condition")
-        parts.append(table("Outliers", caption, head, rows))
+        parts.append(table("Outliers", caption, head, rows, words=head[1:3]))
     else:
         parts.append("<p>No participant is far from the others of the condition.</p>")
     return "".join(parts)
@@ -195,4 +195,4 @@ def _recordings(results: Sequence[RecordingResult]) -> str:
         )
     more = "" if len(results) <= _MOST else f" The first {_MOST} of {len(results)}; recordings.csv has all."
     head = ("Recording", "Participant", "Condition", "Format", "Steps in the means", "Note")
-    return table("Recordings", f"One row a recording.{more}", head, rows)
+    return table("Recordings", f"One row a recording.{more}", head, rows, words=head[1:])

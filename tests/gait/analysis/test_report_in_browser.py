@@ -89,9 +89,11 @@ for (const e of document.querySelectorAll('a, button, input, select, [tabindex="
   e.focus({focusVisible: true});
   if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') outline.push(e.tagName + ' ' + e.id);
 }
+const cut = [...document.querySelectorAll('caption span, h1, h2, p, li, dd')].filter(e =>
+  e.getBoundingClientRect().right > document.documentElement.clientWidth + 1).map(e => e.textContent.slice(0, 40));
 const wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
 const audit = typeof axe === 'undefined' ? [] : (await axe.run(document, {resultTypes: ['violations']})).violations;
-return {weak, texts, wide, outline, axe: audit.map(v => [v.impact, v.id, v.nodes[0].html]),
+return {weak, texts, wide, cut, outline, axe: audit.map(v => [v.impact, v.id, v.nodes[0].html]),
   background: getComputedStyle(document.body).backgroundColor,
   unnamed: [...document.querySelectorAll('a, button, input, select, [role]:not([role=alert]:empty)')]
     .filter(e => !named(e)).map(e => e.id)};
@@ -170,6 +172,7 @@ def test_everything_can_be_read_and_reached(report: Path, tmp_path: Path, dark: 
     assert found["outline"] == []
     assert found["axe"] == []
     assert found["wide"] <= 0
+    assert found["cut"] == []
     assert found["background"] == ("rgb(13, 17, 23)" if dark else "rgb(255, 255, 255)")
 
 

@@ -221,6 +221,7 @@ def test_the_page_opens_on_a_telephone(study: tuple[Path, Path, Study], tmp_path
     assert seen.console == []
     assert seen.found["weak"] == seen.found["unnamed"] == seen.found["outline"] == seen.found["axe"] == []
     assert seen.found["wide"] <= 0
+    assert seen.found["cut"] == []
     assert page.read_text().count("<figure") == 3
 
 
