@@ -145,7 +145,10 @@ def analyze(
         str | None, Option(help="Unit of the values, instead of the file's: kPa, N/cm2, mmHg, psi, N, raw, ...")
     ] = None,
     rate: Annotated[float | None, Option(help="Frames a second, instead of the file's.")] = None,
-    side: Annotated[str | None, Option(help="Which foot a file of one foot holds: left or right.")] = None,
+    side: Annotated[
+        str | None,
+        Option(help="Which foot a file of one foot, or the first columns of a pedar file, hold: left or right."),
+    ] = None,
     insole_size: Annotated[
         str | None, Option(help="Size of a pedar insole, instead of the file's: u, v, w, x, y, z, uw, vw or xw.")
     ] = None,

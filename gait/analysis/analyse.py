@@ -18,6 +18,7 @@ import numpy as np
 from gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from gait.analysis.body_weight import implied_weight, weight_doubts
 from gait.analysis.measures import MEASURES, REGION_MEASURES, raw_name
+from gait.analysis.mirrored_feet import mirrored_doubts
 from gait.analysis.options import AnalysisOptions
 from gait.analysis.pages.figure_files import write_figures
 from gait.analysis.pages.footprint_report import analyse_image
@@ -248,7 +249,8 @@ def metrics_of(
         warnings += gait.warnings
     weight = implied_weight(recording, feet)
     subject = subject or Subject()
-    warnings += progression_doubts(recording, feet) + weight_doubts(recording, weight) + mass_doubts(subject, weight)
+    warnings += progression_doubts(recording, feet) + mirrored_doubts(recording, feet)
+    warnings += weight_doubts(recording, weight) + mass_doubts(subject, weight)
     named = _keys(recording.raw)
     indices = symmetry(feet)
     return {

@@ -244,10 +244,16 @@ def _sides(text: str, columns: list[int], options: ReadOptions, warnings: list[s
                 f"the header's mask lists other cells than the columns: the columns are used "
                 f"({split} left, {len(columns) - split} right)"
             )
-        if not listed and not re.search(r"\dl.*\dr(?![a-z])", _sensor_type(text)):
+        if listed or re.search(r"\dl.*\dr(?![a-z])", _sensor_type(text)):
+            if options.side is not None:
+                warnings.append("--side is not used: the file says which of its two insoles is which")
+        elif options.side is None:
             warnings.append(
-                "nothing says which of the two insoles is which: the first columns are taken as the left one's"
+                "nothing says which of the two insoles is which: the first columns are taken as the left one's (--side "
+                "right, if they are the right one's)"
             )
+        elif options.side == "right":
+            return [("left", range(split, len(columns))), ("right", range(split))]
         return [("left", range(split)), ("right", range(split, len(columns)))]
     if restarts:
         raise FormatError(f"the column names count {len(restarts) + 1} sensors; one or two feet can be read")

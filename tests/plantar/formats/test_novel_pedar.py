@@ -11,6 +11,7 @@ from plantar import FormatError, InputError, PlantarError, write_layout
 from plantar.formats import ReadOptions, detect_format, read_recording
 from plantar.formats.nominal_insole import CELL_AREAS, nominal_insole
 from plantar.formats.polygon_layout import polygon_layout
+from plantar.sides import Side, other_side
 
 
 def export(
@@ -103,6 +104,28 @@ def test_which_insole_is_first_is_known_or_told(
     path = tmp_path / "walk.asc"
     export(path, *pressures, mask=mask, sensor=sensor)
     assert sum("which of the two insoles is which" in w for w in read_recording(path).warnings) == told
+
+
+@pytest.mark.parametrize("first", ["left", "right"])
+def test_side_says_whose_the_first_columns_are(
+    tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray], first: Side
+) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures, mask=False, sensor="y")
+    recording = read_recording(path, options=ReadOptions(side=first))
+    assert not any("which of the two insoles is which" in w for w in recording.warnings)
+    for side, truth in zip((first, other_side(first)), pressures, strict=True):
+        layout = recording.feet[side].layout
+        assert layout is not None
+        assert recording.feet[side].force == pytest.approx(truth * 1e3 * layout.areas)
+
+
+def test_side_is_not_used_where_the_file_knows(tmp_path: Path, pressures: tuple[np.ndarray, np.ndarray]) -> None:
+    path = tmp_path / "walk.asc"
+    export(path, *pressures)
+    recording = read_recording(path, options=ReadOptions(side="right"))
+    assert any("--side is not used" in w for w in recording.warnings)
+    assert np.abs(read_pa(path, "left") - pressures[0] * 1e3).max() < 1e-6
 
 
 @pytest.mark.parametrize(
