@@ -13,7 +13,7 @@ from gait.analysis.options import AnalysisOptions
 from gait.analysis.prints.platform import PlatformPrint
 from gait.analysis.prints.regions import REGIONS
 from gait.analysis.steps.cop_path import averaged_path
-from gait.analysis.steps.events import Contact, Levels, find_contacts, force_levels, run_together
+from gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.pressure_measures import region_measures
 from gait.analysis.steps.stated import stated_contacts
@@ -24,13 +24,16 @@ from gait.analysis.steps.step_measures import step_measures
 from gait.analysis.steps.step_times import OtherFoot, stride_times, time_measures
 from gait.analysis.steps.walk_geometry import Place, step_geometry
 from plantar.errors import InputError
-from plantar.recordings.pressure_recording import PressureRecording
+from plantar.recordings.pressure_recording import Kind, PressureRecording
 from plantar.sides import Side, other_side
 
 __all__ = ["analyse_feet", "analyse_foot"]
 
 COP_WINDOW = 0.05
 """Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
+
+_RAISED = 1.4
+"""How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms."""
 
 BACKWARDS = -0.02
 """Median travel of the CoP in m over a step under which it looks as if the sensor were turned round."""
@@ -170,6 +173,11 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
             "of the "
             "sole's length"
         )
+    if gait.levels is not None and _raised_by_noise(gait.levels, recording.kind):
+        out.append(
+            f"the {side} foot's force scatters by {gait.levels.noise:.3g} N in swing: heel strikes are found at "
+            f"{100.0 * _release_share(gait.levels):.0f} % of its range and so later than usual, toe offs sooner"
+        )
     for contact in gait.contacts if gait.levels is not None else ():
         steps = run_together(gait.foot.vertical_force, recording.rate_hz, cast(Levels, gait.levels), contact)
         if steps > 1:
@@ -185,6 +193,16 @@ def _doubts(recording: PressureRecording, gait: FootGait) -> list[str]:
             "layout turned round?"
         )
     return out
+
+
+def _release_share(levels: Levels) -> float:
+    """Where heel strikes are found, as a share of the range of force."""
+    return (levels.release - levels.rest) / (levels.peak - levels.rest)
+
+
+def _raised_by_noise(levels: Levels, kind: Kind) -> bool:
+    """Whether noise raises the level of heel strikes so that events move."""
+    return _release_share(levels) > _RAISED * EVENT_LEVELS[kind].strike
 
 
 def _travel_of_steps(gait: FootGait) -> list[float]:

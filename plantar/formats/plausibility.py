@@ -29,6 +29,8 @@ _SWITCH, _LOW, _ZEROS = 0.20, 0.1, 0.05
 which what a sensor leaves out at low load moves events by 20 ms; and the share of readings of 0 that tells such a
 sensor from one with an offset."""
 _LONGEST_FOOT = 0.40
+_SLENDER = (1.8, 4.2)
+"""How many times longer than wide insoles are, with room; those of makers are 2.4 to 3.4."""
 
 
 def doubts(recording: PressureRecording) -> list[str]:
@@ -68,7 +70,20 @@ def doubts(recording: PressureRecording) -> list[str]:
         extent = float(np.ptp(foot.layout.outline, axis=0).max())
         if recording.kind != "platform" and not 0.05 <= extent <= _LONGEST_FOOT:
             out.append(f"the {side} sole is {extent * 1e3:.4g} mm long, which is unusual: check the cell size")
+        out += _slender_or_wide(foot) if recording.kind == "insole" else []
     return out
+
+
+def _slender_or_wide(foot: FootRecording) -> list[str]:
+    """What to say of an insole whose length and width are no foot's: the size of a cell is wrong in one direction."""
+    assert foot.layout is not None
+    length, width = (float(v) for v in np.ptp(foot.layout.outline, axis=0))
+    if not width > 0.0 or _SLENDER[0] <= length / width <= _SLENDER[1]:
+        return []
+    return [
+        f"the {foot.side} insole is {length * 1e3:.4g} mm long and {width * 1e3:.4g} mm wide, which is no foot's shape: "
+        "check the width and the height of a cell"
+    ]
 
 
 def _clipped_or_held(foot: FootRecording, rate: float) -> list[str]:

@@ -131,3 +131,11 @@ def test_an_insole_gives_no_outline_of_a_foot(forefoot: float) -> None:
     layout = gait.foot.layout
     assert layout is not None
     assert gait.sole.length == pytest.approx(float(np.ptp(layout.outline[:, 0])), rel=1e-6)
+
+
+@pytest.mark.parametrize(("noise", "told"), [(0.0, 0), (0.3, 0), (2.0, 2)])
+def test_noise_that_moves_events_is_told(noise: float, told: int) -> None:
+    """Noise of the 99 cells of an insole in N: that of a foot is ten times as large."""
+    feet = analyse_feet(made_walk(noise=noise).recording)
+    lines = [line for gait in feet.values() for line in gait.warnings]
+    assert sum("scatters by" in line for line in lines) == told

@@ -76,3 +76,15 @@ def test_frames_that_repeat_are_told() -> None:
 
 def test_a_slow_sensor_is_told() -> None:
     assert any("10 frames a second is an unusual rate" in doubt for doubt in doubts(steps(10.0)))
+
+
+@pytest.mark.parametrize(("wide", "doubted"), [(1.0, 0), (0.8, 0), (0.5, 1), (2.0, 1)])
+def test_an_insole_that_is_too_slender_or_too_wide(wide: float, doubted: int) -> None:
+    recording = steps()
+    layout = recording.feet["left"].layout
+    assert layout is not None
+    scale = np.array([1.0, wide])
+    other = replace(layout, outline=layout.outline * scale)
+    odd = replace(recording, feet={"left": replace(recording.feet["left"], layout=other)})
+    assert sum("no foot's shape" in line for line in doubts(odd)) == doubted
+    assert not any("no foot's shape" in line for line in doubts(replace(odd, kind="robot")))
