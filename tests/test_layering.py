@@ -33,8 +33,8 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("controller_settings", "controller", "controller_tables"),
     ),
     "gait.analysis": (
-        *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity", "parameters"),
-        *("pages", "analyse", "compare", "custom", "exports", "study"),
+        *("measures", "options", "subject", "spread", "prints", "steps", "body_weight", "activity"),
+        *("mirrored_feet", "parameters", "pages", "analyse", "compare", "custom", "exports", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
     "sim": (

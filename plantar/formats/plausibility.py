@@ -81,8 +81,8 @@ def _slender_or_wide(foot: FootRecording) -> list[str]:
     if not width > 0.0 or _SLENDER[0] <= length / width <= _SLENDER[1]:
         return []
     return [
-        f"the {foot.side} insole is {length * 1e3:.4g} mm long and {width * 1e3:.4g} mm wide, which is no foot's shape: "
-        "check the width and the height of a cell"
+        f"the {foot.side} insole is {length * 1e3:.4g} mm long and {width * 1e3:.4g} mm wide, which is no foot's "
+        "shape: check the width and the height of a cell"
     ]
 
 
