@@ -38,6 +38,17 @@ def check(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> None:
     assert found.metrics["gait"]["cadence_steps_per_min"] == pytest.approx(cadence, rel=3e-3)
 
 
+def check_with_stance(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> None:
+    """The same, and stance within 1 % of the stride: of files whose clock is sound."""
+    check(found, walk, sides)
+    for side in sides:
+        contacts = [c for c in found.feet[side].contacts if c.complete]
+        times = np.array([(c.heel_strike, c.toe_off) for c in contacts])
+        true = np.column_stack([walk.strikes[side], walk.lifts[side]])
+        stance = [np.mean((t[:-1, 1] - t[:-1, 0]) / np.diff(t[:, 0])) for t in (times, true)]
+        assert abs(stance[0] - stance[1]) < 0.01
+
+
 @pytest.mark.parametrize(
     "changes",
     [
@@ -54,7 +65,16 @@ def check(found: Analysis, walk: MadeWalk, sides: tuple = SIDES) -> None:
 )
 def test_pedar(tmp_path: Path, changes: dict) -> None:
     how = replace(PLAIN, **changes)
-    check(analysed(tmp_path / "walk.asc", pedar(WALK, how)), WALK, how.sides)
+    check_with_stance(analysed(tmp_path / "walk.asc", pedar(WALK, how)), WALK, how.sides)
+
+
+@pytest.mark.parametrize("rate", [50.0, 128.0, 500.0])
+@pytest.mark.parametrize(("kilograms", "stride"), [(12.0, 0.7), (70.0, 1.1), (160.0, 2.2)])
+def test_people_of_all_weights_at_all_cadences(tmp_path: Path, rate: float, kilograms: float, stride: float) -> None:
+    insoles = {side: moticon_insole(3 if kilograms < 20.0 else 7, side) for side in SIDES}
+    made = {"rate": rate, "weight": 9.81 * kilograms, "stride": stride, "strides": 3}
+    walk = made_walk(**made, layouts=insoles)  # type: ignore[arg-type]
+    check_with_stance(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2"))), walk)
 
 
 def test_names_that_stand_on_each_page(tmp_path: Path) -> None:
@@ -112,7 +132,7 @@ def test_frames_that_were_lost(tmp_path: Path) -> None:
 def test_tekscan(tmp_path: Path, changes: dict) -> None:
     walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(30, 11, 10.16e-3))
     text = tekscan(walk, replace(PLAIN, sides=("right",), **changes), 30, 11, 10.16)
-    check(analysed(tmp_path / "walk.asf", text), walk, ("right",))
+    check_with_stance(analysed(tmp_path / "walk.asf", text), walk, ("right",))
 
 
 @pytest.mark.parametrize(
@@ -122,7 +142,7 @@ def test_tekscan(tmp_path: Path, changes: dict) -> None:
 )
 def test_xsensor(tmp_path: Path, changes: dict) -> None:
     walk = made_walk(strides=2, rate=50.0, layouts=matrix_insoles(31, 11, 8.6e-3))
-    check(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
+    check_with_stance(analysed(tmp_path / "walk.csv", xsensor(walk, replace(PLAIN, **changes))), walk)
 
 
 @pytest.mark.parametrize(
@@ -132,4 +152,4 @@ def test_xsensor(tmp_path: Path, changes: dict) -> None:
 )
 def test_moticon(tmp_path: Path, changes: dict) -> None:
     walk = made_walk(strides=3, layouts={side: moticon_insole(7, side) for side in SIDES})
-    check(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2", **changes))), walk)
+    check_with_stance(analysed(tmp_path / "walk.txt", moticon(walk, replace(PLAIN, unit="n/cm2", **changes))), walk)
