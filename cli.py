@@ -305,6 +305,8 @@ def robot(
     need_libraries("sim", *LIBRARIES)
     if (str(model) == "check") != (robot_file is not None) or (robot_file is None and scene is not None):
         raise InputError("a robot file and --scene are for the check: plantar robot check ROBOT.toml --scene beam")
+    if robot_file is None and model.suffix.lower() == ".toml":
+        raise InputError(f"{model} is no model but a robot file; look at it with: plantar robot check {model}")
     if robot_file is not None:
         from sim.survey.check import check_robot
 

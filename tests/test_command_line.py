@@ -49,7 +49,8 @@ def test_a_shell_completes_commands() -> None:
         (["sim"], ("scene", "plantar sim --help")),
         (["sim", "flat", "--nosuch"], ("--nosuch", "plantar sim --help")),
         (["sim", "flat", "--seed", "x"], ("--seed", "integer")),
-        (["analyze", "--compare", "one"], ("--compare", "2 arguments")),
+        (["analyze", "--compare", "one"], ("--compare", "2 arguments", "plantar analyze --help")),
+        (["robot", "mine.toml"], ("mine.toml is no model", "plantar robot check mine.toml")),
         (["list", "formats", "twice", "thrice"], ("thrice",)),
     ],
 )

@@ -64,8 +64,14 @@ def run_command(app: typer.Typer) -> int:
         if "\n" in text:  # `plantar` alone: the help
             print(text, file=sys.stderr)
             return BAD_INPUT
-        place = getattr(getattr(error, "ctx", None), "command_path", "plantar")
+        place = getattr(getattr(error, "ctx", None), "command_path", None) or _command_path(command)
         raise InputError(f"{text.rstrip('.')}; see {place} --help") from None
+
+
+def _command_path(command: Any) -> str:
+    """The command that the process's arguments name: the error of an option without its value does not tell it."""
+    first = next((word for word in sys.argv[1:] if not word.startswith("-")), "")
+    return f"plantar {first}" if first in getattr(command, "commands", {}) else "plantar"
 
 
 def end_command(

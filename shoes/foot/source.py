@@ -6,11 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
-from plantar.errors import InputError, RobotError
+from plantar.errors import FootError, InputError, RobotError
+from plantar.files.input_file import check_input
 from plantar.files.structured_text import packaged_files, read_toml
 from plantar.sides import SIDES
 from shoes.foot.foot import Foot, foot_from_dimensions
 from shoes.foot.foot_mesh import foot_from_mesh, foot_from_triangles
+from shoes.foot.mesh_file import MESH_FORMATS
 from shoes.foot.outline_file import OUTLINE_FORMATS, foot_from_drawing
 from shoes.foot.robot_model import MODEL_FORMATS, read_foot_body
 from shoes.order import FootSource
@@ -64,6 +66,13 @@ def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None
 def _foot_of_file(path: Path, source: FootSource, sole_band: float) -> Foot:
     """The foot of a mesh, a robot's model or a drawing, by the file's ending."""
     kind = path.suffix.lower()
+    if kind not in (*MESH_FORMATS, *MODEL_FORMATS, *OUTLINE_FORMATS):
+        check_input(path, FootError)  # a wrong path is told as such, whatever it ends in
+        meshes, models, outlines = (", ".join(kinds) for kinds in (MESH_FORMATS, MODEL_FORMATS, OUTLINE_FORMATS))
+        raise FootError(
+            f"{path}: a foot is not read from '{kind or path.name}'; allowed: a mesh ({meshes}), a robot's model with "
+            f"--body ({models}), the outline of a sole ({outlines})"
+        )
     side = cast(Any, source.mesh_side or "left")
     options: dict[str, Any] = {"unit": source.unit, "forward": source.forward}
     if kind in OUTLINE_FORMATS:

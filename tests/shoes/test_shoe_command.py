@@ -123,6 +123,8 @@ def test_bad_meshes_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, t
 
 def test_bad_options_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, tmp_path: Path) -> None:
     foot, out = stl(box((-50, 150), (-40, 40), (0, 60))), tmp_path / "out"
+    letter = tmp_path / "letter.doc"
+    letter.write_text("Dear reader")
     for arguments, reason in (
         ((), "give one of: a file of the foot"),
         ((foot, "--robot", "h1"), "give one of: a file of the foot"),
@@ -149,7 +151,10 @@ def test_bad_options_are_refused_in_one_line(run: Run, stl: Writer, box: Shape, 
         (("--dimensions", "240x-95"), "0.015 to 0.45 m wide"),
         ((tmp_path / "sole.svg", "--up", "y"), "--up is for meshes and models"),
         ((tmp_path / "robot.urdf",), "cannot be read"),
-        ((tmp_path / "foot.doc",), "no mesh format that is read"),
+        ((tmp_path / "none.doc",), "none.doc: cannot be read (No such file"),
+        ((tmp_path,), "cannot be read (Is a directory)"),
+        ((letter,), "not read from '.doc'; allowed: a mesh (.stl"),
+        ((letter,), "the outline of a sole (.dxf, .svg"),
     ):
         assert reason in refused(run(*arguments, "-o", out), out)
 

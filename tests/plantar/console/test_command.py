@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from typing import Annotated
 
 import pytest
 import typer
@@ -20,6 +21,11 @@ def end(code: int, stop: bool = False) -> None:
     if stop:
         raise typer.Abort
     raise typer.Exit(code)
+
+
+@app.command()
+def sing(song: Annotated[str, typer.Option()] = "") -> None:
+    """Sing a song."""
 
 
 @app.command()
@@ -44,6 +50,7 @@ def test_a_commands_exit_code_comes_back(monkeypatch, code):
         (["end"], "see plantar end --help"),
         (["end", "many"], "see plantar end --help"),
         (["end", "1", "--no-such"], "see plantar end --help"),
+        (["sing", "--song"], "'--song' requires an argument; see plantar sing --help"),
     ],
 )
 def test_a_wrong_argument_is_one_line_that_names_the_help(monkeypatch, arguments, words):
