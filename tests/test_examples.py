@@ -170,3 +170,8 @@ def test_an_example_is_one_idea_in_60_lines_and_says_how_it_is_run(example: Path
 def test_the_page_of_examples_names_each() -> None:
     page = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
     assert set(re.findall(r"\((\w+)\.py\)", page)) == {e.stem for e in EXAMPLES}
+
+
+def test_the_page_that_compares_counts_them() -> None:
+    page = (ROOT / "docs" / "compare.md").read_text(encoding="utf-8")
+    assert f" {len(EXAMPLES)}, one idea each, and four notebooks" in page
