@@ -79,6 +79,7 @@ _PROBING = 0.0237  # weight on a foot that probes the ground from which its cent
 _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where it stands on nothing
 _FOLLOWS_GROUND = 1.98  # rad/beat, natural frequency of the CoM's height over ground that goes up and down
 _BRIDGED = 0.2  # beats without encoders or IMU: a DCM that nobody follows is a fifth farther off by then
+_BESIDE = 0.25  # leg that a foot that has landed beside its place is commanded away from it at most
 _NO_WAY = 1 / 12  # leg: a walk that is shorter has no direction of its own
 
 
@@ -456,7 +457,10 @@ class WalkingController:
         # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
         z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
         place, commanded = np.array([x, y, z]), feet.footholds[side][0]
-        if math.dist(place, commanded) > rules.misplaced:
+        away = math.dist(place, commanded)
+        if away > rules.misplaced:
+            # Of a body that falls, or by encoders that err by degrees, a foot may seem to be anywhere.
+            place = commanded + min(1.0, _BESIDE * self.settings.body.leg / away) * (place - commanded)
             self.motion.stand_at(side, place, heading(state.rotations_sole[side]) - self._frame.turn)
             self._compensation.keep(commanded - place)
 
