@@ -56,7 +56,7 @@ def shoe(
     foot: Annotated[
         Path | None,
         Argument(
-            metavar="[FOOT]",
+            metavar="FOOT",
             help="Mesh of the foot (.stl .obj .ply .off .dae .3mf .step), robot's model (.xml .urdf, with --body), "
             "or outline of its sole (.dxf .svg .geojson).",
             show_default=False,
@@ -169,7 +169,7 @@ def analyze(
     foot_length: Annotated[float | None, Option(help="Length of the foot in m, for the report's heading.")] = None,
     export: Annotated[
         list[str] | None,
-        Option(help="Write the recording in another format, too: c3d, csv or npz; repeatable.", show_default=False),
+        Option(metavar="FORMAT", help="Write the recording in another format, too: c3d, csv or npz; repeatable."),
     ] = None,
     output: Output = Path("out/analysis"),
     as_json: Json = False,
@@ -284,7 +284,7 @@ def robot(
     model: Annotated[
         Path, Argument(metavar="MODEL", help="Robot's model (.xml .mjcf .urdf), or the word check.", show_default=False)
     ],
-    robot_file: Annotated[Path | None, Argument(metavar="[ROBOT.toml]", help="After check: the robot file.")] = None,
+    robot_file: Annotated[Path | None, Argument(metavar="ROBOT.toml", help="After check: the robot file.")] = None,
     scene: Annotated[str | None, Option(help="check: the scene whose plan is looked at. Default: flat.")] = None,
     solid: Annotated[bool, Option("--solid", help="Build the printable shoes, too; takes half a minute.")] = False,
     output: Output = Path("out/robot"),
@@ -412,14 +412,14 @@ def sweep(
     ] = None,
     seeds: Annotated[
         int | None,
-        Option(help="Seeds of each grid point; the most, with --limit.", show_default="1; 1000 with --limit"),
+        Option(help="Seeds of each grid point; the most, with --limit. Default: 1, or 1000 with --limit."),
     ] = None,
     first_seed: Annotated[int, Option(help="The first of them; for figures on seeds that nothing was tuned on.")] = 0,
     robot: Annotated[str | None, Option(help="Robot to use instead of the scene's.")] = None,
     settings: Annotated[
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="A setting of all runs; repeatable.")
     ] = None,
-    workers: Annotated[int, Option(help="Processes on this machine. Default: one a core.")] = 0,
+    workers: Annotated[int, Option(help="Processes on this machine. Default: one a core.", show_default=False)] = 0,
     scheduler: Annotated[str | None, Option(help="Address of a Dask scheduler, tcp://host:8786.")] = None,
     output: Output = Path("out/sweep"),
     as_json: Json = False,
@@ -551,8 +551,12 @@ def bench(
     seed: Annotated[int, Option(help="--stress: seed of what is left to chance.")] = 0,
     scenarios: Annotated[int, Option(help="stress: how many scenarios.")] = 10_000,
     first: Annotated[int, Option(min=0, help="stress: number of the first one.")] = 0,
-    scene: Annotated[list[str] | None, Option(help="scenes: a walk to run (again for more). Default: all.")] = None,
-    robot: Annotated[list[str] | None, Option(help="scenes: a robot to run them with, likewise.")] = None,
+    scene: Annotated[
+        list[str] | None, Option(metavar="SCENE", help="scenes: a walk to run (again for more). Default: all.")
+    ] = None,
+    robot: Annotated[
+        list[str] | None, Option(metavar="ROBOT", help="scenes: a robot to run them with, likewise.")
+    ] = None,
     quick: Annotated[bool, Option("--quick", help="scenes, all: what tells most, once.")] = False,
     output: Output = Path("out/bench"),
     as_json: Json = False,

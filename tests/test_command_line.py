@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,11 +11,13 @@ import time
 from pathlib import Path
 
 import pytest
+import typer
 
 import cli
 import plantar
 
 PLANTAR = [str(Path(sys.executable).parent / "plantar")]
+COMMANDS = typer.main.get_command(cli.app).commands  # type: ignore[attr-defined]
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="/dev/full and signals as on Linux")
 
 
@@ -62,6 +65,20 @@ def test_wrong_arguments_are_one_line(
     assert said.out == ""
     assert said.err.count("\n") == 1
     assert all(word in said.err for word in words), said.err
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_a_command_can_be_copied(
+    name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Examples stand in one line where the terminal is wide, and nothing shows how Python writes it."""
+    monkeypatch.setenv("COLUMNS", "130")
+    assert called(monkeypatch, name, "--help") == 0
+    told = capsys.readouterr().out
+    examples = re.findall(r"^ *Example: *(.+)", (COMMANDS[name].help or ""), re.MULTILINE)
+    assert examples
+    assert [e for e in examples if f"Example: {e}\n" not in told] == []
+    assert not re.search(r"\[\[|list\[|default: (\(|None)", told), told
 
 
 def test_no_arguments_are_the_help(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -23,6 +23,10 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on std
 """The option for what a program reads."""
 
 
+_WIDEST_HELP = 120
+"""Columns that the help takes where the terminal has them; typer's own 80 break the examples in two."""
+
+
 def run_command(app: typer.Typer) -> int:
     """Run the command that the process's arguments name.
 
@@ -52,7 +56,7 @@ def run_command(app: typer.Typer) -> int:
     if "_PLANTAR_COMPLETE" in os.environ:  # a shell asks how a word goes on; click answers it and ends
         command.main(prog_name="plantar")
     try:
-        with command.make_context("plantar", sys.argv[1:]) as context:
+        with command.make_context("plantar", sys.argv[1:], max_content_width=_WIDEST_HELP) as context:
             command.invoke(context)
         return 0
     except typer.Exit as end:
