@@ -32,7 +32,7 @@ from sim.run.setting_list import settings_of_robot
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES, *sorted((ROOT / "benchmarks").glob("*.md"))]
-FOLLOWED = {"start", "concepts", "index"}
+FOLLOWED = {"start", "questions", "concepts", "index"}
 """Pages that test_site.py follows, as the tutorials; the front page shows a file that a reader has."""
 
 COMMANDS = typer.main.get_command(cli.app).commands  # type: ignore[attr-defined]

@@ -16,8 +16,11 @@ from types import ModuleType
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-PAGES = [ROOT / "docs" / "start.md", ROOT / "docs" / "concepts.md", *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
-QUICK = {"concepts", "format", "sensor", "task"}
+PAGES = [
+    *(ROOT / "docs" / f"{name}.md" for name in ("start", "questions", "concepts")),
+    *sorted((ROOT / "docs" / "tutorials").glob("*.md")),
+]
+QUICK = {"concepts", "format", "questions", "sensor", "task"}
 """Pages that take a second; the others walk, build or analyse, and run with the long tests."""
 BLOCK = re.compile(r"^```(python|sh)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
