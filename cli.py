@@ -182,7 +182,7 @@ def analyze(
 
     Example: plantar analyze walk.asc -o out/walk
 
-    Example: plantar analyze out/demo/run.mcap --json
+    Example: plantar analyze out/walk/run.mcap --json
 
     Example: plantar analyze walk.asc --participant P07 --mass 71.5
 
