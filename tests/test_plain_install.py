@@ -1,0 +1,92 @@
+"""What `pip install plantar` promises without an extra works with the libraries that it declares, and no other."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+BLOCKED = """
+import sys
+
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {names!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+
+sys.meta_path.insert(0, Missing())
+"""
+
+
+def plain(text: str) -> str:
+    """A distribution's name as the index compares it, of a requirement."""
+    return re.sub(r"[-_.]+", "-", re.split(r"[^\w.-]", text.strip(), maxsplit=1)[0]).lower()
+
+
+def declared() -> set[str]:
+    """The distributions that an install without extras brings, with those that they bring in turn."""
+    left = [plain(d) for d in tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]]
+    found: set[str] = set()
+    while left:
+        name = left.pop()
+        if name in found:
+            continue
+        found.add(name)
+        try:
+            more = requires(name) or []
+        except PackageNotFoundError:  # of another platform or Python
+            continue
+        left += [plain(r) for r in more if "extra ==" not in r]
+    return found
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """An environment in which the libraries of the extras cannot be imported, as if they were not installed."""
+    allowed = declared() | {"plantar"}
+    others = {module for module, of in packages_distributions().items() if not {plain(d) for d in of} & allowed}
+    assert {"mujoco", "cadquery", "trimesh", "rosbags"} <= others
+    folder = tmp_path_factory.mktemp("plain")
+    (folder / "sitecustomize.py").write_text(BLOCKED.format(names=others))
+    return os.environ | {"PYTHONPATH": os.pathsep.join([str(folder), str(ROOT)])}
+
+
+def run(environment: dict[str, str], cwd: Path, *words: str | Path) -> str:
+    done = subprocess.run(
+        [sys.executable, *map(str, words)], cwd=cwd, env=environment, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, f"{words}: exit {done.returncode}\n{done.stdout}\n{done.stderr}"
+    return done.stdout
+
+
+def test_recordings_are_analysed_compared_and_studied(environment: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "study").mkdir()
+    for name in ("a.asc", "b.asc"):
+        run(environment, tmp_path, ROOT / "examples" / "insole_walk.py", f"study/{name}")
+    run(environment, tmp_path, "-m", "cli", "analyze", "study/a.asc", "--export", "npz", "--export", "csv", "-o", "one")
+    run(environment, tmp_path, "-m", "cli", "analyze", "--compare", "study/a.asc", "study/b.asc", "-o", "both")
+    run(environment, tmp_path, "-m", "cli", "analyze", "study", "-o", "all")
+    made = {str(p.relative_to(tmp_path)) for p in tmp_path.rglob("*.html")}
+    assert {"one/report.html", "both/report.html", "all/study.html"} <= made
+
+
+def test_a_sensor_is_recorded_and_viewed(environment: dict[str, str], tmp_path: Path) -> None:
+    run(environment, tmp_path, ROOT / "examples" / "record_own_sensor.py", "run.mcap")
+    run(environment, tmp_path, "-m", "cli", "analyze", "run.mcap", "-o", "walk")
+    run(environment, tmp_path, "-m", "cli", "view", "run.mcap", "-o", "view.html")
+    assert (tmp_path / "view.html").stat().st_size > 100_000
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["sole_hexagons", "percept_one_foot", "percept_stream", "percept_faults", "record_formats", "record_own_metric"],
+)
+def test_an_example_of_perception_or_of_recordings_runs(name: str, environment: dict[str, str], tmp_path: Path) -> None:
+    assert run(environment, tmp_path, ROOT / "examples" / f"{name}.py").strip()
