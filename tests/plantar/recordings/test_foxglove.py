@@ -6,14 +6,15 @@ import sys
 from pathlib import Path
 
 import pytest
-from foxglove_schemas_protobuf.FrameTransforms_pb2 import FrameTransforms
-from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
-from foxglove_schemas_protobuf.Log_pb2 import Log
-from foxglove_schemas_protobuf.SceneEntityDeletion_pb2 import SceneEntityDeletion
-from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 
 from plantar.recordings import foxglove
 from plantar.recordings.protobuf import Slot, Template
+
+FrameTransforms = pytest.importorskip("foxglove_schemas_protobuf.FrameTransforms_pb2").FrameTransforms
+LinePrimitive = pytest.importorskip("foxglove_schemas_protobuf.LinePrimitive_pb2").LinePrimitive
+Log = pytest.importorskip("foxglove_schemas_protobuf.Log_pb2").Log
+SceneEntityDeletion = pytest.importorskip("foxglove_schemas_protobuf.SceneEntityDeletion_pb2").SceneEntityDeletion
+SceneUpdate = pytest.importorskip("foxglove_schemas_protobuf.SceneUpdate_pb2").SceneUpdate
 
 RED = (1.0, 0.0, 0.25, 0.5)
 

@@ -6,9 +6,6 @@ import struct
 
 import numpy as np
 import pytest
-from foxglove_schemas_protobuf.Log_pb2 import Log
-from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
-from google.protobuf.timestamp_pb2 import Timestamp
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,6 +22,10 @@ from plantar.recordings.protobuf import (
     text,
     timestamp,
 )
+
+Log = pytest.importorskip("foxglove_schemas_protobuf.Log_pb2").Log
+Vector3 = pytest.importorskip("foxglove_schemas_protobuf.Vector3_pb2").Vector3
+Timestamp = pytest.importorskip("google.protobuf.timestamp_pb2").Timestamp
 
 NUMBERS = st.floats(allow_nan=False)
 
