@@ -104,7 +104,8 @@ class SoleInset:
         most = 1.4 * self._weight
         level = floor - round(height * self._weight / most)
         self._cv2.line(inset, (self._chart + self._margin, level), (right, level), _SOFT, 1)
-        self._write(inset, f"weight, {_SECONDS:.0f} s", self._chart + self._margin, level - 4, _SOFT)
+        top = self._margin + self._height // 12  # of 1.4 weights: no force of a foot that stands comes there
+        self._write(inset, f"force, {_SECONDS:.0f} s; line: weight", self._chart + self._margin, top, _INK)
         times = np.array([t for t, _ in past])
         x = right - width * (time - times) / _SECONDS
         for i, side in enumerate(SIDES):

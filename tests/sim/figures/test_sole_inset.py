@@ -59,3 +59,14 @@ def test_forces_leave_the_chart_after_some_seconds(inset: SoleInset) -> None:
     times = [time for time, _ in inset._past]
     assert times[0] == pytest.approx(times[-1] - 4.0, abs=0.041)
     assert inset._past[-1][1] == pytest.approx((420.0, 0.0))
+
+
+def test_the_words_over_the_forces_stay_free_of_their_lines(inset: SoleInset) -> None:
+    """A foot that carries all, with a tenth of noise, and one that carries nothing: the words look the same."""
+    noise = 1.0 + 0.1 * np.random.default_rng(0).uniform(-1.0, 1.0, 100)
+    for i, share in enumerate(noise):
+        loaded = drawn(inset, np.full(42, share * WEIGHT / 42), 0.04 * i)
+    free = drawn(SoleInset(inset._layouts, WEIGHT, 130), np.zeros(42))
+    words = np.s_[: 130 // 7, inset._chart : inset._width]
+    assert (free[words].min(axis=-1) < 120).sum() > 50
+    assert np.array_equal(loaded[words], free[words])
