@@ -18,7 +18,6 @@ __all__ = ["LIBRARIES", "doctor_text", "examine"]
 LIBRARIES: dict[str, dict[str, str]] = {
     "": {
         "numpy": "numpy",
-        "scipy": "scipy",
         "shapely": "shapely",
         "typer": "typer",
         "rich": "rich",
@@ -31,8 +30,9 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "fonttools": "fontTools",
         "pycollada": "collada",
         "trimesh": "trimesh",
+        "scipy": "scipy",
     },
-    "sim": {"mujoco": "mujoco", "opencv-contrib-python-headless": "cv2", "daqp": "daqp"},
+    "sim": {"mujoco": "mujoco", "scipy": "scipy", "opencv-contrib-python-headless": "cv2", "daqp": "daqp"},
     "formats": {"rosbags": "rosbags", "ezc3d": "ezc3d", "opencv-contrib-python-headless": "cv2"},
     "cluster": {"distributed": "distributed"},
 }

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
-from scipy.ndimage import grey_opening, median_filter
 
 from gait.analysis.steps.events import MINIMUM_SWING, smoothed, true_runs
 
@@ -151,7 +151,8 @@ def _jump(force: NDArray[np.float64], change: float) -> int | None:
     if len(force) < 6 or not np.isfinite(force).all():
         return None
     steps = np.diff(force)
-    alone = (steps - median_filter(steps, 5, mode="nearest")) / change
+    usual = np.median(sliding_window_view(np.pad(steps, 2, mode="edge"), 5), axis=1)
+    alone = (steps - usual) / change
     at = int(np.argmax(alone))
     return at if 0.6 < alone[at] < 1.6 else None
 
@@ -159,8 +160,21 @@ def _jump(force: NDArray[np.float64], change: float) -> int | None:
 def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray[np.float64]:
     """The level under contacts of up to `longest` s."""
     width = max(3, round(longest * rate))
-    opened = grey_opening(np.pad(course, width, mode="edge"), size=width, mode="nearest")
-    return np.asarray(opened[width : width + len(course)])
+    eroded = _least(np.pad(course, width, mode="edge"), width)
+    return -_least(-eroded, width)[1 : len(course) + 1]
+
+
+def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
+    """Least value (n - width + 1,) of each run of `width` values (van Herk 1992): in time that the width does not change.
+
+    A run reaches over one border of blocks as long as it is, so it is the end of one block and the beginning of the next.
+    """
+    count = len(values)
+    rows = -(-count // width)
+    blocks = np.pad(values, (0, rows * width - count), constant_values=np.inf).reshape(rows, width)
+    begun = np.minimum.accumulate(blocks, axis=1).ravel()
+    ended = np.minimum.accumulate(blocks[:, ::-1], axis=1)[:, ::-1].ravel()
+    return np.minimum(ended[: count - width + 1], begun[width - 1 : count])
 
 
 def _usual_range(course: NDArray[np.float64], rate: float) -> float:

@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.ndimage import grey_opening
 
 from gait.analysis.parameters import analyse_feet
 from gait.analysis.steps.baseline import without_baselines
-from gait.analysis.steps.swing_levels import swing_levels
+from gait.analysis.steps.swing_levels import _opened, swing_levels
 from plantar.recordings.pressure_recording import PressureRecording
 
 from ..walks import MadeWalk, made_walk
@@ -125,3 +126,13 @@ def test_steps_that_an_offset_joins_are_told_where_it_is_kept() -> None:
         assert any("joins these steps" in w for w in gait.warnings)
     for gait in analyse_feet(walk.recording).values():
         assert not any("joins these steps" in w for w in gait.warnings)
+
+
+@pytest.mark.parametrize("width", [3, 4, 17, 160])
+@pytest.mark.parametrize("count", [1, 2, 16, 17, 18, 500])
+def test_the_level_under_contacts_is_scipys_opening(count: int, width: int) -> None:
+    rng = np.random.default_rng(count * width)
+    for course in (rng.normal(size=count).cumsum(), rng.integers(0, 4, count).astype(float)):
+        padded = np.pad(course, width, mode="edge")
+        opened = grey_opening(padded, size=width, mode="nearest")[width : width + count]
+        np.testing.assert_array_equal(_opened(course, width / 100.0, 100.0), opened)
