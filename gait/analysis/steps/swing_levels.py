@@ -165,9 +165,10 @@ def _opened(course: NDArray[np.float64], longest: float, rate: float) -> NDArray
 
 
 def _least(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
-    """Least value (n - width + 1,) of each run of `width` values (van Herk 1992): in time that the width does not change.
+    """Least value (n - width + 1,) of each run of `width` values, in a time that does not grow with the width.
 
-    A run reaches over one border of blocks as long as it is, so it is the end of one block and the beginning of the next.
+    A run reaches over one border of blocks of its own length: it is the end of one block and the beginning of the next
+    (van Herk 1992).
     """
     count = len(values)
     rows = -(-count // width)
