@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +15,7 @@ from gait.plan.plan_change import MovedStep
 from gait.plan.vrp_plan import LipReference
 from plantar.mechanics.base_state import BaseState
 from plantar.percepts.percept import Percept
+from plantar.record import Record
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
@@ -23,8 +23,7 @@ from plantar.sides import Side
 __all__ = ["Command", "FootTarget", "Sensors"]
 
 
-@dataclass(frozen=True)
-class Sensors:
+class Sensors(Record, frozen=True):
     """All that a controller gets to see.
 
     Attributes:
@@ -45,12 +44,12 @@ class Sensors:
     gyro: NDArray[np.float64]
     accelerometer: NDArray[np.float64]
     readings: Mapping[Side, Reading]
-    ankles: Mapping[Side, NDArray[np.float64]] = field(default_factory=dict)
+    ankles: Mapping[Side, NDArray[np.float64]] = msgspec.field(default_factory=dict)
     skin: SkinReading | None = None
-    links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = field(default_factory=dict)
+    links: Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]] = msgspec.field(default_factory=dict)
 
 
-class FootTarget(NamedTuple):
+class FootTarget(Record, frozen=True):
     """Where a sole shall be, and what it shall carry.
 
     Attributes:
@@ -66,8 +65,7 @@ class FootTarget(NamedTuple):
     center_of_pressure: NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Command:
+class Command(Record, frozen=True):
     """What the controller asks of the body, for inverse kinematics and servos.
 
     Attributes:
@@ -96,7 +94,7 @@ class Command:
     state: BaseState
     dcm: NDArray[np.float64]
     percepts: Mapping[Side, Percept]
-    ankle_loads: Mapping[Side, SoleWrench] = field(default_factory=dict)
+    ankle_loads: Mapping[Side, SoleWrench] = msgspec.field(default_factory=dict)
     footholds: tuple[FootholdFound, ...] = ()
     moved_steps: tuple[MovedStep, ...] = ()
     joint_offsets: NDArray[np.float64] | None = None

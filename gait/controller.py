@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,6 +67,7 @@ from plantar.mechanics.lip import GRAVITY, pendulum_frequency
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
+from plantar.record import Record
 from plantar.sensing.net_wrench import net_wrench
 from plantar.sides import SIDES, Side, other_side
 
@@ -100,7 +100,7 @@ class Start:
     commands: tuple[Proposer, ...] = ()
 
 
-class _Sensed(NamedTuple):
+class _Sensed(Record, frozen=True):
     """One reading, which all parts of a tick share."""
 
     time: float
@@ -290,7 +290,7 @@ class WalkingController:
             return self._held()
         if heard is not told:
             joints, gyro, accelerometer = heard
-            sensors = replace(sensors, joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
+            sensors = sensors.changed(joint_positions=joints, gyro=gyro, accelerometer=accelerometer)
         command = self._stepped(sensors)
         self._lost = self._last is not None and self._is_lost(command)
         if self._lost:
@@ -301,7 +301,7 @@ class WalkingController:
     def _held(self) -> Command:
         """What was commanded last, without what was new then."""
         assert self._last is not None
-        return replace(self._last, footholds=(), moved_steps=())
+        return self._last.changed(footholds=(), moved_steps=())
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""
@@ -326,7 +326,7 @@ class WalkingController:
         tick = self._perceive(sensed, state, feet, inward, feedback)
         region = self._zmp_region(tick.phase, feet)
         if feedback and (self.settings.step_timing is not None or self.settings.step_adjustment is not None):
-            tick = tick._replace(pendulum=self._pendulum(tick.phase, time, xi, region))
+            tick = tick.changed(pendulum=self._pendulum(tick.phase, time, xi, region))
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
@@ -575,7 +575,7 @@ class WalkingController:
                 rotation = level.dot(rotation_from_vector(np.array([x, y, 0.0])))
             foot = FootState(self.motion.footholds[side][0], level, rotation, self.contacts.center(side))
             if contacts and (phase.swing != side or self.motion.landed):
-                foot = foot._replace(contact=self._contact(side), wrench=soles[side].wrench_in_sole)
+                foot = foot.changed(contact=self._contact(side), wrench=soles[side].wrench_in_sole)
             states[side] = foot
         return Feet(states, phase.stance, self._frame)
 
@@ -583,10 +583,11 @@ class WalkingController:
         """Pose and load of each sole: turned about its centre and shifted as the balance law has it give way."""
         targets: dict[Side, FootTarget] = {}
         for side, action in actions.items():
-            position, level, rotation, center = feet.states[side][:4]
+            foot = feet.states[side]
+            position, rotation, center = foot.position, foot.rotation, foot.center
             if action.roll or action.pitch or action.shift:
                 x, y = self._damping[side].turn.tolist()
-                rotation = level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
+                rotation = foot.level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
                 # About the centre: it stays at its height, to first order.
                 rise = action.shift + action.pitch * center[0] - action.roll * center[1]
                 position = position + np.array([0.0, 0.0, rise])

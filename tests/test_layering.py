@@ -24,8 +24,8 @@ ALLOWED = {
 
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
-        *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points", "lazy", "atomic", "console"),
-        *("optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
+        *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points", "lazy", "record", "atomic"),
+        *("console", "optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
         *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
     ),
     "gait": (

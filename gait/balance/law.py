@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from gait.estimate.command_frame import CommandFrame
 from gait.plan.vrp_plan import LipReference
 from plantar.mechanics.contact import Contact
+from plantar.record import Record
 from plantar.sides import Side
 
 __all__ = ["BalanceLaw", "BalanceState", "Feet", "FootAction", "FootState"]
 
 
-class BalanceState(NamedTuple):
+class BalanceState(Record, frozen=True):
     """What a balance law decided at one tick, world frame.
 
     Attributes:
@@ -37,7 +38,7 @@ class BalanceState(NamedTuple):
     com_acceleration: NDArray[np.float64]
 
 
-class FootState(NamedTuple):
+class FootState(Record, frozen=True):
     """A foot as a balance law sees it, command frame.
 
     Attributes:
@@ -58,7 +59,7 @@ class FootState(NamedTuple):
     wrench: NDArray[np.float64] | None = None
 
 
-class Feet(NamedTuple):
+class Feet(Record, frozen=True):
     """Both feet at a tick.
 
     Attributes:
@@ -72,7 +73,7 @@ class Feet(NamedTuple):
     frame: CommandFrame
 
 
-class FootAction(NamedTuple):
+class FootAction(Record, frozen=True):
     """What a balance law wants of a foot: the wrench that the ground shall exert on it, and how it gives way.
 
     Attributes:

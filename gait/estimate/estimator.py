@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ from plantar.kernels.floating_base import FloatingBase
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY
+from plantar.record import Record
 from plantar.settings.schema import Settings, share
 from plantar.sides import SIDES
 
@@ -45,7 +46,7 @@ __all__ = [
 ]
 
 
-class Posture(NamedTuple):
+class Posture(Record, frozen=True):
     """Kinematics of a joint configuration in the base (torso) frame.
 
     Attributes:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +23,7 @@ from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
 from plantar.percepts.percept import Percept
+from plantar.record import Record
 from plantar.settings.schema import Settings, number, share, switch
 from plantar.sides import SIDES, Side, other_side
 
@@ -38,7 +38,7 @@ _SAME_PLACE = 1 / 6000  # between two places that are one
 _AT_THE_GROUND = 1 / 300  # from it within which the least load is
 
 
-class SoleSense(NamedTuple):
+class SoleSense(Record, frozen=True):
     """What is known of a sole: what it senses, and its estimated pose in the world."""
 
     percept: Percept
@@ -291,8 +291,8 @@ class FootMotion:
         # A swing with a slow approach is above its place before that; from there on it goes down as it would anyhow.
         approaches = path.approach_height > 0.0
         share = path.arrived / path.duration if approaches else 1.0
-        position, velocity, _ = self._fit.aim(swing.end, elapsed, share * swing.duration)
-        self._falls = -velocity.item(2)
+        point = self._fit.aim(swing.end, elapsed, share * swing.duration)
+        position, self._falls = point.position, -point.velocity.item(2)
         planned, yaw = swing.at(elapsed)
         if approaches:
             position[2] = planned.item(2)
@@ -394,7 +394,7 @@ class FootMotion:
         position, yaw = self.footholds[side]
         elapsed = time - self._start
         if not self.landed:
-            view = compliance.ground.update(*sense, time)
+            view = compliance.ground.update(sense.percept, sense.position, sense.rotation, time)
             if self.comes_down and compliance.update_load(load) and self._may_touch(compliance, view, load):
                 self.landed = True
                 self._touch = (time, float(sense.position[2]))

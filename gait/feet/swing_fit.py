@@ -16,8 +16,6 @@ it rises, and from some moment on it falls (K 2.4, monotonicity).
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -25,6 +23,7 @@ from plantar.arguments import number as checked_number
 from plantar.arrays import array
 from plantar.errors import InputError
 from plantar.kernels.swing_fit import fit
+from plantar.record import Record
 from plantar.settings.schema import Settings, number, share, whole
 
 __all__ = ["SwingFit", "SwingFitRules", "SwingPoint"]
@@ -54,7 +53,7 @@ class SwingFitRules(Settings):
     height_share: float = number(1.0 / 3.0, "1", 0.01, 0.5)
 
 
-class SwingPoint(NamedTuple):
+class SwingPoint(Record, frozen=True):
     """Where the swing foot shall be now.
 
     Attributes:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.record import Record
 from plantar.sides import Side
 
 __all__ = ["FeetView"]
@@ -16,7 +16,7 @@ _THERE = np.zeros(2)
 _THERE.flags.writeable = False
 
 
-class FeetView(NamedTuple):
+class FeetView(Record, frozen=True):
     """Commanded feet at one tick.
 
     Attributes:

@@ -20,18 +20,18 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
 from plantar.kernels.pendulum import on_segment
+from plantar.record import Record
 
 __all__ = ["LipReference", "VrpPlan"]
 
 
-class LipReference(NamedTuple):
+class LipReference(Record, frozen=True):
     """The plan at one time, in the horizontal plane of the world frame.
 
     Attributes:

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from enum import IntEnum
 from types import MappingProxyType
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,7 @@ from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
 from plantar.arrays import read_only
 from plantar.kernels.convex import closest_point
+from plantar.record import Record
 from plantar.sensing.reading import Reading
 from plantar.sides import Side
 
@@ -45,7 +46,7 @@ class Priority(IntEnum):
     """What a user wants: it can wait for a tick."""
 
 
-class Pendulum(NamedTuple):
+class Pendulum(Record, frozen=True):
     """The pendulum at one tick.
 
     Attributes:
@@ -85,7 +86,7 @@ class Pendulum(NamedTuple):
         return growth, wanted, nearest_place(self.zmp_region, *wanted)
 
 
-class Tick(NamedTuple):
+class Tick(Record, frozen=True):
     """All that a proposer gets to know at one tick.
 
     Attributes:

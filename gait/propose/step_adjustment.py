@@ -172,7 +172,7 @@ class StepAdjustment:
         if math.hypot(*_missed(pendulum, left)) < self._rules.least_error:
             return self._go_along(tick, pendulum, foot, left)
         region = self._region(tick, swing)
-        pendulum = pendulum._replace(zmp_region=self._relied_on(tick, pendulum.zmp_region))
+        pendulum = pendulum.changed(zmp_region=self._relied_on(tick, pendulum.zmp_region))
         find = self._solved if self._rules.method == "ssp_opt" else self._searched
         return self._change(tick, find(tick, pendulum, foot, left, region), left)
 

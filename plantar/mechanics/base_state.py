@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.record import Record
+
 __all__ = ["BaseState"]
 
 
-class BaseState(NamedTuple):
+class BaseState(Record, frozen=True):
     """Estimated state, world frame. Contacts have names, the feet of a biped "left" and "right".
 
     Attributes:

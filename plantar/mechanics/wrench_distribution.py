@@ -30,6 +30,7 @@ from plantar.errors import InputError
 from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_of_wrench
+from plantar.record import Record
 
 __all__ = ["DistributionState", "DistributionWeights", "Program", "WrenchDistribution", "WrenchShare"]
 
@@ -77,8 +78,7 @@ class DistributionWeights:
                 raise InputError(f"distribution weight '{item.name}' is {value}; allowed: a finite number above 0")
 
 
-@dataclass(frozen=True)
-class WrenchShare:
+class WrenchShare(Record, frozen=True):
     """What each contact shall take.
 
     Attributes:

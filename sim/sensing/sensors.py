@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -118,7 +117,7 @@ class SensorSuite:
         read = self._read_now()
         if self._line is None:
             return read
-        return replace(self._line.passed(read.time, read), time=read.time)
+        return self._line.passed(read.time, read).changed(time=read.time)
 
     def _read_now(self) -> Sensors:
         """What encoders and IMU read at this instant, with the soles' latest readings."""

@@ -101,7 +101,7 @@ class FaultySensors:
         if f.single:
             for name in ("joint_positions", "gyro", "accelerometer"):
                 changed[name] = changed.get(name, getattr(sensors, name)).astype(np.float32).astype(np.float64)
-        return replace(sensors, **changed)
+        return sensors.changed(**changed)
 
     def _sole(self, side: Side, reading: Reading) -> Reading:
         """What arrives of one sole's reading."""

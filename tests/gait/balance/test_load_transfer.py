@@ -44,7 +44,7 @@ def test_the_feet_together_carry_the_pendulum_at_the_desired_zmp(stance: Side | 
             assert action.force[2] >= 0.0
             if stance is not None:
                 assert (action.force[2] > 0.0) == (side == stance)
-            assert action[2:] == (0.0, 0.0, 0.0)
+            assert (action.roll, action.pitch, action.shift) == (0.0, 0.0, 0.0)
 
 
 def test_open_loop_is_the_plan_whatever_is_measured() -> None:

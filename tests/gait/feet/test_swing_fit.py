@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from msgspec.structs import astuple
 
 from gait.feet.swing_fit import SwingFit, SwingFitRules
 from plantar.errors import InputError
@@ -92,7 +93,7 @@ def test_each_tick_is_the_best_polynomial_through_both_ends(rules: SwingFitRules
                 low, high = sorted((previous, end[axis]))
                 kept = previous if axis == 2 else np.clip(wanted[0], low, high)
                 assert found.position[axis] == pytest.approx(kept, abs=1e-12)
-        before, seen_before = found, seen
+        before, seen_before = astuple(found), seen
 
 
 def path(goal_at, duration_at, rules=None) -> np.ndarray:
@@ -138,7 +139,7 @@ def test_any_duration_is_well_conditioned(lasts: float) -> None:
     fit = SwingFit(SwingFitRules(), [0.0, 0.0, 0.0], PERIOD)
     for share in (PERIOD / lasts, 0.5, 1.0 - 1e-9):
         found = fit.aim([0.3, 0.1, 0.0], share * lasts, lasts, [0.0, 0.0, 0.0])
-        assert np.isfinite(np.concatenate(found)).all()
+        assert np.isfinite(np.concatenate(astuple(found))).all()
         assert -1e-9 <= found.position[0] <= 0.3
     assert fit.aim([0.3, 0.1, 0.0], lasts, lasts).position.tolist() == [0.3, 0.1, 0.0]
     assert fit.aim([0.3, 0.1, 0.0], lasts, 0.0).velocity.tolist() == [0.0, 0.0, 0.0]

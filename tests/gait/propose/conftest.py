@@ -35,7 +35,7 @@ def _tick_at(plan: WalkPlan, time: float, **known: Any) -> Tick:
     commanded = {side: (feet[side].position, feet[side].yaw) for side in SIDES}
     in_world = CommandFrame(np.zeros(3), 0.005, 0.3)
     tick = Tick(time, phase, view, FeetView(commanded, phase.swing, landed=phase.swing is None), in_world)
-    return tick._replace(**known)
+    return tick.changed(**known)
 
 
 @pytest.fixture

@@ -57,13 +57,13 @@ def test_what_the_vrp_can_do_is_left_to_it(pushed: Any) -> None:
 
 def test_single_supports_and_the_last_moment_are_not_its_business(pushed: Any) -> None:
     plan, tick = pushed((0.05, 0.0))
-    assert proposed(tick._replace(phase=plan.schedule.at(4.0))) is None
-    assert proposed(tick._replace(time=tick.phase.end - 0.5 * RULES.least_left)) is None
-    assert proposed(tick._replace(pendulum=None)) is None
+    assert proposed(tick.changed(phase=plan.schedule.at(4.0))) is None
+    assert proposed(tick.changed(time=tick.phase.end - 0.5 * RULES.least_left)) is None
+    assert proposed(tick.changed(pendulum=None)) is None
 
 
 def test_it_rests_between_two_changes(pushed: Any) -> None:
     _, tick = pushed((0.06, 0.0))
     timing = DoubleSupportTiming(RULES, WEIGHTS, 1.0, PERIOD)
     assert timing.propose(tick) is not None
-    assert timing.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
+    assert timing.propose(tick.changed(time=NOW + 0.5 * RULES.pause)) is None

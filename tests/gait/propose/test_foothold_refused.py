@@ -41,7 +41,7 @@ def ticks(
         pressed = guard.press or 0.0
         feet = FeetView(tick.feet.footholds, side, landed, surprise=surprise, distance=np.where(carries, 0.0, 0.03))
         loads = {side: pressed, **{s: 800.0 for s in SIDES if s != side}}
-        yield tick._replace(feet=feet, readings=readings, loads=loads)
+        yield tick.changed(feet=feet, readings=readings, loads=loads)
 
 
 def walked(guard: StepGuard, plan: WalkPlan, carries: np.ndarray, tick_at: Callable[..., Tick]) -> list[PlanChange]:
@@ -66,7 +66,7 @@ def test_expected_ground_is_stepped_on_without_a_word(
 ) -> None:
     guard, plan = guarding(), plan_of()
     for tick in ticks(plan, 2, 0.8, np.ones(len(LAYOUT), dtype=bool), guard, tick_at):
-        level = tick._replace(feet=tick.feet._replace(surprise=0.002))
+        level = tick.changed(feet=tick.feet.changed(surprise=0.002))
         assert guard.propose(level) is None
     assert guard.press is None
     assert guard.checked == []

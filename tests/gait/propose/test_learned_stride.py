@@ -31,7 +31,7 @@ def walk(
             moved = PlanChange("pushed", step, foothold=replace(there, x=there.x + by), shift=(by, 0.0))
             plan.apply(moved, phase.start + 0.3, NOWHERE)
         tick = tick_at(plan, phase.end - early)
-        tick = tick._replace(feet=tick.feet._replace(landed=early > 0.0, touchdown=True))
+        tick = tick.changed(feet=tick.feet.changed(landed=early > 0.0, touchdown=True))
         change = learns.propose(tick)
         if change is not None:
             plan.apply(change, phase.end - early, NOWHERE)
@@ -39,7 +39,7 @@ def walk(
 
 
 def _in_flight(tick: Tick) -> Tick:
-    return tick._replace(feet=tick.feet._replace(landed=False))
+    return tick.changed(feet=tick.feet.changed(landed=False))
 
 
 def strides(plan: WalkPlan) -> list[float]:

@@ -44,7 +44,7 @@ def pushed(plan_of: Callable[..., WalkPlan], tick_at: Callable[..., Tick]) -> Ca
             swing: (np.array([step.x - 0.05, step.y, 0.03]), step.yaw),
             other_side(swing): (stance.position, stance.yaw),
         }
-        return plan, tick._replace(feet=tick.feet._replace(footholds=feet, side=swing, landed=False))
+        return plan, tick.changed(feet=tick.feet.changed(footholds=feet, side=swing, landed=False))
 
     return made
 
@@ -164,8 +164,8 @@ def test_a_foot_in_flight_gets_farther_its_way(pushed: Any) -> None:
     swing = tick.phase.swing
     position, yaw = tick.feet.footholds[swing]
     back = dict(tick.feet.footholds) | {swing: (position - np.array([0.005, 0.0, 0.0]), yaw)}  # 1 m/s
-    calm = tick.pendulum._replace(dcm=tick.pendulum.reference.dcm)
-    earlier = tick._replace(time=NOW - PERIOD, feet=tick.feet._replace(footholds=back), pendulum=calm)
+    calm = tick.pendulum.changed(dcm=tick.pendulum.reference.dcm)
+    earlier = tick.changed(time=NOW - PERIOD, feet=tick.feet.changed(footholds=back), pendulum=calm)
     assert moving.propose(earlier) is None
     first, second = still.propose(tick), moving.propose(tick)
     assert first is not None
@@ -179,11 +179,11 @@ def test_a_foot_that_lands_early_ends_the_single_support(pushed: Any) -> None:
     change = steps.propose(tick)
     assert change is not None
     plan.apply(change, NOW, tick.pendulum.zmp_region)
-    down = tick._replace(time=NOW + 0.05, plan=plan.view, phase=plan.schedule.at(NOW + 0.05))
+    down = tick.changed(time=NOW + 0.05, plan=plan.view, phase=plan.schedule.at(NOW + 0.05))
     place = plan.view.foothold(tick.phase.step)
     standing = {s: (np.array([f[0][0], f[0][1], 0.0]), f[1]) for s, f in tick.feet.footholds.items()}
     standing[tick.phase.swing] = (np.array([place.x - 0.05, place.y, 0.0]), 0.1)
-    down = down._replace(feet=tick.feet._replace(footholds=standing, landed=True))
+    down = down.changed(feet=tick.feet.changed(footholds=standing, landed=True))
     landed = steps.propose(down)
     assert landed is not None
     assert landed.reason == "landed beside its place"
@@ -197,16 +197,16 @@ def test_a_step_that_nobody_adjusted_keeps_its_time(pushed: Any) -> None:
     _, tick = pushed((0.0, 0.0), NOW + 0.3)
     place = tick.plan.foothold(tick.phase.step)
     standing = dict(tick.feet.footholds) | {tick.phase.swing: (np.array([place.x, place.y, 0.0]), place.yaw)}
-    assert proposed(tick._replace(feet=tick.feet._replace(footholds=standing, landed=True))) is None
+    assert proposed(tick.changed(feet=tick.feet.changed(footholds=standing, landed=True))) is None
 
 
 def test_it_rests_between_two_changes_and_needs_feedback(pushed: Any) -> None:
     _, tick = pushed((0.1, 0.0))
     steps = adjustment()
-    assert steps.propose(tick._replace(pendulum=None)) is None
+    assert steps.propose(tick.changed(pendulum=None)) is None
     assert steps.propose(tick) is not None
-    assert steps.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
-    assert steps.propose(tick._replace(time=NOW + 1.01 * RULES.pause)) is not None
+    assert steps.propose(tick.changed(time=NOW + 0.5 * RULES.pause)) is None
+    assert steps.propose(tick.changed(time=NOW + 1.01 * RULES.pause)) is not None
 
 
 def test_steps_are_planned_with_a_part_of_the_support_and_with_confidence_all_of_it(pushed: Any) -> None:
@@ -245,12 +245,12 @@ def test_it_goes_along_once_and_farther_only_with_a_push_that_grows(pushed: Any)
     assert change.reason == "goes along with a push"
     assert change.shift == pytest.approx((0.03, 0.0), abs=1e-9)
     plan.apply(change, NOW, tick.pendulum.zmp_region)
-    pendulum = tick.pendulum._replace(reference=plan.at(NOW), goal=plan.dcm_after(tick.phase), dcm=plan.at(NOW).dcm)
-    again = tick._replace(time=NOW + 0.1, plan=plan.view, pendulum=pendulum)
+    pendulum = tick.pendulum.changed(reference=plan.at(NOW), goal=plan.dcm_after(tick.phase), dcm=plan.at(NOW).dcm)
+    again = tick.changed(time=NOW + 0.1, plan=plan.view, pendulum=pendulum)
     assert steps.propose(again) is None
-    fading = again._replace(pendulum=pendulum._replace(pushed=np.array([0.01, 0.0])))
+    fading = again.changed(pendulum=pendulum.changed(pushed=np.array([0.01, 0.0])))
     assert steps.propose(fading) is None
-    more = again._replace(pendulum=pendulum._replace(pushed=np.array([0.1, 0.0])))
+    more = again.changed(pendulum=pendulum.changed(pushed=np.array([0.1, 0.0])))
     change = steps.propose(more)
     assert change is not None
     assert change.shift == pytest.approx((0.02, 0.0), abs=1e-9)

@@ -87,17 +87,17 @@ def test_only_single_supports_have_a_time_of_their_own(timed: Any) -> None:
     behind = late_by(0.1)
     assert proposed(timed(3.2, lambda plan: plan.at(3.1).dcm)[1]) is None  # double support
     _, tick = timed(NOW, behind)
-    assert proposed(tick._replace(pendulum=None)) is None  # without feedback
+    assert proposed(tick.changed(pendulum=None)) is None  # without feedback
     waits = tick.phase.__class__(**{**vars(tick.phase), "wait": 0.2})
-    assert proposed(tick._replace(phase=waits)) is None  # somebody else has the time in hand
+    assert proposed(tick.changed(phase=waits)) is None  # somebody else has the time in hand
 
 
 def test_it_rests_between_two_changes(timed: Any) -> None:
     _, tick = timed(NOW, late_by(0.08))
     timing = StepTiming(RULES, PERIOD)
     assert timing.propose(tick) is not None
-    assert timing.propose(tick._replace(time=NOW + 0.5 * RULES.pause)) is None
-    assert timing.propose(tick._replace(time=NOW + RULES.pause)) is not None
+    assert timing.propose(tick.changed(time=NOW + 0.5 * RULES.pause)) is None
+    assert timing.propose(tick.changed(time=NOW + RULES.pause)) is not None
 
 
 @pytest.mark.parametrize("seed", range(100))

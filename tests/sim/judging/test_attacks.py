@@ -102,7 +102,7 @@ class _Other(WalkingController):
     def step(self, sensors: Sensors) -> Command:
         command, said = super().step(sensors), self.says
         self.says = ()
-        return replace(command, moved_steps=said)
+        return command.changed(moved_steps=said)
 
 
 def walked_otherwise(steps: int, length: float, says: tuple[MovedStep, ...] = ()) -> dict[str, Any]:

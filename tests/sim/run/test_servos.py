@@ -32,13 +32,12 @@ def test_a_held_posture_carries_its_feed_forward_torque(standing: Simulation) ->
 
 def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Simulation) -> None:
     """A reference that moves at constant speed gives set-points on a straight line, not stairs."""
-    from dataclasses import replace
 
     world, servos = standing.world, standing.servos
     command = standing.controller.step(_sensors(standing))
     setpoints = []
     for k in range(12):
-        servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -2e-5 * k])))
+        servos.command(command.changed(com=command.com + np.array([0.0, 0.0, -2e-5 * k])))
         for _ in range(5):
             servos.drive()
             setpoints.append(world.data.ctrl[world.servos].copy())
@@ -49,7 +48,6 @@ def test_setpoints_move_on_between_ticks_without_a_step_at_the_next(standing: Si
 
 def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulation) -> None:
     """Both knees bend at a constant speed; those that rub are asked for their friction more, the way they go."""
-    from dataclasses import replace
 
     world = standing.world
     knees = [3, 9]
@@ -60,7 +58,7 @@ def test_setpoints_lead_by_the_friction_of_a_joint_that_moves(standing: Simulati
         servos = LegServos(world, standing.legs, 0.005)
         stand = standing.legs.configuration
         for k in range(12):
-            joints = servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -1e-3 * k])))
+            joints = servos.command(command.changed(com=command.com + np.array([0.0, 0.0, -1e-3 * k])))
         standing.legs.set_configuration(stand[:3], stand[3:7], stand[7:])
         asked.append(world.stiffness * (np.asarray(servos._setpoints.setpoint) - joints))
     more = asked[1] - asked[0]
@@ -79,13 +77,13 @@ def test_no_tick_moves_a_joint_by_more_than_a_tenth_of_a_radian(standing: Simula
     last = servos.command(command).copy()
     for _ in range(40):
         feet = {
-            side: foot._replace(
+            side: foot.changed(
                 position=foot.position + rng.uniform(-0.6, 0.6, 3),
                 rotation=rotation_from_vector(rng.uniform(-1.0, 1.0, 3)),
             )
             for side, foot in command.feet.items()
         }
-        joints = servos.command(replace(command, com=command.com + rng.uniform(-0.5, 0.5, 3), feet=feet)).copy()
+        joints = servos.command(command.changed(com=command.com + rng.uniform(-0.5, 0.5, 3), feet=feet)).copy()
         assert np.abs(joints - last).max() <= 0.1 + 1e-12
         last = joints
 
@@ -97,12 +95,11 @@ def _sensors(simulation: Simulation):  # type: ignore[no-untyped-def]
 
 def test_setpoints_keep_the_joints_speed_limits_and_the_pose_between_them(standing: Simulation) -> None:
     """A target that jumps: all joints go the same way as fast as the one that is at its limit allows, and arrive."""
-    from dataclasses import replace
 
     servos, robot = standing.servos, standing.robot
     command = standing.controller.step(_sensors(standing))
     start = servos.command(command)
-    lower = replace(command, com=command.com + np.array([0.0, 0.0, -0.03]))
+    lower = command.changed(com=command.com + np.array([0.0, 0.0, -0.03]))
     limits = np.array([*robot.velocity_limits] * 2)
     before, end = (
         start,
@@ -136,7 +133,7 @@ def test_a_robot_without_speed_limits_is_not_held_back(standing: Simulation) -> 
     servos = LegServos(world, standing.legs, 0.005)
     command = standing.controller.step(_sensors(standing))
     start = servos.command(command)
-    jumped = servos.command(replace(command, com=command.com + np.array([0.0, 0.0, -0.03])))
+    jumped = servos.command(command.changed(com=command.com + np.array([0.0, 0.0, -0.03])))
     assert np.abs((jumped - start) / 0.005).max() > 6.0
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -52,9 +51,9 @@ def test_every_scene_takes_what_makes_it_short():
 @pytest.mark.parametrize(
     ("spoil", "kind"),
     [
-        (lambda command: replace(command, com=command.com * math.nan), "not finite"),
-        (lambda command: replace(command, com=command.com + np.array([9.0, 0.0, 0.0])), "out of bounds"),
-        (lambda command: replace(command, rotation_torso=2.0 * command.rotation_torso), "out of bounds"),
+        (lambda command: command.changed(com=command.com * math.nan), "not finite"),
+        (lambda command: command.changed(com=command.com + np.array([9.0, 0.0, 0.0])), "out of bounds"),
+        (lambda command: command.changed(rotation_torso=2.0 * command.rotation_torso), "out of bounds"),
     ],
 )
 def test_a_command_that_may_not_be_is_seen(spoil: Any, kind: str, monkeypatch: pytest.MonkeyPatch):
@@ -85,7 +84,7 @@ def test_faults_do_what_they_say():
     def passed(**faults: Any) -> Sensors:
         sensors = FaultySensors(Faults(**faults), {"left": 100.0, "right": 200.0}, 0)
         sensors.passed(told)
-        return sensors.passed(replace(told, time=0.005, readings={s: Reading(0.004, 2.0 * force) for s in readings}))
+        return sensors.passed(told.changed(time=0.005, readings={s: Reading(0.004, 2.0 * force) for s in readings}))
 
     assert (passed().readings["left"].force == 2.0 * force).all()
     assert (passed(dropped=1.0).readings["left"].force == force).all()
