@@ -14,7 +14,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 KERNEL_FOLDER = Path("plantar/kernels")
-KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*.pxd") if p.stem != "__init__")
+KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*.pxd") if p.with_suffix(".py").exists())
 BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 # What a builder asks for in CFLAGS comes last and counts.
@@ -26,12 +26,20 @@ DIRECTIVES = {"boundscheck": False, "wraparound": False, "cdivision": True, "ini
 def extensions() -> list[Extension]:
     """The extension modules, none without Cython."""
     try:
+        import numpy
         from Cython.Build import cythonize
-    except ImportError:
-        print("plantar: Cython is not there; the kernels are installed as plain Python, which is slower")
+    except ImportError as problem:
+        print(f"plantar: {problem}; the kernels are installed as plain Python, which is slower")
         return []
     modules = [
-        Extension(f"plantar.kernels.{p.stem}", [str(p.with_suffix(".py"))], extra_compile_args=FLAGS, optional=True)
+        Extension(
+            f"plantar.kernels.{p.stem}",
+            [str(p.with_suffix(".py"))],
+            include_dirs=[numpy.get_include()],  # an array's memory, `pointers.pxd`
+            define_macros=[("NPY_NO_DEPRECATED_API", "NPY_1_7_API_VERSION")],
+            extra_compile_args=FLAGS,
+            optional=True,
+        )
         for p in KERNELS
     ]
     for kernel in KERNELS:
@@ -55,7 +63,7 @@ def types_of(kernel: Path) -> set[Path]:
         pxd = left.pop()
         found.add(pxd)
         for module, names in re.findall(r"^from \.(\w*) cimport (.+)$", pxd.read_text(encoding="utf-8"), re.MULTILINE):
-            used = [module] if module else re.findall(r"\w+", names)
+            used = [module] if module else [name.split()[0] for name in names.split(",")]
             left |= {pxd.with_name(f"{name}.pxd") for name in used} - found
     return found
 

@@ -1,0 +1,15 @@
+# C types of vectors.py. Without a compiler this file is not read.
+cimport cython
+
+from . cimport pointers as memory
+
+@cython.locals(out=cython.p_double)
+cpdef object vector2(double x, double y)
+
+@cython.locals(out=cython.p_double)
+cpdef object vector(double x, double y, double z)
+
+@cython.locals(out=cython.p_double)
+cpdef object matrix(
+    double xx, double xy, double xz, double yx, double yy, double yz, double zx, double zy, double zz
+)

@@ -1,0 +1,36 @@
+"""New small arrays of numbers, in a quarter of the time that `np.array` takes: some hundred are made in a control tick.
+
+Plain Python that also compiles ahead of time (`vectors.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+from . import memory
+
+__all__ = ["matrix", "vector", "vector2"]
+
+
+def vector2(x, y):
+    """A new array (2,) of two numbers."""
+    made = memory.new_vector(2)
+    out = memory.room(made)
+    out[0], out[1] = x, y
+    return made
+
+
+def vector(x, y, z):
+    """A new array (3,) of three numbers."""
+    made = memory.new_vector(3)
+    out = memory.room(made)
+    out[0], out[1], out[2] = x, y, z
+    return made
+
+
+def matrix(xx, xy, xz, yx, yy, yz, zx, zy, zz):
+    """A new array (3, 3) of nine numbers, row by row."""
+    made = memory.new_matrix(3, 3)
+    out = memory.room(made)
+    out[0], out[1], out[2] = xx, xy, xz
+    out[3], out[4], out[5] = yx, yy, yz
+    out[6], out[7], out[8] = zx, zy, zz
+    return made
