@@ -59,6 +59,7 @@ from gait.propose.step_adjustment import StepAdjustment
 from gait.propose.step_timing import StepTiming
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.kernels.vectors import matrix, vector
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
@@ -456,7 +457,7 @@ class WalkingController:
         x, y = self._frame.to_command(soles[side][:2]).tolist()
         # A pelvis that sinks puts the foot down before its path does: it stands lower than it is commanded.
         z = feet.footholds[other][0].item(2) + (soles[side] - soles[other]).item(2)
-        place, commanded = np.array([x, y, z]), feet.footholds[side][0]
+        place, commanded = vector(x, y, z), feet.footholds[side][0]
         away = math.dist(place, commanded)
         if away > rules.misplaced:
             # Of a body that falls, or by encoders that err by degrees, a foot may seem to be anywhere.
@@ -561,7 +562,8 @@ class WalkingController:
     def _body(self, phase: Phase, com: NDArray[np.float64]) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
         """CoM (3,) in m, heading in rad and rotation (3, 3) of the torso in the command frame."""
         left, right = self.motion.footholds["left"][1], self.motion.footholds["right"][1]
-        target = np.array([*self._frame.to_command(com).tolist(), self._com_height(phase)])
+        x, y = self._frame.to_command(com).tolist()
+        target = vector(x, y, self._com_height(phase))
         torso = left + 0.5 * math.remainder(right - left, 2.0 * math.pi)
         return target, torso, self._posture(target, torso)
 
@@ -612,7 +614,7 @@ class WalkingController:
         back = level_rotation(torso - heading(state.rotation_base_to_world))
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
         c, s = math.cos(self._frame.turn), math.sin(self._frame.turn)
-        aligned = np.array((cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z))
+        aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
         shift, turn = self._compensation.update(
             phase.swing == side,
             foot.position,
@@ -644,7 +646,7 @@ class WalkingController:
         )
         roll = -lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
-        return np.array([[c, -d * e, d * f], [d, c * e, -c * f], [0.0, f, e]])
+        return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)
 
     def _align(self, state: BaseState) -> None:
         """Let the command frame follow where the carrying foot really stands."""

@@ -12,6 +12,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.vectors import vector, vector2
+
 __all__ = ["CommandFrame"]
 
 
@@ -75,7 +77,7 @@ class CommandFrame:
         dx, dy = px - x - ox, py - y - oy
         # Heights are not turned: the frame turns about the vertical axis alone.
         c, s = math.cos(self.turn), math.sin(self.turn)
-        return np.array([x + c * dx + s * dy, y - s * dx + c * dy])
+        return vector2(x + c * dx + s * dy, y - s * dx + c * dy)
 
     def to_world(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
         """A point of the command frame in the world.
@@ -89,4 +91,4 @@ class CommandFrame:
         (px, py, pz), (x, y, z), (ox, oy, oz) = point.tolist(), self._anchor, self._offset
         dx, dy = px - x, py - y
         c, s = math.cos(self.turn), math.sin(self.turn)
-        return np.array([x + ox + (c * dx - s * dy), y + oy + (s * dx + c * dy), z + oz + (pz - z)])
+        return vector(x + ox + (c * dx - s * dy), y + oy + (s * dx + c * dy), z + oz + (pz - z))

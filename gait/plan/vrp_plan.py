@@ -222,6 +222,5 @@ class VrpPlan:
         time = max(time, self.times[0])
         i = bisect_right(self.times, time) - 1
         since, until = time - self.times[i], self.times[i + 1] - time
-        out = np.empty((6, 2))
-        on_segment(omega, since, until, self.vrps[i], self._rate[i], self._end_offset[i], self._offset_of_com(i), out)
-        return LipReference(*out)
+        ends, rates, offset = self._end_offset, self._rate, self._offset_of_com(i)
+        return LipReference(*on_segment(omega, since, until, i, self.vrps, rates, ends, offset))

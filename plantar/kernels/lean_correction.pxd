@@ -1,15 +1,19 @@
 # C types of lean_correction.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rotations
+from . cimport pointers as memory
 
 @cython.locals(
-    dx=double, dy=double, dz=double, xx=double, xy=double, xz=double, yx=double, yy=double, yz=double,
-    zx=double, zy=double, zz=double, sx=double, sy=double, sz=double, tx=double, ty=double, tz=double, size=double,
-    scale=double
+    p=cython.p_double, q=cython.p_double, c=cython.p_double, e=cython.p_double, k=cython.p_double, by=cython.p_double,
+    turned=cython.p_double, dx=double, dy=double, dz=double, xx=double, xy=double, xz=double, yx=double, yy=double,
+    yz=double, zx=double, zy=double, zz=double, sx=double, sy=double, sz=double, tx=double, ty=double, tz=double,
+    size=double, scale=double
 )
-cpdef void correct(
-    const double[:] position, const double[:] place, const double[:] com_command, const double[:] com_estimated,
-    const double[:, :] command, const double[:, :] estimated, const double[:] kept, double largest_shift,
-    double largest_turn, double weight, double share, double[::1] shift, double[::1] turn
+cpdef correct(
+    position, place, com_command, com_estimated, command, estimated, kept, double largest_shift, double largest_turn,
+    double weight, double share, shift, turn
+)
+
+cdef (double, double, double, double, double, double, double, double, double) _between(
+    const double* a, const double* b
 ) noexcept

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from . import rotations
+from . import memory
 
 __all__ = ["correct"]
 
@@ -34,21 +34,38 @@ def correct(
         shift: Correction of the position (3,) in m, moved on by one tick.
         turn: Correction of the orientation (3,) in rad, moved on by one tick.
     """
-    dx, dy, dz = place[0] - com_estimated[0], place[1] - com_estimated[1], place[2] - com_estimated[2]
+    p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
+    k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)
+    dx, dy, dz = q[0] - e[0], q[1] - e[1], q[2] - e[2]
     # R_command R_estimated^T; only its antisymmetric part is a turn.
-    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations.between(command, estimated)
-    sx = com_command[0] + (xx * dx + xy * dy + xz * dz) - position[0]
-    sy = com_command[1] + (yx * dx + yy * dy + yz * dz) - position[1]
-    sz = com_command[2] + (zx * dx + zy * dy + zz * dz) - position[2]
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _between(memory.values(command), memory.values(estimated))
+    sx = c[0] + (xx * dx + xy * dy + xz * dz) - p[0]
+    sy = c[1] + (yx * dx + yy * dy + yz * dz) - p[1]
+    sz = c[2] + (zx * dx + zy * dy + zz * dz) - p[2]
     # The sine instead of the angle: the leans are small, and it has no singularity to guard.
     tx, ty, tz = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
     size = math.sqrt(sx * sx + sy * sy + sz * sz)
     scale = 1.0 if size <= largest_shift else largest_shift / size
-    shift[0] += share * (weight * (scale * sx + kept[0]) - shift[0])
-    shift[1] += share * (weight * (scale * sy + kept[1]) - shift[1])
-    shift[2] += share * (weight * (scale * sz + kept[2]) - shift[2])
+    by[0] += share * (weight * (scale * sx + k[0]) - by[0])
+    by[1] += share * (weight * (scale * sy + k[1]) - by[1])
+    by[2] += share * (weight * (scale * sz + k[2]) - by[2])
     size = math.sqrt(tx * tx + ty * ty + tz * tz)
     scale = 1.0 if size <= largest_turn else largest_turn / size
-    turn[0] += share * (weight * scale * tx - turn[0])
-    turn[1] += share * (weight * scale * ty - turn[1])
-    turn[2] += share * (weight * scale * tz - turn[2])
+    turned[0] += share * (weight * scale * tx - turned[0])
+    turned[1] += share * (weight * scale * ty - turned[1])
+    turned[2] += share * (weight * scale * tz - turned[2])
+
+
+def _between(a, b):
+    """Product of a matrix and another's transpose, A B^T, as of `rotations.between`, of their values row by row."""
+    return (
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
+        a[0] * b[3] + a[1] * b[4] + a[2] * b[5],
+        a[0] * b[6] + a[1] * b[7] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[1] + a[5] * b[2],
+        a[3] * b[3] + a[4] * b[4] + a[5] * b[5],
+        a[3] * b[6] + a[4] * b[7] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[1] + a[8] * b[2],
+        a[6] * b[3] + a[7] * b[4] + a[8] * b[5],
+        a[6] * b[6] + a[7] * b[7] + a[8] * b[8],
+    )

@@ -1,9 +1,13 @@
 # C types of pendulum.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport pointers as memory
+from . cimport vectors
 
-@cython.locals(axis=Py_ssize_t, grown=double, shrunk=double, vrp=double, growing=double, shrinking=double)
-cpdef void on_segment(
-    double omega, double since, double until, const double[:] start, const double[:] rate, const double[:] growth,
-    const double[:] shrinkage, double[:, ::1] out
-) noexcept
+@cython.locals(
+    start=cython.p_double, rate=cython.p_double, growth=cython.p_double, offset=cython.p_double, i=Py_ssize_t,
+    j=Py_ssize_t, grown=double, shrunk=double, x=double, y=double, gx=double, gy=double, sx=double, sy=double
+)
+cpdef tuple on_segment(
+    double omega, double since, double until, Py_ssize_t segment, vrps, rates, growths, shrinkage
+)

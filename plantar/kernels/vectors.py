@@ -5,12 +5,15 @@ Plain Python that also compiles ahead of time (`vectors.pxd` gives the C types).
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import memory
 
 __all__ = ["matrix", "vector", "vector2"]
 
 
-def vector2(x, y):
+def vector2(x: float, y: float) -> NDArray[np.float64]:
     """A new array (2,) of two numbers."""
     made = memory.new_vector(2)
     out = memory.room(made)
@@ -18,7 +21,7 @@ def vector2(x, y):
     return made
 
 
-def vector(x, y, z):
+def vector(x: float, y: float, z: float) -> NDArray[np.float64]:
     """A new array (3,) of three numbers."""
     made = memory.new_vector(3)
     out = memory.room(made)
@@ -26,7 +29,9 @@ def vector(x, y, z):
     return made
 
 
-def matrix(xx, xy, xz, yx, yy, yz, zx, zy, zz):
+def matrix(
+    xx: float, xy: float, xz: float, yx: float, yy: float, yz: float, zx: float, zy: float, zz: float
+) -> NDArray[np.float64]:
     """A new array (3, 3) of nine numbers, row by row."""
     made = memory.new_matrix(3, 3)
     out = memory.room(made)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels import rotations
+from plantar.kernels.vectors import matrix, vector
 
 __all__ = [
     "heading",
@@ -62,7 +63,7 @@ def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
         [0.0, 0.0, 1.0]
     """
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation.tolist()
-    return np.array([0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)])
+    return vector(0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy))
 
 
 def vector_from_rotation(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -126,7 +127,7 @@ def heading(rotation: NDArray[np.float64]) -> float:
 def level_rotation(yaw: float) -> NDArray[np.float64]:
     """Rotation (3, 3) to the world from a level frame with a heading in rad."""
     c, s = math.cos(yaw), math.sin(yaw)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return matrix(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 
 
 def rotation_from_angles(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> NDArray[np.float64]:

@@ -113,8 +113,8 @@ def test_both_forms_of_the_kernel_agree_to_the_last_bit() -> None:
     rng = np.random.default_rng(0)
     source = kernels.python_form("pendulum")
     for _ in range(20):
-        given = (float(rng.uniform(1.0, 5.0)), *rng.uniform(0.0, 2.0, 2).tolist(), *rng.normal(size=(4, 2)))
-        compiled, interpreted = np.empty((6, 2)), np.empty((6, 2))
-        pendulum.on_segment(*given, compiled)
-        source.on_segment(*given, interpreted)
+        times, segment = rng.uniform(0.0, 2.0, 2).tolist(), int(rng.integers(5))
+        given = (float(rng.uniform(1.0, 5.0)), *times, segment, *rng.normal(size=(3, 5, 2)), rng.normal(size=2))
+        compiled, interpreted = pendulum.on_segment(*given), source.on_segment(*given)
+        assert len(compiled) == len(interpreted) == 6
         assert np.array_equal(compiled, interpreted)

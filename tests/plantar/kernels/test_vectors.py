@@ -30,7 +30,14 @@ def test_new_arrays_hold_the_numbers_and_nothing_else(form):
 
 @pytest.mark.parametrize(
     "wrong",
-    [np.zeros(3, dtype=np.float32), np.zeros(3, dtype=int), np.zeros(6)[::2], np.eye(3).T[:, ::2], [0.0, 0.0, 0.0], None],
+    [
+        np.zeros(3, dtype=np.float32),
+        np.zeros(3, dtype=int),
+        np.zeros(6)[::2],
+        np.eye(3).T[:, ::2],
+        [0.0, 0.0, 0.0],
+        None,
+    ],
     ids=["float32", "int", "every other", "columns", "a list", "nothing"],
 )
 def test_an_array_of_another_kind_is_refused_and_not_misread(wrong):
@@ -44,6 +51,6 @@ def test_what_may_not_be_written_is_not_written():
     kept = np.zeros((3, 3))
     kept.flags.writeable = False
     for module in (rotations, python_form("rotations")):
-        with pytest.raises(ValueError, match="writ|read-only"):
+        with pytest.raises(ValueError, match=r"writ|read-only"):
             module.exponential(0.1, 0.2, 0.3, kept)
     assert not kept.any()
