@@ -59,7 +59,7 @@ from gait.propose.step_adjustment import StepAdjustment
 from gait.propose.step_timing import StepTiming
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
-from plantar.kernels.vectors import matrix, vector
+from plantar.kernels.vectors import matrix, vector, vector2
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
@@ -323,7 +323,8 @@ class WalkingController:
         if feedback:
             self._align(state)
         feet, inward = self._swing(sensed, state)
-        xi = state.com[:2] + state.com_velocity[:2] / self.omega  # T 4.27, of an omega that is known to be sound
+        (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
+        xi = vector2(x + vx / self.omega, y + vy / self.omega)  # T 4.27, of an omega that is known to be sound
         tick = self._perceive(sensed, state, feet, inward, feedback)
         region = self._zmp_region(tick.phase, feet)
         if feedback and (self.settings.step_timing is not None or self.settings.step_adjustment is not None):

@@ -19,6 +19,7 @@ from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, PhaseKind
 from plantar.arrays import read_only
+from plantar.kernels.vectors import vector, vector2
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
@@ -157,7 +158,8 @@ class FootMotion:
         """How far (2,) in m the swing foot still has to go horizontally, command frame; zero before the first step."""
         if self._swing is None:
             return np.zeros(2)
-        return np.asarray(self._swing.end[:2] - self.footholds[self._side][0][:2])
+        (x, y, _), (here_x, here_y, _) = self._swing.end.tolist(), self.footholds[self._side][0].tolist()
+        return vector2(x - here_x, y - here_y)
 
     @property
     def view(self) -> FeetView:
@@ -420,7 +422,7 @@ class FootMotion:
                 self.surprise = float(sense.position[2] - frame.offset[2]) - view.middle - self._expected
             if view is not None and remaining < _CLOSE_BY * self._leg:
                 self._turn(compliance, side, view)
-            self.footholds[side] = (np.array([planned[0], planned[1], position[2] - drop]), heading)
+            self.footholds[side] = (vector(planned[0], planned[1], position[2] - drop), heading)
             return
         touched_at, height = self._touch
         hold = compliance.holding(time - touched_at) if press is None else press
@@ -431,7 +433,7 @@ class FootMotion:
             share = min(1.0, 2.0 * (time - phase.start) / (phase.end - phase.start))
             target = hold + share * (self._landing.press_force - hold)
             drop = max(0.0, compliance.yielding(load, target, above, period))
-        self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
+        self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)
 
     def _may_touch(self, compliance: SwingCompliance, view: GroundView | None, load: float) -> bool:
         """Whether a load can be a touch: the farther the ground that it sees, the likelier a foot feels noise."""
@@ -465,4 +467,4 @@ class FootMotion:
             drop = self._lowering * self._period
             self._lowered += drop
             position, yaw = self.footholds[side]
-            self.footholds[side] = (position - np.array([0.0, 0.0, drop]), yaw)
+            self.footholds[side] = (position - vector(0.0, 0.0, drop), yaw)

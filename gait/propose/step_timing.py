@@ -70,7 +70,7 @@ class StepTiming:
         if left < 2.0 * self._period or not len(pendulum.zmp_region):
             return None
         # An error grows at most as without any feedback.
-        off = math.dist(pendulum.dcm, pendulum.reference.dcm)
+        off = math.dist(pendulum.dcm.tolist(), pendulum.reference.dcm.tolist())
         if off * math.exp(pendulum.omega * left) < rules.least_error:
             return None
         error = _missed(pendulum, left)

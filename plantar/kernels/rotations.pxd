@@ -1,6 +1,7 @@
 # C types of rotations.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport vectors
 
 cdef double _SMALL
 
@@ -21,9 +22,21 @@ cpdef (double, double, double, double, double, double, double, double, double) b
 ) noexcept
 
 @cython.locals(
-    angle=double, s=double, c=double, xx=double, yy=double, zz=double, xy=double, xz=double, yz=double
+    xx=double, xy=double, xz=double, yx=double, yy=double, yz=double, zx=double, zy=double, zz=double
 )
 cpdef void exponential(double x, double y, double z, double[:, ::1] out) noexcept
+
+@cython.locals(
+    xx=double, xy=double, xz=double, yx=double, yy=double, yz=double, zx=double, zy=double, zz=double
+)
+cpdef object rotation_of(double x, double y, double z)
+
+@cython.locals(
+    angle=double, s=double, c=double, xx=double, yy=double, zz=double, xy=double, xz=double, yz=double
+)
+cdef (double, double, double, double, double, double, double, double, double) _exponential(
+    double x, double y, double z
+) noexcept
 
 @cython.locals(i=Py_ssize_t, j=Py_ssize_t, total=double)
 cpdef void orthonormalise(const double[:, ::1] rotation, double[:, ::1] work, double[:, ::1] out) noexcept

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+from . import vectors
+
 __all__ = [
     "between",
     "exponential",
@@ -16,6 +18,7 @@ __all__ = [
     "missing_turn",
     "multiply",
     "orthonormalise",
+    "rotation_of",
     "turn",
     "turn_back",
 ]
@@ -89,6 +92,20 @@ def exponential(x, y, z, out):
         z: The same.
         out: Receives the rotation (3, 3).
     """
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
+    out[0, 0], out[0, 1], out[0, 2] = xx, xy, xz
+    out[1, 0], out[1, 1], out[1, 2] = yx, yy, yz
+    out[2, 0], out[2, 1], out[2, 2] = zx, zy, zz
+
+
+def rotation_of(x, y, z):
+    """The same as a new array (3, 3)."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
+    return vectors.matrix(xx, xy, xz, yx, yy, yz, zx, zy, zz)
+
+
+def _exponential(x, y, z):
+    """The nine numbers of `exponential`, row by row."""
     angle = math.sqrt(x * x + y * y + z * z)
     if angle < _SMALL:
         s, c = 1.0, 0.5
@@ -96,9 +113,7 @@ def exponential(x, y, z, out):
         s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
     xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
     x, y, z = s * x, s * y, s * z
-    out[0, 0], out[0, 1], out[0, 2] = 1.0 - yy - zz, xy - z, xz + y
-    out[1, 0], out[1, 1], out[1, 2] = xy + z, 1.0 - xx - zz, yz - x
-    out[2, 0], out[2, 1], out[2, 2] = xz - y, yz + x, 1.0 - xx - yy
+    return 1.0 - yy - zz, xy - z, xz + y, xy + z, 1.0 - xx - zz, yz - x, xz - y, yz + x, 1.0 - xx - yy
 
 
 def orthonormalise(rotation, work, out):

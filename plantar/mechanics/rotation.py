@@ -44,9 +44,8 @@ def rotation_from_vector(vector: NDArray[np.float64]) -> NDArray[np.float64]:
         [0.0, 1.0, 0.0]
     """
     x, y, z = vector.tolist()
-    out = np.empty((3, 3))
-    rotations.exponential(x, y, z, out)
-    return out
+    rotation: NDArray[np.float64] = rotations.rotation_of(x, y, z)
+    return rotation
 
 
 def sine_vector(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
