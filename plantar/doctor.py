@@ -23,6 +23,7 @@ LIBRARIES: dict[str, dict[str, str]] = {
         "rich": "rich",
         "mcap": "mcap",
         "matplotlib": "matplotlib",
+        "msgspec": "msgspec",
     },
     "shoes": {
         "cadquery": "cadquery",
