@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.arguments import LARGEST, does
 from plantar.arrays import not_finite, numbers
 from plantar.errors import InputError
-from plantar.kernels.limits import points_within
+from plantar.kernels.limits import are_plane_points, pair_of, points_within
 
 __all__ = ["plane_point", "plane_points"]
 
@@ -36,6 +38,8 @@ def plane_points(value: object, name: str = "polygon", *, finite: bool = True) -
         Traceback (most recent call last):
         plantar.errors.InputError: polygon has shape (1, 3); expected (k, 2)
     """
+    if are_plane_points(value, LARGEST):
+        return cast("NDArray[np.float64]", value)
     points = value if type(value) is np.ndarray and value.dtype is _FLOAT else numbers(value, name)
     if points.ndim != 2 or points.shape[1] != 2:
         if points.shape == (0,):
@@ -65,6 +69,9 @@ def plane_point(value: object, name: str = "point") -> tuple[float, float]:
     """
     if type(value) is tuple and len(value) == 2 and type(value[0]) is float and type(value[1]) is float:
         return value
+    pair: tuple[float, float] | None = pair_of(value)
+    if pair is not None:
+        return pair
     given = numbers(value, name)
     if given.shape != (2,):
         raise InputError(f"{does(name, 'have')} shape {given.shape}; expected (2,)")

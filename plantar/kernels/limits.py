@@ -2,7 +2,44 @@
 
 from __future__ import annotations
 
-__all__ = ["points_within", "values_within"]
+from . import memory
+
+__all__ = ["are_plane_points", "pair_of", "points_within", "values_within"]
+
+
+def are_plane_points(value, limit):
+    """Whether this is a contiguous array (k, 2) of float64 with no coordinate beyond a limit; NaN is.
+
+    Args:
+        value: Anything.
+        limit: Largest absolute value.
+
+    Returns:
+        False for anything else, which may be points in another way.
+    """
+    k = memory.rows(value, 2)
+    if k < 0:
+        return False
+    p = memory.values(value)
+    for i in range(2 * k):  # noqa: SIM110  compiled, a loop is what is quick
+        if not abs(p[i]) <= limit:
+            return False
+    return True
+
+
+def pair_of(value):
+    """The two numbers of an array (2,) of float64.
+
+    Args:
+        value: Anything.
+
+    Returns:
+        The numbers; None for anything else, which may be a pair in another way.
+    """
+    if memory.size(value) != 2:
+        return None
+    p = memory.values(value)
+    return float(p[0]), float(p[1])
 
 
 def points_within(points, limit):

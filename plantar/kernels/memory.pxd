@@ -1,5 +1,10 @@
 # C types of memory.py. Without a compiler this file is not read.
 cpdef values(array)
 cpdef room(array)
+cpdef size(array)
+cpdef rows(array, Py_ssize_t columns)
+cpdef is_mask(array, Py_ssize_t size)
+cpdef flags(array)
+cpdef new_mask(Py_ssize_t size)
 cpdef new_vector(Py_ssize_t size)
 cpdef new_matrix(Py_ssize_t rows, Py_ssize_t columns)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["new_matrix", "new_vector", "room", "values"]
+__all__ = ["flags", "is_mask", "new_mask", "new_matrix", "new_vector", "room", "rows", "size", "values"]
 
 
 def values(array):
@@ -38,6 +38,37 @@ def room(array):
     if not array.flags.writeable:
         raise ValueError("a kernel needs arrays that may be written")
     return numbers
+
+
+def size(array):
+    """Number of values of a vector that `values` takes; -1 for anything else, which says nothing of whether it may be
+    a vector in another way."""
+    if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 1 or not array.flags.c_contiguous:
+        return -1
+    return array.shape[0]
+
+
+def rows(array, columns):
+    """Number of rows of a matrix with so many columns that `values` takes; -1 for anything else."""
+    if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 2 or not array.flags.c_contiguous:
+        return -1
+    return array.shape[0] if array.shape[1] == columns else -1
+
+
+def is_mask(array, size):
+    """Whether this is a contiguous array of so many truth values."""
+    plain = type(array) is np.ndarray and array.dtype == np.bool_ and array.flags.c_contiguous
+    return plain and array.shape == (size,)
+
+
+def flags(array):
+    """The truth values of an array that `is_mask`, in place."""
+    return array
+
+
+def new_mask(size):
+    """A new array (size,) of truth values, not filled."""
+    return np.empty(size, dtype=np.bool_)
 
 
 def new_vector(size):

@@ -23,6 +23,40 @@ cdef inline double* room(object array) except NULL:
     return numbers
 
 
+cdef inline bint _is_plain(object array, int kind, int dimensions) noexcept:
+    return (
+        type(array) is cnp.ndarray
+        and cnp.PyArray_TYPE(<cnp.ndarray> array) == kind
+        and cnp.PyArray_NDIM(<cnp.ndarray> array) == dimensions
+        and cnp.PyArray_ISCARRAY_RO(<cnp.ndarray> array)
+    )
+
+
+cdef inline Py_ssize_t size(object array) noexcept:
+    return cnp.PyArray_DIM(<cnp.ndarray> array, 0) if _is_plain(array, cnp.NPY_DOUBLE, 1) else -1
+
+
+cdef inline Py_ssize_t rows(object array, Py_ssize_t columns) noexcept:
+    if not _is_plain(array, cnp.NPY_DOUBLE, 2) or cnp.PyArray_DIM(<cnp.ndarray> array, 1) != columns:
+        return -1
+    return cnp.PyArray_DIM(<cnp.ndarray> array, 0)
+
+
+cdef inline bint is_mask(object array, Py_ssize_t size) noexcept:
+    return _is_plain(array, cnp.NPY_BOOL, 1) and cnp.PyArray_DIM(<cnp.ndarray> array, 0) == size
+
+
+cdef inline unsigned char* flags(object array) noexcept:
+    return <unsigned char*> cnp.PyArray_DATA(<cnp.ndarray> array)
+
+
+cdef inline object new_mask(Py_ssize_t size):
+    cdef cnp.npy_intp shape = size
+    if PyArray_API == NULL:
+        cnp.import_array()
+    return cnp.PyArray_SimpleNew(1, &shape, cnp.NPY_BOOL)
+
+
 cdef inline object new_vector(Py_ssize_t size):
     cdef cnp.npy_intp shape = size
     if PyArray_API == NULL:  # each extension asks numpy for its functions once
