@@ -2,6 +2,8 @@
 cimport cython
 from libc cimport math
 from . cimport clean
+from . cimport pointers as memory
+from . cimport vectors
 
 cdef double _LARGEST
 cdef double _INFINITE
@@ -30,13 +32,21 @@ cdef (double, double, double) _nearest(const double[:, :] polygon, double turn, 
 @cython.locals(turn=int, corners="double[:, ::1]")
 cdef (double, double, double) _nearest_of_any(const double[:, :] polygon, double x, double y) except *
 
-@cython.locals(_margin=double, qx=double, qy=double)
-cpdef closest_point(const double[:, :] polygon, double x, double y)
+@cython.final
+cdef class OffsetRoom:
+    cdef double[:, ::1] given
+    cdef double[:, ::1] lines
+    cdef double[:, :, ::1] rings
+    cdef double[:, ::1] result
 
-cdef void _pair(double[::1] out, double x, double y) noexcept
+    @cython.locals(out=cython.p_double, i=Py_ssize_t)
+    cdef copied(self, Py_ssize_t size)
 
-@cython.locals(margin=double, _qx=double, _qy=double)
-cpdef double signed_margin(const double[:, :] polygon, double x, double y) except? -1.0
+@cython.locals(room=OffsetRoom, _margin=double, qx=double, qy=double)
+cpdef closest_point(polygon, double x, double y)
+
+@cython.locals(room=OffsetRoom, margin=double, _qx=double, _qy=double)
+cpdef double signed_margin(polygon, double x, double y) except? -1.0
 
 cpdef seen_from_above(const double[:, :] polygon, const double[:, :] rotation, const double[:] position)
 
@@ -45,20 +55,15 @@ cdef void _place(
     const double[:, :] polygon, const double[:, :] rotation, const double[:] position, double[:, ::1] out
 ) noexcept
 
-@cython.final
-cdef class OffsetRoom:
-    cdef double[:, ::1] lines
-    cdef double[:, :, ::1] rings
-    cdef object result_room
-    cdef double[:, ::1] result
-    cdef list copies
-
-    cdef copied(self, Py_ssize_t size)
-
 cdef list _FREE
 
-@cython.locals(few=bint, room=OffsetRoom)
-cpdef inner_offset(const double[:, :] polygon, double distance)
+cdef OffsetRoom _borrow(Py_ssize_t corners)
+
+@cython.locals(k=Py_ssize_t, given="double[:, ::1]", values=cython.p_double, i=Py_ssize_t)
+cdef const double[:, :] _entered(polygon, OffsetRoom room) except *
+
+@cython.locals(room=OffsetRoom)
+cpdef inner_offset(polygon, double distance)
 
 @cython.locals(
     i=Py_ssize_t, size=Py_ssize_t, turn=int, x0=double, y0=double, near=double, corners="double[:, ::1]"

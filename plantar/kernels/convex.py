@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from . import clean
+from . import clean, memory, vectors
 
 __all__ = [
     "OffsetRoom",
@@ -164,16 +164,10 @@ def closest_point(polygon, x, y):
     Returns:
         The closest point (2,), the point itself where it is inside; NaN where the point, or no vertex, is finite.
     """
-    out = np.empty(2)
-    _margin, qx, qy = _nearest_of_any(polygon, x, y)
-    _pair(out, qx, qy)
-    return out
-
-
-def _pair(out, x, y):
-    """Write two numbers."""
-    out[0] = x
-    out[1] = y
+    room = _borrow(0)  # of a polygon of more than a few vertices its buffer is read
+    _margin, qx, qy = _nearest_of_any(_entered(polygon, room), x, y)
+    _FREE.append(room)
+    return vectors.vector2(qx, qy)
 
 
 def signed_margin(polygon, x, y):
@@ -187,7 +181,9 @@ def signed_margin(polygon, x, y):
     Returns:
         Distance in m, positive inside, negative outside; NaN where the point is not finite, -inf where no vertex is.
     """
-    margin, _qx, _qy = _nearest_of_any(polygon, x, y)
+    room = _borrow(0)
+    margin, _qx, _qy = _nearest_of_any(_entered(polygon, room), x, y)
+    _FREE.append(room)
     return margin
 
 
@@ -224,18 +220,44 @@ class OffsetRoom:
 
     def __init__(self, corners):
         room = 2 * corners + 8
+        self.given = np.zeros((corners, 2))
         self.lines = np.zeros((corners, 3))
         self.rings = np.zeros((3, room, 3))
-        self.result_room = np.zeros((room, 2))
-        self.result = self.result_room
-        self.copies = [self.result_room[:size].copy for size in range(min(room, _FEW))]
+        self.result = np.zeros((room, 2))
 
     def copied(self, size):
         """The polygon of `size` vertices that `offset` left in `result`, as an array of its own."""
-        return self.copies[size]() if size < len(self.copies) else self.result_room[:size].copy()
+        made = memory.new_matrix(size, 2)
+        out = memory.room(made)
+        for i in range(size):
+            out[2 * i], out[2 * i + 1] = self.result[i, 0], self.result[i, 1]
+        return made
 
 
 _FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no call has borrowed
+
+
+def _borrow(corners):
+    """A room for so many vertices: for a few a kept one, which is to be put back into `_FREE`."""
+    if corners > _FEW:
+        return OffsetRoom(corners)
+    try:
+        return _FREE.pop()
+    except IndexError:
+        return OffsetRoom(_FEW)
+
+
+def _entered(polygon, room):
+    """A polygon (k, 2) where loops read it: copied into a room with space for it, which takes a tenth of the time that
+    an array is asked for its buffer; one that is strided or of another kind is asked."""
+    k = memory.rows(polygon, 2)
+    if not 0 <= k <= room.given.shape[0]:
+        return polygon
+    given = room.given
+    values = memory.values(polygon)
+    for i in range(k):
+        given[i, 0], given[i, 1] = values[2 * i], values[2 * i + 1]
+    return given[:k]
 
 
 def inner_offset(polygon, distance):
@@ -253,13 +275,9 @@ def inner_offset(polygon, distance):
         Counter-clockwise polygon (m, 2), clean; where nothing is left, the deepest point (1, 2), the middle where the
         polygon has no area; none (0, 2) where no vertex is finite.
     """
-    few = polygon.shape[0] <= _FEW
-    try:
-        room = _FREE.pop() if few else OffsetRoom(polygon.shape[0])
-    except IndexError:
-        room = OffsetRoom(_FEW)
-    found = room.copied(offset(polygon, distance, room))
-    if few:
+    room = _borrow(len(polygon))
+    found = room.copied(offset(_entered(polygon, room), distance, room))
+    if len(polygon) <= _FEW:
         _FREE.append(room)
     return found
 

@@ -1,6 +1,7 @@
 # C types of sole.py. Without a compiler this file is not read.
 cimport cython
-from . cimport convex, hull
+from . cimport convex, hull, vectors
+from . cimport pointers as memory
 
 cdef double _NONE
 cdef double _INFINITE
@@ -16,18 +17,17 @@ cdef class SoleScratch:
     cdef Py_ssize_t[::1] way
     cdef Py_ssize_t[::1] ring
     cdef double[:, ::1] polygon
-    cdef list hulls
-    cdef object mask_room
+    cdef double[::1] force
     cdef unsigned char[::1] mask
-    cdef object other_mask_room
     cdef unsigned char[::1] other_mask
-    cdef object sums_room
     cdef double[::1] sums
-    cdef object copy_wrench
-    cdef object copy_cop
-    cdef double[::1] pair
-    cdef object copy_pair
     cdef convex.OffsetRoom offset
+
+    @cython.locals(out=cython.p_double, i=Py_ssize_t)
+    cdef summed(self, Py_ssize_t first, Py_ssize_t count)
+
+    @cython.locals(out=cython.p_double, i=Py_ssize_t)
+    cdef hull(self, Py_ssize_t size)
 
     @cython.locals(i=Py_ssize_t)
     cdef void copy_hull(self, Py_ssize_t size, double[:, ::1] out) noexcept nogil
@@ -59,14 +59,28 @@ cdef class SoleKernel:
     cdef SoleScratch borrow(self)
     cdef int give_back(self, SoleScratch scratch) except -1
 
+    @cython.locals(out=cython.p_uchar, i=Py_ssize_t)
+    cdef _copied(self, unsigned char[::1] mask)
+
+    @cython.locals(scratch=SoleScratch, values=cython.p_double, i=Py_ssize_t)
+    cdef SoleScratch _borrow_with(self, force)
+
+    @cython.locals(values=cython.p_uchar, i=Py_ssize_t)
+    cdef int _take_mask(self, active, SoleScratch scratch) except -1
+
     cdef int _check(self, const double[:] force) except -1
-    cdef int _check_mask(self, const unsigned char[:] active) except -1
+
+    @cython.locals(i=Py_ssize_t)
+    cdef void _read(self, const double[:] force, SoleScratch scratch) noexcept
+
+    @cython.locals(i=Py_ssize_t)
+    cdef int _read_mask(self, const unsigned char[:] active, SoleScratch scratch) except -1
 
     @cython.locals(scratch=SoleScratch)
-    cpdef active(self, const double[:] force, double threshold, double saturation)
+    cpdef active(self, force, double threshold, double saturation)
 
     @cython.locals(scratch=SoleScratch)
-    cdef SoleScratch _borrow_with_active(self, const double[:] force, double threshold, double saturation)
+    cdef SoleScratch _borrow_with_active(self, force, double threshold, double saturation)
 
     @cython.locals(i=Py_ssize_t)
     cdef void activate(
@@ -74,16 +88,16 @@ cdef class SoleKernel:
     ) noexcept nogil
 
     @cython.locals(scratch=SoleScratch, i=Py_ssize_t, finite=bint)
-    cpdef faults(self, const double[:] force, double saturation)
+    cpdef faults(self, force, double saturation)
 
     @cython.locals(scratch=SoleScratch)
-    cpdef loads(self, const double[:] force, const unsigned char[:] active)
+    cpdef loads(self, force, active)
 
     @cython.locals(scratch=SoleScratch)
-    cpdef loads_above(self, const double[:] force, double threshold, double saturation)
+    cpdef loads_above(self, force, double threshold, double saturation)
 
-    @cython.locals(i=Py_ssize_t, largest=double)
-    cpdef bint reaches(self, const double[:] force, double level) except *
+    @cython.locals(scratch=SoleScratch, i=Py_ssize_t, largest=double)
+    cpdef bint reaches(self, force, double level) except *
 
     @cython.locals(
         columns="const double[:, ::1]", fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
@@ -91,21 +105,19 @@ cdef class SoleKernel:
     )
     cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept nogil
 
-    cpdef hull(self, const unsigned char[:] active)
-
     @cython.locals(scratch=SoleScratch)
-    cpdef hull_above(self, const double[:] force, double threshold, double saturation)
+    cpdef hull(self, active)
+
+    cpdef hull_above(self, force, double threshold, double saturation)
 
     @cython.locals(size=Py_ssize_t, area=double, x=double, y=double)
-    cdef _hull(self, const unsigned char[:] active, SoleScratch scratch)
+    cdef _hull(self, SoleScratch scratch)
 
     @cython.locals(
-        scratch=SoleScratch, sums="double[::1]", pushed=bint, pair="double[::1]", size=Py_ssize_t, left=Py_ssize_t,
-        area=double, _margin=double
+        scratch=SoleScratch, sums="double[::1]", contact=double, size=Py_ssize_t, left=Py_ssize_t, area=double,
+        middle_x=double, middle_y=double, near_x=double, near_y=double, _margin=double
     )
-    cpdef tick(
-        self, const double[:] force, double threshold, double saturation, double offset, double x, double y
-    )
+    cpdef tick(self, force, double threshold, double saturation, double offset, double x, double y)
 
     @cython.locals(
         way="Py_ssize_t[::1]", ring="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", sign="const unsigned char[::1]",

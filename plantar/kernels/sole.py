@@ -13,7 +13,7 @@ import numpy as np
 
 from plantar.errors import ReadingError
 
-from . import convex, hull
+from . import convex, hull, memory, vectors
 
 __all__ = ["SoleKernel", "SoleScratch"]
 
@@ -39,21 +39,28 @@ class SoleScratch:
         self.highest = np.full(levels, -1, dtype=np.intp)
         self.way = np.zeros(2 * corners + 2, dtype=np.intp)
         self.ring = np.zeros(2 * corners + 2, dtype=np.intp)
-        polygon = np.zeros((corners, 2))
-        self.polygon = polygon
-        self.hulls = [polygon[:size] for size in range(corners + 1)]  # a copy of one is the cheapest new array
-        self.mask_room = np.zeros(taxels, dtype=bool)
-        self.mask = self.mask_room
-        self.other_mask_room = np.zeros(taxels, dtype=bool)
-        self.other_mask = self.other_mask_room
-        sums = np.zeros(9)
-        self.sums_room = sums
-        self.sums = sums
-        self.copy_wrench, self.copy_cop = sums[:6].copy, sums[7:].copy
+        self.polygon = np.zeros((corners, 2))
+        self.force = np.zeros(taxels)
+        self.mask = np.zeros(taxels, dtype=bool)
+        self.other_mask = np.zeros(taxels, dtype=bool)
+        self.sums = np.zeros(9)
         self.offset = convex.OffsetRoom(corners)
-        pair = np.zeros(2)
-        self.pair = pair
-        self.copy_pair = pair.copy
+
+    def summed(self, first, count):
+        """A new array (count,) of the sums from one on."""
+        made = memory.new_vector(count)
+        out = memory.room(made)
+        for i in range(count):
+            out[i] = self.sums[first + i]
+        return made
+
+    def hull(self, size):
+        """The hull (size, 2) in m that `SoleKernel.find_hull` left in `polygon`, as a new array."""
+        made = memory.new_matrix(size, 2)
+        out = memory.room(made)
+        for i in range(size):
+            out[2 * i], out[2 * i + 1] = self.polygon[i, 0], self.polygon[i, 1]
+        return made
 
     def copy_hull(self, size, out):
         """Copy the hull that `SoleKernel.find_hull` left in `polygon`.
@@ -167,9 +174,41 @@ class SoleKernel:
             Mask (n,).
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
-        mask = scratch.mask_room.copy()
+        mask = self._copied(scratch.mask)
         self.give_back(scratch)
         return mask
+
+    def _copied(self, mask):
+        """A mask (n,) as a new array."""
+        made = memory.new_mask(self.taxels)
+        out = memory.flags(made)
+        for i in range(self.taxels):
+            out[i] = mask[i]
+        return made
+
+    def _borrow_with(self, force):
+        """Borrowed arrays with the forces: to copy them takes a tenth of the time that an array is asked for its
+        buffer; one that is strided or of another kind is asked."""
+        if memory.size(force) != self.taxels:
+            self._check(force)
+        scratch = self.borrow()
+        if memory.size(force) == self.taxels:
+            values = memory.values(force)
+            for i in range(self.taxels):
+                scratch.force[i] = values[i]
+        else:
+            self._read(force, scratch)
+        return scratch
+
+    def _take_mask(self, active, scratch):
+        """Copy a mask to what was borrowed, likewise."""
+        if memory.is_mask(active, self.taxels):
+            values = memory.flags(active)
+            for i in range(self.taxels):
+                scratch.mask[i] = values[i]
+        else:
+            self._read_mask(active, scratch)
+        return 0
 
     def _check(self, force):
         """Refuse forces that are not one a taxel: a loop over the taxels would read past them."""
@@ -177,17 +216,23 @@ class SoleKernel:
             raise ReadingError(f"{_count(force)} forces for {self.taxels} taxels; expected one each")
         return 0
 
-    def _check_mask(self, active):
-        """Refuse a mask likewise."""
+    def _read(self, force, scratch):
+        """Copy forces through their buffer."""
+        for i in range(self.taxels):
+            scratch.force[i] = force[i]
+
+    def _read_mask(self, active, scratch):
+        """Copy a mask through its buffer, and refuse one that is not one value a taxel."""
         if active is None or active.shape[0] != self.taxels:
             raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
+        for i in range(self.taxels):
+            scratch.mask[i] = active[i]
         return 0
 
     def _borrow_with_active(self, force, threshold, saturation):
-        """Borrowed arrays with `active` in their mask."""
-        self._check(force)
-        scratch = self.borrow()
-        self.activate(force, threshold, saturation, scratch.mask)
+        """Borrowed arrays with the forces, and `active` in their mask."""
+        scratch = self._borrow_with(force)
+        self.activate(scratch.force, threshold, saturation, scratch.mask)
         return scratch
 
     def activate(self, force, threshold, saturation, out):
@@ -205,13 +250,12 @@ class SoleKernel:
         Returns:
             Masks (n,): taxels that read NaN or inf, and saturated ones.
         """
-        self._check(force)
-        scratch = self.borrow()
+        scratch = self._borrow_with(force)
         for i in range(self.taxels):
-            finite = -_INFINITE < force[i] < _INFINITE
+            finite = -_INFINITE < scratch.force[i] < _INFINITE
             scratch.mask[i] = not finite
-            scratch.other_mask[i] = finite and force[i] >= saturation
-        masks = scratch.mask_room.copy(), scratch.other_mask_room.copy()
+            scratch.other_mask[i] = finite and scratch.force[i] >= saturation
+        masks = self._copied(scratch.mask), self._copied(scratch.other_mask)
         self.give_back(scratch)
         return masks
 
@@ -228,11 +272,10 @@ class SoleKernel:
         Returns:
             (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
         """
-        self._check(force)
-        self._check_mask(active)
-        scratch = self.borrow()
-        self._loads(force, active, scratch.sums)
-        sums = scratch.sums_room.copy()
+        scratch = self._borrow_with(force)
+        self._take_mask(active, scratch)
+        self._loads(scratch.force, scratch.mask, scratch.sums)
+        sums = scratch.summed(0, 9)
         self.give_back(scratch)
         return sums
 
@@ -248,8 +291,8 @@ class SoleKernel:
             (9,), as `loads`.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
-        self._loads(force, scratch.mask, scratch.sums)
-        sums = scratch.sums_room.copy()
+        self._loads(scratch.force, scratch.mask, scratch.sums)
+        sums = scratch.summed(0, 9)
         self.give_back(scratch)
         return sums
 
@@ -263,11 +306,12 @@ class SoleKernel:
         Returns:
             True where one is; NaN is not.
         """
-        self._check(force)
+        scratch = self._borrow_with(force)
         largest = -_INFINITE
         for i in range(self.taxels):
-            if force[i] > largest:
-                largest = force[i]
+            if scratch.force[i] > largest:
+                largest = scratch.force[i]
+        self.give_back(scratch)
         return bool(self.taxels and largest >= level)
 
     def _loads(self, force, active, out):
@@ -305,8 +349,9 @@ class SoleKernel:
         Returns:
             Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
         """
-        self._check_mask(active)
-        return self._hull(active, self.borrow())
+        scratch = self.borrow()
+        self._take_mask(active, scratch)
+        return self._hull(scratch)
 
     def hull_above(self, force, threshold, saturation):
         """`hull` of the taxels that `active` gives, without a mask for anybody else.
@@ -319,14 +364,13 @@ class SoleKernel:
         Returns:
             As `hull`.
         """
-        scratch = self._borrow_with_active(force, threshold, saturation)
-        return self._hull(scratch.mask, scratch)
+        return self._hull(self._borrow_with_active(force, threshold, saturation))
 
-    def _hull(self, active, scratch):
-        """`hull` with what was borrowed, which is given back."""
-        size = self.find_hull(active, scratch)
+    def _hull(self, scratch):
+        """`hull` of the mask of what was borrowed, which is given back."""
+        size = self.find_hull(scratch.mask, scratch)
         area, x, y = scratch.measure_hull(size)
-        polygon = scratch.hulls[size].copy()
+        polygon = scratch.hull(size)
         self.give_back(scratch)
         return polygon, area, x, y
 
@@ -349,27 +393,25 @@ class SoleKernel:
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
         sums = scratch.sums
-        self._loads(force, scratch.mask, sums)
-        pushed = 0.0 < sums[2] < _INFINITE
-        felt = scratch.mask_room.copy(), scratch.copy_wrench(), sums[6], scratch.copy_cop() if pushed else None
+        self._loads(scratch.force, scratch.mask, sums)
+        mask, wrench, contact = self._copied(scratch.mask), scratch.summed(0, 6), sums[6]
+        cop = scratch.summed(7, 2) if 0.0 < sums[2] < _INFINITE else None
         size = self.find_hull(scratch.mask, scratch)
-        polygon = scratch.hulls[size].copy()
+        polygon = scratch.hull(size)
         if size == 0:
             self.give_back(scratch)
-            return (*felt, polygon, 0.0, None, polygon.copy(), None)
-        pair = scratch.pair
-        area, pair[0], pair[1] = scratch.measure_hull(size)
-        centroid = scratch.copy_pair()
+            return mask, wrench, contact, cop, polygon, 0.0, None, memory.new_matrix(0, 2), None
+        area, middle_x, middle_y = scratch.measure_hull(size)
         if offset <= 0.0:
-            safe = scratch.hulls[size].copy()
-            _margin, pair[0], pair[1] = convex._nearest_of_any(scratch.polygon[:size], x, y)
+            safe = scratch.hull(size)
+            _margin, near_x, near_y = convex._nearest_of_any(scratch.polygon[:size], x, y)
         else:
             left = convex.offset(scratch.polygon[:size], offset, scratch.offset)
             safe = scratch.offset.copied(left)
-            _margin, pair[0], pair[1] = convex._nearest_of_any(scratch.offset.result[:left], x, y)
-        nearest = scratch.copy_pair()
+            _margin, near_x, near_y = convex._nearest_of_any(scratch.offset.result[:left], x, y)
         self.give_back(scratch)
-        return (*felt, polygon, area, centroid, safe, nearest)
+        centroid, nearest = vectors.vector2(middle_x, middle_y), vectors.vector2(near_x, near_y)
+        return mask, wrench, contact, cop, polygon, area, centroid, safe, nearest
 
     def find_hull(self, active, scratch):
         """Find the hull of the active cells and leave it in the scratch's `polygon`.
