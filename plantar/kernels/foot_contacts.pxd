@@ -1,5 +1,6 @@
 # C types of foot_contacts.py. Without a compiler this file is not read.
 cimport cython
+from .few_points cimport FewPoints
 
 
 @cython.final
@@ -45,7 +46,7 @@ cdef class FootContacts:
         k=Py_ssize_t, row=Py_ssize_t, x=double, y=double, z=double, a=double, b=double, f=double, fx=double, fy=double,
         fz=double, tx=double, ty=double, tz=double, height=double
     )
-    cpdef add_to_ground(self, double reach, double[::1] sums, list points)
+    cpdef int add_to_ground(self, double reach, double[::1] sums, FewPoints points) except -1
 
     @cython.locals(
         k=Py_ssize_t, row=Py_ssize_t, x=double, y=double, z=double, fx=double, fy=double, fz=double, pairs=dict,

@@ -136,7 +136,7 @@ class FootContacts:
         Args:
             reach: Gap in m up to which a contact counts as a point of support, whether it carries or not.
             sums: Receives, added to what is there (7,): force, torque, and the contacts' height times vertical force.
-            points: List that receives the points of support (x, y) in m.
+            points: `FewPoints` that receive the points of support.
         """
         fx, fy, fz, tx, ty, tz, height = sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6]
         for k in range(self.size):
@@ -149,7 +149,7 @@ class FootContacts:
             tz = tz + self.vectors[row + 2, 2] + x * b - y * a
             height += z * f
             if self.carries[k] or self.gaps[k] <= reach:
-                points.append((float(x), float(y)))
+                points.add(x, y)
         sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = fx, fy, fz, tx, ty, tz, height
 
     def pair_loads(self, vectors, reach):

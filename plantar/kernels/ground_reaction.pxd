@@ -1,10 +1,32 @@
 # C types of ground_reaction.py. Without a compiler this file is not read.
 cimport cython
 from . cimport few_points
+from .few_points cimport FewPoints
 from .foot_contacts cimport FootContacts
 
-@cython.locals(points=list, together=list, own=list, foot=FootContacts, ring=list)
-cpdef tuple ground_reaction(feet, double height, double least, double reach)
+cdef double _NONE
 
-@cython.locals(force=double, x=double, y=double)
-cdef tuple _reaction(double[::1] sums, double height, double least, list ring, tuple points)
+@cython.final
+cdef class GroundReaction:
+    cdef double height
+    cdef double least
+    cdef double reach
+    cdef double[::1] sums
+    cdef FewPoints support
+    cdef list ends
+    cdef readonly bint found
+    cdef readonly double x
+    cdef readonly double y
+    cdef readonly double margin
+
+    @cython.locals(i=Py_ssize_t, foot=FootContacts)
+    cpdef int update(self, feet) except -1
+
+    @cython.locals(force=double, height=double)
+    cdef void _find_zmp(self) noexcept
+
+    @cython.locals(first=Py_ssize_t, end=Py_ssize_t, count=Py_ssize_t, area=double)
+    cpdef double area(self, Py_ssize_t foot) except? -1.0
+
+    @cython.locals(points=list, foot=Py_ssize_t, ring=list)
+    cpdef tuple told(self)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from plantar.kernels.few_points import small_hull
 from plantar.kernels.foot_contacts import FootContacts
-from plantar.kernels.ground_reaction import ground_reaction
+from plantar.kernels.ground_reaction import GroundReaction
 
 __all__ = [
     "REACH",
@@ -302,7 +302,9 @@ def ground_truth(
         The truth, in the world frame.
     """
     height = math.nan if plane_height is None else plane_height
-    return GroundTruth(*ground_reaction(feet, height, minimum_force, reach))
+    reaction = GroundReaction(height, minimum_force, reach)
+    reaction.update(feet)
+    return GroundTruth(*reaction.told())
 
 
 def _total_wrench(feet: Sequence[ContactSet]) -> NDArray[np.float64]:

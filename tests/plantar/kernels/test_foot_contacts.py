@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import few_points, foot_contacts, ground_reaction, is_compiled, python_form
+from plantar.kernels import convex, few_points, foot_contacts, ground_reaction, is_compiled, python_form
 
 REACH = 5e-4
 OWN = np.array([1, 0, 1, 0, 0], dtype=np.uint8)  # geoms 0 and 2 are the foot's
@@ -44,11 +44,19 @@ def parts(foot):
     return ids, vectors[::3], vectors[1::3], vectors[2::3], gaps, carries.astype(bool)
 
 
-def ground(foot):
-    sums, points = np.zeros(7), []
+def ground(foot, module=few_points):
+    sums, points = np.zeros(7), module.FewPoints()
     for _ in range(2):  # of two feet
         foot.add_to_ground(REACH, sums, points)
-    return sums, points
+    return sums, points.points_of(0, points.count)
+
+
+def hull_of(points, module=few_points):
+    cloud = module.FewPoints()
+    for point in points:
+        cloud.add(*point)
+    cloud.hull(0, cloud.count)
+    return cloud
 
 
 def seen(foot, origin):
@@ -63,17 +71,19 @@ def seen(foot, origin):
 def test_the_two_forms_agree_to_the_last_bit(seed):
     one, other = (gathered(m, seed) for m in (foot_contacts, python_form("foot_contacts")))
     assert all(np.array_equal(a, b) for a, b in zip(parts(one), parts(other), strict=True))
-    (sums, points), (same, equal) = ground(one), ground(other)
+    source = python_form("few_points")
+    (sums, points), (same, equal) = ground(one), ground(other, source)
     assert sums.tolist() == same.tolist()
     assert points == equal
     origin = np.array([0.1, 0.2, 0.3])
     assert np.array_equal(seen(one, origin), seen(other, origin))
     assert one.pair_loads(seen(one, origin), REACH) == other.pair_loads(seen(other, origin), REACH)
-    source = python_form("few_points")
-    ring = few_points.small_hull(points)
-    assert ring == source.small_hull(points)
+    assert few_points.small_hull(points) == source.small_hull(points)
     x, y = np.random.default_rng(seed).uniform(-0.3, 0.3, 2).tolist()
-    assert few_points.small_margin(ring, x, y) == source.small_margin(ring, x, y)
+    mine, same = (
+        (hull.corners_of(), hull.margin(x, y), hull.area()) for hull in (hull_of(points), hull_of(points, source))
+    )
+    assert mine == same
 
 
 @settings(max_examples=60)
@@ -116,21 +126,28 @@ def test_the_ground_s_sums_are_numpy_s(seed):
 @given(seeds)
 def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
     forms = (foot_contacts, ground_reaction), (python_form("foot_contacts"), python_form("ground_reaction"))
-    one, other = (
-        module.ground_reaction([gathered(lists, seed), gathered(lists, seed + 1)], height, 1.0, REACH)
-        for lists, module in forms
-    )
+    reactions = []
+    for lists, module in forms:
+        reaction = module.GroundReaction(height, 1.0, REACH)
+        for first in (seed + 5, seed):  # what was found before leaves no trace
+            reaction.update([gathered(lists, first), gathered(lists, first + 1)])
+        areas = [reaction.area(foot) for foot in (0, 1)]
+        reactions.append((*reaction.told(), areas))
+    one, other = reactions
     assert one[0].tolist() == other[0].tolist()
     assert (one[1] is None) == (other[1] is None)
     assert one[1] is None or one[1].tolist() == other[1].tolist()
     assert one[2:] == other[2:]
+    for own, measure in zip(one[4], one[5], strict=True):
+        assert measure == hull_of(own).area()
+    one = one[:5]
     wrench, zmp, ring, margin, points = one
     sums, together = np.zeros(7), []
     for number, own in enumerate(points):
-        added = []
+        added = few_points.FewPoints()
         gathered(foot_contacts, seed + number).add_to_ground(REACH, sums, added)
-        assert own == added
-        together += added
+        assert own == added.points_of(0, added.count)
+        together += own
     assert wrench.tolist() == sums[:6].tolist()
     assert ring == few_points.small_hull(together)
     if zmp is None:
@@ -140,7 +157,22 @@ def test_the_ground_s_reaction_is_that_of_both_feet_in_both_forms(height, seed):
     plane = sums[6] / sums[2] if np.isnan(height) else height
     moment = sums[3:6] - np.cross([*zmp, plane], sums[:3])  # about the ZMP there is none but about the vertical
     assert moment[:2] == pytest.approx(np.zeros(2), abs=1e-9 * np.abs(sums).max())
-    assert margin == few_points.small_margin(ring, *zmp)
+    assert margin == hull_of(together).margin(*zmp)
+
+
+@settings(max_examples=60)
+@given(seeds)
+def test_hulls_of_gathered_points_are_those_of_a_list_and_their_measures_those_of_arrays(seed):
+    rng = np.random.default_rng(seed)
+    points = [tuple(p) for p in rng.integers(-3, 4, (int(rng.integers(0, 30)), 2)).astype(float).tolist()]
+    hull = hull_of(points)
+    assert hull.corners_of() == few_points.small_hull(points)
+    if not points:
+        assert hull.margin(0.0, 0.0) == -np.inf
+    else:
+        ring, point = np.array(hull.corners_of()), rng.uniform(-5.0, 5.0, 2)
+        assert hull.margin(*point.tolist()) == pytest.approx(convex.signed_margin(ring, *point.tolist()), abs=1e-12)
+        assert hull.area() == pytest.approx(convex.area(ring))
 
 
 @settings(max_examples=60)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from plantar.geometry.polygon import area, convex_hull, signed_margin
-from plantar.kernels.few_points import small_hull, small_margin
+from plantar.kernels.few_points import small_hull
 from sim.model.contact_truth import (
     contact_wrench_in_frame,
     contact_wrench_in_world,
@@ -170,16 +170,6 @@ def test_small_hull_agrees_with_the_array_hull() -> None:
         assert set(ours) <= {tuple(p) for p in points.tolist()}
     assert small_hull([]) == []
     assert small_hull([(0.0, 0.0), (1.0, 1.0), (0.5, 0.5)]) == [(0.0, 0.0), (1.0, 1.0)]
-
-
-def test_small_margin_agrees_with_the_array_margin() -> None:
-    rng = np.random.default_rng(2)
-    for _ in range(300):
-        ring = small_hull([tuple(p) for p in rng.uniform(-0.2, 0.2, (rng.integers(1, 9), 2)).tolist()])
-        x, y = (float(v) for v in rng.uniform(-0.3, 0.3, 2))
-        assert small_margin(ring, x, y) == pytest.approx(signed_margin(np.array(ring), [x, y]), abs=1e-12)
-    assert small_margin([], 0.0, 0.0) == -np.inf
-    assert small_margin([(0.0, 0.0), (1.0, 0.0)], 0.5, 0.0) == 0.0
 
 
 def test_truth_of_two_feet_is_the_sum_of_its_parts() -> None:
