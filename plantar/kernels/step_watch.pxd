@@ -12,6 +12,7 @@ cdef class StepWatch:
     cdef double least
     cdef Py_ssize_t airborne
     cdef readonly Py_ssize_t now
+    cdef public bint awake
     cdef Py_ssize_t left
     cdef Py_ssize_t right
 

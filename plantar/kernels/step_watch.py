@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-__all__ = ["FAST", "LEGS", "StepWatch"]
+__all__ = ["AWAKE", "FAST", "LEGS", "StepWatch"]
 
 LEGS = 4
 """What `StepWatch.step` adds where the legs touch each other; 1 and 2 stand for a left and a right foot that lands."""
 
 FAST = 8
 """What it adds where a joint is faster than its limit."""
+
+AWAKE = 16
+"""What it adds while it is told to stay awake."""
 
 
 class StepWatch:
@@ -25,6 +28,7 @@ class StepWatch:
 
     Attributes:
         now: Number of steps so far.
+        awake: Whether the next steps are to be looked at in any case.
     """
 
     def __init__(self, ground, legs, speeds, places, per_speed, least, airborne):
@@ -36,6 +40,7 @@ class StepWatch:
         self.least = least
         self.airborne = airborne
         self.now = 0
+        self.awake = False
         self.left = 0
         self.right = 0
 
@@ -43,10 +48,10 @@ class StepWatch:
         """After each physics step.
 
         Returns:
-            What is to be looked at, 0 for nothing: 1 a left foot that lands, 2 a right one, `LEGS`, `FAST`.
+            What is to be looked at, 0 for nothing: 1 a left foot that lands, 2 a right one, `LEGS`, `FAST`, `AWAKE`.
         """
         self.now += 1
-        seen = 0
+        seen = 16 if self.awake else 0
         if self.ground[0] >= self.least:
             if self.now - self.left > self.airborne:
                 seen += 1

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.plan.plan_change import MovedStep
-from plantar.kernels.few_points import small_hull
+from plantar.kernels.ground_reaction import GroundReaction
 from plantar.kernels.step_watch import FAST, LEGS, StepWatch
+from plantar.kernels.tick_watch import TickWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from sim.judging.joint_limits import JointLimits
@@ -24,7 +25,6 @@ from sim.model.contact_truth import (
     FootContacts,
     GroundTruth,
     foot_contacts,
-    ground_truth,
 )
 from sim.model.world import World
 
@@ -75,30 +75,25 @@ class Judge:
     standing_height: float
     goal: WalkGoal
     fall: tuple[float, float, str] | None = None
-    tilt_max: float = 0.0
-    margin_min: float = math.inf
-    landings: list[Landing] = field(default_factory=list)
-    estimate_error_max: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
-    zmp_error: list[float] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self._geoms = {s: frozenset(self.world.sole_geoms[s]) for s in SIDES}
         self._contacts = ContactReader(self.world.model, self.world.data, [self._geoms[s] for s in SIDES])
         data, torso = self.world.data, self.world.torso
         self._torso, self._center = data.xmat[torso], data.subtree_com[torso]
+        self._landings: list[Landing] = []
         self._touched = data.sensordata[self.world.touch["left"] : self.world.touch["right"] + 1]
         self._soles = [(data.site_xpos[i], data.site_xmat[i]) for i in (self.world.sole_sites[s] for s in SIDES)]
         self._fresh: list[Landing] = []  # whose impact is not over yet
         self._landing: dict[Side, Landing | None] = {"left": None, "right": None}
         body = self.world.body
-        self._touch, self._least = _TOUCH * body.weight, _LEAST * body.weight
-        self._settled, self._reach = _SETTLED * body.beat, self.world.reach
+        self._touch, self._settled = _TOUCH * body.weight, _SETTLED * body.beat
         self._lowest = _FALLEN_HEIGHT * self.standing_height
         self.steps = StepCount(self.goal, body.weight)
         self.legs = LegContact(self.world)
         self.joints = JointLimits(self.world)
         leg = self.world.leg_contact
-        self._watch = StepWatch(
+        self._step_watch = StepWatch(
             self._touched,
             data.sensordata[leg : leg + 1],
             self.joints.speeds,
@@ -107,6 +102,45 @@ class Judge:
             self._touch,
             round(_AIRBORNE * body.beat / self.world.period),
         )
+        self._reaction = GroundReaction(math.nan, _LEAST * body.weight, self.world.reach)
+        self._tick_watch = TickWatch(
+            self._reaction,
+            self.steps.watch,
+            self._torso,
+            self._center,
+            [place for place, _ in self._soles],
+            [turn for _, turn in self._soles],
+            self._touched,
+            math.cos(math.radians(_FALLEN_TILT)),
+            self._lowest,
+        )
+
+    @property
+    def landings(self) -> list[Landing]:
+        """The landings so far, one after the other."""
+        self._hand_over()
+        return self._landings
+
+    @property
+    def tilt_max(self) -> float:
+        """Largest tilt of the torso in degrees."""
+        return _tilt(self._tick_watch.up)
+
+    @property
+    def margin_min(self) -> float:
+        """Smallest true ZMP margin in m; inf where there was no ZMP."""
+        return float(self._tick_watch.margin)
+
+    @property
+    def estimate_error_max(self) -> list[float]:
+        """Largest errors (3,) in m of the controller's CoM."""
+        return [float(off) for off in self._tick_watch.errors]
+
+    @property
+    def zmp_error(self) -> float | None:
+        """Root mean square error in m of the controller's ZMP; None where it never told one while there was one."""
+        compared = self._tick_watch.compared
+        return math.sqrt(self._tick_watch.squares / compared) if compared else None
 
     @property
     def fell(self) -> bool:
@@ -115,8 +149,8 @@ class Judge:
 
     def update_physics(self) -> None:
         """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
-        seen = self._watch.step()
-        if seen or self._fresh or self.joints.was_fast:
+        seen = self._step_watch.step()
+        if seen:
             self._look(seen)
 
     def _look(self, seen: int) -> None:
@@ -130,14 +164,28 @@ class Judge:
                 self._land(side)
         if self._fresh:
             self._follow_impacts(dict(zip(SIDES, self._touched.tolist(), strict=True)))
+        self._step_watch.awake = bool(self._fresh) or self.joints.was_fast
 
     def _land(self, side: Side) -> None:
         """A foot touches the ground after it was in the air."""
+        self._hand_over()
         landing = Landing(side, float(self.world.data.time), angle=self._angle(side))
-        self.landings.append(landing)
+        self._landings.append(landing)
         self._landing[side] = landing
+        foot, watch = SIDES.index(side), self._tick_watch
+        watch.margin_since = math.inf
+        watch.area[foot], watch.until[foot] = 0.0, landing.time + self._settled
         self._fresh.append(landing)
         self.steps.touch(side, landing.time)
+
+    def _hand_over(self) -> None:
+        """Let the landings know what was found since."""
+        watch = self._tick_watch
+        if self._landings:
+            self._landings[-1].margin = watch.margin_since
+        for landing, area in zip(self._landing.values(), watch.area, strict=True):
+            if landing is not None:
+                landing.area = float(area)
 
     def _follow_impacts(self, forces: Mapping[Side, float]) -> None:
         """Look for the impact of landings that are not long ago."""
@@ -166,7 +214,7 @@ class Judge:
         zmp: NDArray[np.float64] | None,
         feet: Sequence[FootContacts] | None = None,
         moved: Sequence[MovedStep] = (),
-    ) -> GroundTruth:
+    ) -> None:
         """At each control tick: tilt, ZMP margin, contact areas, places of the feet and the controller's errors.
 
         Args:
@@ -174,46 +222,29 @@ class Judge:
             zmp: The controller's estimate of the ZMP (2,) in m, or None.
             feet: Contacts of both feet where they are known already.
             moved: Footsteps that the controller says it has just planned anew.
-
-        Returns:
-            Ground reaction, true ZMP and true support polygon.
         """
-        data = self.world.data
         if feet is None:
             feet = self._contacts.read()
-        truth = ground_truth(feet, minimum_force=self._least, reach=self._reach)
-        _, true_zmp, ring, margin, points = truth
-        if margin is not None:
-            self.margin_min = min(self.margin_min, margin)
-            if self.landings:
-                self.landings[-1].margin = min(self.landings[-1].margin, margin)
-        tilt = math.degrees(math.acos(min(1.0, self._torso.item(8))))
-        self.tilt_max = max(self.tilt_max, tilt)
-        for i, (told, true) in enumerate(zip(com.tolist(), self._center.tolist(), strict=True)):
-            if not abs(told - true) <= self.estimate_error_max[i]:
-                self.estimate_error_max[i] = abs(told - true)
-        if zmp is not None and true_zmp is not None:
-            self.zmp_error.append(math.dist(zmp.tolist(), true_zmp.tolist()))
-        now = float(data.time)
-        for side, own in zip(SIDES, points, strict=True):
-            last = self._landing[side]
-            if last is not None and len(own) > 2 and now - last.time <= self._settled:
-                alone = sum(map(len, points)) == len(own)  # the ring is this foot's
-                last.area = max(last.area, _area(ring if alone else small_hull(own)))
+        now = float(self.world.data.time)
+        told = None if zmp is None else zmp.tolist()
+        may_have_fallen = self._tick_watch.update(feet, now, com.tolist(), told)
         if moved:
             self.goal.hear(now, moved)
-        for side, force, (position, rotation) in zip(SIDES, self._touched.tolist(), self._soles, strict=True):
-            if force >= self.steps.enough:
-                x, y, _ = position.tolist()
-                self.steps.carry(side, force, x, y, math.atan2(rotation.item(3), rotation.item(0)))
         self.joints.tick()
-        if self.fall is None:
-            least, height = self._lowest, self.height
-            if tilt > _FALLEN_TILT:
-                self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
-            elif height < least:
-                self.fall = (height, least, f"the robot fell: its CoM was {height:.2f} m above the lower sole")
-        return truth
+        if may_have_fallen and self.fall is None:
+            self._look_for_fall()
+
+    def truth(self) -> GroundTruth:
+        """Ground reaction, true ZMP and true support polygon at the last control tick."""
+        return GroundTruth(*self._reaction.told())
+
+    def _look_for_fall(self) -> None:
+        """Whether the robot lies, or leans too far to stay up."""
+        tilt, height = _tilt(self._torso.item(8)), self.height
+        if tilt > _FALLEN_TILT:
+            self.fall = (tilt, _FALLEN_TILT, f"the robot fell: the torso tilted by {tilt:.1f} deg")
+        elif height < self._lowest:
+            self.fall = (height, self._lowest, f"the robot fell: its CoM was {height:.2f} m above the lower sole")
 
     @property
     def height(self) -> float:
@@ -222,13 +253,6 @@ class Judge:
         return float(self._center.item(2) - min(left.item(2), right.item(2)))
 
 
-def _area(ring: Sequence[tuple[float, float]]) -> float:
-    """Area in m^2 of a few points' hull: `plantar.kernels.convex.area` on plain floats."""
-    total = 0.0
-    if len(ring) > 2:
-        (x, y), (ax, ay) = ring[0], ring[1]
-        ax, ay = ax - x, ay - y
-        for bx, by in ring[2:]:
-            total += ax * (by - y) - (bx - x) * ay
-            ax, ay = bx - x, by - y
-    return 0.5 * total
+def _tilt(up: float) -> float:
+    """Tilt in degrees by its cosine."""
+    return math.degrees(math.acos(max(-1.0, min(1.0, up))))

@@ -10,6 +10,7 @@ from itertools import groupby
 import numpy as np
 
 from gait.plan.footsteps import Footstep
+from plantar.kernels.stand_watch import StandWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from sim.judging.walk_goal import NEAR_YAW, WalkGoal
@@ -36,20 +37,6 @@ class Stand:
     touchdown: float
     place: tuple[float, float, float] | None = None
     slip: float = 0.0
-    _first: tuple[float, float] = (0.0, 0.0)
-
-    def carry(self, x: float, y: float, yaw: float) -> None:
-        """Take in where the foot is, while it carries.
-
-        Args:
-            x: Its sole's origin in m.
-            y: The same.
-            yaw: Its heading in rad.
-        """
-        if self.place is None:
-            self._first = (x, y)
-        self.slip = max(self.slip, math.dist(self._first, (x, y)))
-        self.place = (x, y, yaw)
 
 
 class StepCount:
@@ -64,12 +51,12 @@ class StepCount:
         weight: Weight of the robot in N.
 
     Attributes:
-        enough: Ground force in N from which on a foot carries.
+        watch: Takes in where the feet are and what they carry at each control tick.
     """
 
     def __init__(self, goal: WalkGoal, weight: float) -> None:
         self.goal = goal
-        self.enough = _CARRIES * weight
+        self.watch = StandWatch(_CARRIES * weight)
         self.stands: list[Stand] = []
         self._standing: dict[Side, Stand] = {side: Stand(side, -math.inf) for side in SIDES}
 
@@ -80,30 +67,30 @@ class StepCount:
             side: Which foot.
             time: When, in s.
         """
+        self._hand_over(side)
+        self.watch.begin(SIDES.index(side))
         self._standing[side] = Stand(side, time)
         self.stands.append(self._standing[side])
 
-    def carry(self, side: Side, force: float, x: float, y: float, yaw: float) -> None:
-        """Where a foot is at a control tick, and what it carries.
-
-        Args:
-            side: Which foot.
-            force: Ground force on it in N.
-            x: Its sole's origin in m.
-            y: The same.
-            yaw: Its heading in rad.
-        """
-        if force >= self.enough:
-            self._standing[side].carry(x, y, yaw)
+    def _hand_over(self, side: Side) -> None:
+        """Let the stand of a foot know what was found of it so far."""
+        stand, foot = self._standing[side], SIDES.index(side)
+        if self.watch.stood[foot]:
+            x, y, yaw = np.asarray(self.watch.place)[foot].tolist()
+            stand.place, stand.slip = (x, y, yaw), float(self.watch.slip[foot])
 
     @property
     def slip(self) -> float:
         """Largest slip in m of a foot while it carried a quarter of the weight."""
+        for side in SIDES:
+            self._hand_over(side)
         stands = [*self.stands, *self._standing.values()]
         return max((s.slip for s in stands), default=0.0)
 
     def last_stands(self) -> list[Stand]:
         """The stands that could be steps: of each foot the last one before the other foot touches down."""
+        for side in SIDES:
+            self._hand_over(side)
         carrying = [s for s in self.stands if s.place is not None]
         return [list(group)[-1] for _, group in groupby(carrying, key=lambda s: s.side)]
 

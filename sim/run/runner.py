@@ -299,17 +299,17 @@ class Simulation:
                 skipped["percept_members"] += self.compute_rest(command, everything)
                 if command.footholds:
                     self.foothold_truth.update(command.footholds)
-                truth = judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
+                judge.update(command.state.com, command.state.zmp, feet, command.moved_steps)
                 if self.speeds is not None:
                     self.speeds.update(data.time)
                 if self.touched is not None:
-                    self.touched.update(world, truth.zmp)
+                    self.touched.update(world, judge.truth().zmp)
                 if self.recovery is not None:
                     plan, com = command.reference, data.subtree_com[world.torso, :2]
-                    self.recovery.update(data.time, truth.zmp, com, plan.vrp, plan.com)
+                    self.recovery.update(data.time, judge.truth().zmp, com, plan.vrp, plan.com)
                 zmps = None if self.zmps is None else self.zmps.update(data.time, command)
                 if log is not None:
-                    log.tick(reading, command, controller.plan.view, joints, truth)
+                    log.tick(reading, command, controller.plan.view, joints, judge.truth())
                     if zmps is not None:
                         log.zmps(data.time, *zmps)
                 else:
@@ -440,9 +440,7 @@ class Simulation:
             **judge.joints.summary(),
             "estimate": {
                 "com_error_max_m": [round(float(v), 4) for v in judge.estimate_error_max],
-                "zmp_error_rms_m": round(float(np.sqrt(np.mean(np.square(judge.zmp_error)))), 5)
-                if judge.zmp_error
-                else None,
+                "zmp_error_rms_m": None if judge.zmp_error is None else round(judge.zmp_error, 5),
             },
         }
         summary |= self._of_parts(landings, balance)

@@ -30,6 +30,10 @@ def test_each_step_says_who_lands_who_touches_and_who_is_fast(module, seed):
         assert watch.step() == wanted
     assert watch.now == 1999
     assert landings > 3
+    legs[:], speeds[:], watch.awake = 0.0, 0.0, True
+    assert watch.step() == module.AWAKE
+    watch.awake = False
+    assert watch.step() == 0
     speeds[:] = 1.0, np.nan, 100.0, np.nan, 2.0
     assert not watch.step() & module.FAST  # joints without a limit, or that are not asked for
     speeds[2] = np.nan

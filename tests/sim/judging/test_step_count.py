@@ -30,7 +30,7 @@ class Walk:
     def land(self, step: Footstep, force: float = WEIGHT, dx: float = 0.0, dyaw: float = 0.0) -> None:
         self.time += 1.0
         self.count.touch(step.side, self.time)
-        self.count.carry(step.side, force, step.x + dx, step.y, step.yaw + dyaw)
+        self.count.watch.carry(SIDES.index(step.side), force, step.x + dx, step.y, step.yaw + dyaw)
 
     def say(self, *moved: MovedStep) -> None:
         self.goal.hear(self.time, moved)
@@ -95,7 +95,7 @@ def test_a_foot_that_slides_away_while_it_stands_has_not_stayed() -> None:
     for step in STEPS:
         walk.land(step)
     last = STEPS[-1]
-    walk.count.carry(last.side, WEIGHT, last.x + 0.08, last.y, 0.0)
+    walk.count.watch.carry(SIDES.index(last.side), WEIGHT, last.x + 0.08, last.y, 0.0)
     assert walk.taken == 5
     assert walk.count.slip == pytest.approx(0.08)
 
