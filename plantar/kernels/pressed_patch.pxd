@@ -1,6 +1,6 @@
 # C types of pressed_patch.py. Without a compiler this file is not read.
 cimport cython
-from . cimport convex, foundation
+from . cimport clean, convex, foundation
 
 
 @cython.locals(places=set, x=double, y=double)
@@ -15,12 +15,17 @@ cdef class PressedPatch:
     cdef readonly double[:, ::1] inverse
     cdef readonly double[:, ::1] reach
     cdef readonly unsigned char[::1] carried
+    cdef int turn
     cdef double cx
     cdef double cy
     cdef double scale
     cdef readonly double x
     cdef readonly double y
 
-    @cython.locals(nearest="double[::1]", some=bint, i=Py_ssize_t)
+    @cython.locals(some=bint, i=Py_ssize_t)
     cpdef bint spread(self, double force, double x, double y, double[::1] out) except *
+
+    @cython.locals(nearest="double[::1]", _margin=double)
+    cdef int _to_reach(self) except -1
+
     cpdef bint part(self, double force, double[::1] out) noexcept

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import convex, foundation
+from . import clean, convex, foundation
 
 __all__ = ["PressedPatch", "patch_key"]
 
@@ -49,6 +49,7 @@ class PressedPatch:
         self.u = u
         self.inverse = inverse
         self.reach = reach
+        self.turn = clean.turning(reach, 0.0, 0.0, 0.0)  # which way it goes round, 0 where it has to be cleaned first
         self.carried = np.zeros(len(cells), dtype=np.uint8)
         self.x = 0.0
         self.y = 0.0
@@ -70,13 +71,20 @@ class PressedPatch:
         self.y = (y - self.cy) / self.scale
         if foundation.spread_whole(self.u, self.area, self.inverse, self.x, self.y, force, self.cells, out):
             return True
-        nearest = convex.closest_point(self.reach, self.x, self.y)
-        self.x, self.y = nearest[0], nearest[1]
+        self._to_reach()
         some = False
         for i in range(self.carried.shape[0]):
             if self.carried[i]:
                 some = True
         return some and self.part(force, out)
+
+    def _to_reach(self):
+        """Put the load where the cells can carry it."""
+        if self.turn != 0:
+            _margin, self.x, self.y = convex._nearest(self.reach, self.turn, self.x, self.y)
+        else:
+            nearest = convex.closest_point(self.reach, self.x, self.y)
+            self.x, self.y = nearest[0], nearest[1]
 
     def part(self, force, out):
         """Spread the load of the last `spread` over a part of the cells, starting from those of `carried`.

@@ -1,6 +1,7 @@
 # C types of pressed_sole.py. Without a compiler this file is not read.
 cimport cython
 from . cimport pressed_patch
+from .contacts_in_sole cimport ContactsInSole
 from .foot_contacts cimport FootContacts
 from .pressed_patch cimport PressedPatch
 
@@ -13,6 +14,9 @@ cdef class PressedSole:
     cdef object make
     cdef object settle
     cdef readonly dict made
+    cdef object carried
+    cdef readonly double[::1] forces
+    cdef object one_part
     cdef double[::1] part
     cdef PressedPatch recent
     cdef Py_ssize_t recent_count
@@ -22,17 +26,24 @@ cdef class PressedSole:
 
     cdef _make_room(self, Py_ssize_t room)
 
+    cpdef press(self, FootContacts contacts, const double[:, ::1] vectors, double reach)
+
+    cpdef int stand(self, FootContacts contacts, ContactsInSole seen, double reach) except -1
+
     @cython.locals(
         k=Py_ssize_t, j=Py_ssize_t, row=Py_ssize_t, count=Py_ssize_t, known=bint, force=double, about_x=double,
         about_y=double, x=double, y=double, z=double, fx=double, fy=double, fz=double
     )
-    cpdef press(self, FootContacts contacts, const double[:, ::1] vectors, double reach)
+    cpdef int load(self, FootContacts contacts, const double[:, ::1] vectors, double reach) except -1
+
+    @cython.locals(i=Py_ssize_t)
+    cdef void _clear(self) noexcept
 
     @cython.locals(count=Py_ssize_t, px=double, py=double)
     cpdef spread(self, points, double force, double x, double y)
 
     @cython.locals(patch=PressedPatch, i=Py_ssize_t)
-    cdef _spread(self, Py_ssize_t count, double force, double x, double y, double[::1] out)
+    cdef int _spread(self, Py_ssize_t count, double force, double x, double y) except -1
 
     @cython.locals(same=bint, i=Py_ssize_t, x=double, y=double, key=tuple)
     cdef PressedPatch _patch(self, Py_ssize_t count)

@@ -18,6 +18,9 @@ class PressedSole:
         most: How many patches are kept.
         make: Makes the patch of contact points (k, 2) in m.
         settle: Spreads a load in N that a patch does not settle by itself over an array (n,).
+
+    Attributes:
+        forces: Forces (n,) in N that the taxels carried last.
     """
 
     def __init__(self, gains, grid, most, make, settle):
@@ -27,7 +30,10 @@ class PressedSole:
         self.make = make
         self.settle = settle
         self.made = {}
-        self.part = np.zeros(len(gains))
+        self.carried = np.zeros(len(gains))
+        self.forces = self.carried
+        self.one_part = np.zeros(len(gains))
+        self.part = self.one_part
         self.recent = None  # the patch that was pressed last
         self.recent_count = 0
         self._make_room(8)
@@ -50,7 +56,23 @@ class PressedSole:
         Returns:
             Forces (n,) in N.
         """
-        out = np.zeros(self.gains.shape[0])
+        self.load(contacts, vectors, reach)
+        return self.carried.copy()
+
+    def stand(self, contacts, seen, reach):
+        """Set `forces` to what the taxels carry of a foot's contacts, pair of geoms by pair.
+
+        Args:
+            contacts: The foot's contacts.
+            seen: `ContactsInSole`, which turns them into the sole frame.
+            reach: Gap in m beyond which a contact that carries nothing is left out.
+        """
+        seen.turn(contacts)
+        self.load(contacts, seen.vectors, reach)
+
+    def load(self, contacts, vectors, reach):
+        """`press`, whose result is in `forces`."""
+        self._clear()
         if contacts.size > self.room:
             self._make_room(2 * contacts.size)
         for k in range(contacts.size):
@@ -76,8 +98,12 @@ class PressedSole:
                 self.points[count, 0], self.points[count, 1] = x, y
                 count += 1
             if force > 0.0:
-                self._spread(count, force, -about_y / force, about_x / force, out)
-        return out
+                self._spread(count, force, -about_y / force, about_x / force)
+
+    def _clear(self):
+        """Nothing is carried."""
+        for i in range(self.forces.shape[0]):
+            self.forces[i] = 0.0
 
     def spread(self, points, force, x, y):
         """What the taxels carry of one load.
@@ -91,25 +117,25 @@ class PressedSole:
         Returns:
             Forces (n,) in N.
         """
-        out = np.zeros(self.gains.shape[0])
+        self._clear()
         if len(points) > self.room:
             self._make_room(2 * len(points))
         count = 0
         for px, py in points:
             self.points[count, 0], self.points[count, 1] = px, py
             count += 1
-        self._spread(count, force, x, y, out)
-        return out
+        self._spread(count, force, x, y)
+        return self.carried.copy()
 
-    def _spread(self, count, force, x, y, out):
+    def _spread(self, count, force, x, y):
         """Add what the taxels carry of a load on the first points."""
         patch = self._patch(count)
         for i in range(self.part.shape[0]):
             self.part[i] = 0.0
         if not patch.spread(force, x, y, self.part):
-            self.settle(patch, force, np.asarray(self.part))
+            self.settle(patch, force, self.one_part)
         for i in range(self.part.shape[0]):
-            out[i] = out[i] + self.part[i] * self.gains[i]
+            self.forces[i] = self.forces[i] + self.part[i] * self.gains[i]
 
     def _patch(self, count):
         """The patch of the first points: mostly the one that was pressed last."""

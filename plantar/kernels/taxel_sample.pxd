@@ -1,14 +1,22 @@
 # C types of taxel_sample.py. Without a compiler this file is not read.
 cimport cython
+from .noise_rows cimport NoiseRows
+from .pressed_sole cimport PressedSole
 
 cdef double _NONE
 
-cpdef taxel_sample(
-    const double[:] force, const double[:] noise, double least, double most, const Py_ssize_t[::1] dead
-)
+@cython.final
+cdef class TaxelSample:
+    cdef NoiseRows noise
+    cdef double least
+    cdef double most
+    cdef const Py_ssize_t[::1] dead
+    cdef object sample
+    cdef double[::1] told
 
-@cython.locals(i=Py_ssize_t, value=double)
-cdef void _fill(
-    const double[:] force, const double[:] noise, double least, double most, const Py_ssize_t[::1] dead,
-    double[::1] out
-) noexcept
+    cpdef of(self, const double[:] force)
+
+    cpdef of_sole(self, PressedSole sole)
+
+    @cython.locals(i=Py_ssize_t, value=double)
+    cdef void _take(self, const double[:] force, Py_ssize_t row) noexcept

@@ -1,40 +1,65 @@
-"""Kernel of one sample of taxels: what their electronics make of the forces on them."""
+"""Kernel of the samples of taxels: what their electronics make of the forces on them."""
 
 from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["taxel_sample"]
+__all__ = ["TaxelSample"]
 
 _NONE = float("nan")
 
 
-def taxel_sample(force, noise, least, most, dead):
-    """What taxels read.
+class TaxelSample:
+    """Samples n taxels.
 
     Args:
-        force: Force (n,) on each taxel in N.
-        noise: What is added to it (n,) in N.
-        least: Least force in N that they tell.
+        noise: `NoiseRows` in N, of which each sample takes the next n numbers.
+        count: n.
+        least: Least force in N that the taxels tell.
         most: Largest one.
         dead: Indices of taxels that tell nothing.
-
-    Returns:
-        Readings (n,) in N, NaN of a dead taxel.
     """
-    out = np.empty(force.shape[0])
-    _fill(force, noise, least, most, dead, out)
-    return out
 
+    def __init__(self, noise, count, least, most, dead):
+        self.noise = noise
+        self.least = least
+        self.most = most
+        self.dead = dead
+        self.sample = np.zeros(count)
+        self.told = self.sample
 
-def _fill(force, noise, least, most, dead, out):
-    """The readings into an array."""
-    for i in range(force.shape[0]):
-        value = force[i] + noise[i]
-        if value < least:
-            value = least
-        elif value > most:
-            value = most
-        out[i] = value
-    for i in range(dead.shape[0]):
-        out[dead[i]] = _NONE
+    def of(self, force):
+        """What the taxels read.
+
+        Args:
+            force: Force (n,) on each taxel in N.
+
+        Returns:
+            Readings (n,) in N, NaN of a dead taxel.
+        """
+        self._take(force, self.noise.advance())
+        return self.sample.copy()
+
+    def of_sole(self, sole):
+        """What the taxels read of what a sole carries.
+
+        Args:
+            sole: The `PressedSole`.
+
+        Returns:
+            Readings as of `of`.
+        """
+        self._take(sole.forces, self.noise.advance())
+        return self.sample.copy()
+
+    def _take(self, force, row):
+        """One sample with a row of the noise."""
+        for i in range(self.told.shape[0]):
+            value = force[i] + self.noise.rows[row, i]
+            if value < self.least:
+                value = self.least
+            elif value > self.most:
+                value = self.most
+            self.told[i] = value
+        for i in range(self.dead.shape[0]):
+            self.told[self.dead[i]] = _NONE

@@ -79,10 +79,13 @@ class Reading:
             False
         """
         reading = object.__new__(cls)
+        kept = reading.__dict__  # what is not put there is None, as the class says
+        kept["time"] = time
         force.setflags(False)  # type: ignore[call-arg]  # by name it takes twice as long
+        kept["force"] = force
         if proximity is not None:
             proximity.setflags(False)  # type: ignore[call-arg]
-        reading.__dict__.update(time=time, force=force, proximity=proximity, temperature=None, acceleration=None)
+            kept["proximity"] = proximity
         return reading
 
     def __reduce__(self) -> tuple[Any, ...]:

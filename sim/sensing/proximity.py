@@ -155,7 +155,7 @@ class ProximitySensor:
             Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
         """
         count = len(self.proximity.layout)
-        noise = next(self._noise)
+        noise: NDArray[np.float64] = next(self._noise)
         if not (wanted or everything):
             self.skipped += count
             return None

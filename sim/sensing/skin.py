@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from itertools import repeat
 from typing import Any
 
 import mujoco
@@ -18,7 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.taxel_sample import taxel_sample
+from plantar.kernels.contacts_in_sole import ContactsInSole
+from plantar.kernels.noise_rows import NoiseRows
+from plantar.kernels.pressed_sole import PressedSole
+from plantar.kernels.taxel_sample import TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME
@@ -52,6 +54,7 @@ class SoleSkin:
         LayoutError: If a taxel does not face the ground.
 
     Attributes:
+        springs: What contacts press on where each cell is a spring of its own that carries all; else None.
         pressed: How often forces were spread over its taxels.
         in_air: How often there was nothing to spread.
     """
@@ -80,11 +83,12 @@ class SoleSkin:
             else ElasticPressure(layout, thickness=layer, rubber=rubber)
         )
         self._rim = BlindRim(layout, rim_stiffness, rubber) if rim_stiffness > 0.0 else None
-        self._springs = self.pressure if isinstance(self.pressure, SolePressure) and self._rim is None else None
+        self.springs: PressedSole | None = None
+        if isinstance(self.pressure, SolePressure) and self._rim is None:
+            self.springs = self.pressure.springs
         self._reach = reach
-        self._data: Any = None  # whose arrays the next two show
-        self._origin = self._rotation = np.empty(0)
-        self._shifted = self._turned = np.empty((0, 3))
+        self._data: Any = None  # which of them are seen in the sole frame
+        self._in_sole: ContactsInSole | None = None
         self.pressed = self.in_air = 0
 
     def __len__(self) -> int:
@@ -104,36 +108,47 @@ class SoleSkin:
         Returns:
             Forces (n,) in N, none negative; zeros for a sole in the air.
         """
-        if contacts is None:
-            contacts = foot_contacts(self.model, data, self.geom_ids).gathered()
-        if not contacts.size:
-            self.in_air += 1
-            return np.zeros(len(self.layout))
-        self.pressed += 1
-        vectors = self._in_sole(data, contacts)
-        if self._springs is not None:
-            return self._springs.press(contacts, vectors, self._reach)
+        if self.springs is not None:
+            self.press(data, contacts)
+            return np.array(self.springs.forces)
+        contacts = self._counted(data, contacts)
         out = np.zeros(len(self.layout))
-        for fz, tx, ty, patch in contacts.pair_loads(vectors, self._reach):
-            if fz > 0.0:
-                part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
-                out += part if self._rim is None else part * self._rim.share(patch)
+        if contacts.size:
+            seen = self._seen(data)
+            seen.turn(contacts)
+            for fz, tx, ty, patch in contacts.pair_loads(seen.vectors, self._reach):
+                if fz > 0.0:
+                    part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
+                    out += part if self._rim is None else part * self._rim.share(patch)
         return out
 
-    def _in_sole(self, data: Any, contacts: FootContacts) -> NDArray[np.float64]:
-        """Position, force and torque of each contact in turn, in the sole frame."""
-        if data is not self._data:
+    def press(self, data: Any, contacts: FootContacts | None = None) -> None:
+        """Let contacts press on the springs, whose `forces` then are what `taxel_forces` gives.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+            contacts: The sole's contacts where they are known already.
+        """
+        assert self.springs is not None
+        self.springs.stand(self._counted(data, contacts), self._seen(data), self._reach)
+
+    def _counted(self, data: Any, contacts: FootContacts | None) -> FootContacts:
+        """The sole's contacts, which are counted."""
+        if contacts is None:
+            contacts = foot_contacts(self.model, data, self.geom_ids).gathered()
+        if contacts.size:
+            self.pressed += 1
+        else:
+            self.in_air += 1
+        return contacts
+
+    def _seen(self, data: Any) -> ContactsInSole:
+        """What sees contacts in the sole frame."""
+        if data is not self._data or self._in_sole is None:
             self._data = data
-            self._origin = data.site_xpos[self.site_id]
-            self._rotation = data.site_xmat[self.site_id].reshape(3, 3)
-        rows = 3 * contacts.size
-        if rows > len(self._turned):
-            self._shifted, self._turned = np.zeros((2 * rows, 3)), np.zeros((2 * rows, 3))
-        contacts.from_origin(self._origin, self._shifted)
-        together = 1 if rows == 3 else rows  # BLAS adds up in another order for a single contact
-        for k in range(0, rows, together):
-            np.dot(self._shifted[k : k + together], self._rotation, out=self._turned[k : k + together])
-        return self._turned
+            rotation = data.site_xmat[self.site_id].reshape(3, 3)
+            self._in_sole = ContactsInSole(data.site_xpos[self.site_id], rotation)
+        return self._in_sole
 
 
 @dataclass(frozen=True)
@@ -205,10 +220,13 @@ class SkinSensor:
         self.range = skin.layout.ranges.get("force", DEFAULT_RANGES["force"])
         self.proximity = proximity
         count = len(skin)
-        self._noise: Iterator[NDArray[np.float64]] = repeat(np.zeros(count))
+        noise = NoiseRows(lambda: np.zeros((1, count)))
         if rng is not None and self.noise_std > 0.0:
-            self._noise = white_noise(rng, 0.0, self.noise_std, count)
+            noise = white_noise(rng, 0.0, self.noise_std, count)
+        self._sample = TaxelSample(noise, count, *self.range, self.dead)
         self._errors = errors
+        # Where nothing comes between a sole's springs and the electronics, forces need no array of their own.
+        self._springs = skin.springs if isinstance(skin, SoleSkin) and errors is None else None
         self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
         self._start = 0.0
         self._taken = 0
@@ -248,10 +266,14 @@ class SkinSensor:
 
     def _forces(self, data: Any, contacts: FootContacts | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
-        force = self.skin.taxel_forces(data, contacts)
-        if self._errors is not None:
-            force = self._errors.felt(force, float(data.time))
-        sample: NDArray[np.float64] = taxel_sample(force, next(self._noise), *self.range, self.dead)
+        if self._springs is not None:
+            self.skin.press(data, contacts)
+            sample: NDArray[np.float64] = self._sample.of_sole(self._springs)
+        else:
+            force = self.skin.taxel_forces(data, contacts)
+            if self._errors is not None:
+                force = self._errors.felt(force, float(data.time))
+            sample = self._sample.of(force)
         return sample
 
 

@@ -51,6 +51,9 @@ class SolePressure:
         LayoutError: If a taxel does not face the ground.
         InputError: If the thickness is not above 0.
 
+    Attributes:
+        springs: The cells, each a spring, that contacts press on.
+
     Example:
         >>> from plantar import hex_layout
         >>> layout = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
@@ -77,7 +80,7 @@ class SolePressure:
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         gains = np.ones(len(layout)) if self._gain is None else self._gain
-        self._sole = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch, _spread_slowly)
+        self.springs = PressedSole(gains, _GRID, _MOST_PATCHES, self._make_patch, _spread_slowly)
 
     def spread(
         self, patch: Sequence[tuple[float, float]], force: float, center_of_pressure: tuple[float, float]
@@ -94,7 +97,7 @@ class SolePressure:
         """
         if not (0.0 < force < math.inf) or not len(patch):
             return np.zeros(len(self.layout))
-        out: NDArray[np.float64] = self._sole.spread(patch, force, *center_of_pressure)
+        out: NDArray[np.float64] = self.springs.spread(patch, force, *center_of_pressure)
         return out
 
     def press(self, contacts: FootContacts, vectors: NDArray[np.float64], reach: float) -> NDArray[np.float64]:
@@ -108,7 +111,7 @@ class SolePressure:
         Returns:
             Forces (n,) in N, none negative.
         """
-        out: NDArray[np.float64] = self._sole.press(contacts, vectors, reach)
+        out: NDArray[np.float64] = self.springs.press(contacts, vectors, reach)
         return out
 
     def along_taxels(self, force: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 from numpy.typing import NDArray
+
+from plantar.kernels.noise_rows import NoiseRows
 
 __all__ = ["white_noise"]
 
 _TOGETHER = 64  # samples that are drawn at once: a draw of forty numbers costs twice as much alone
 
 
-def white_noise(
-    rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int
-) -> Iterator[NDArray[np.float64]]:
+def white_noise(rng: np.random.Generator, mean: float, std: float | NDArray[np.float64], count: int) -> NoiseRows:
     """Samples of noise without end: the same numbers as `rng.normal(mean, std, count)` gives again and again, as long
     as nobody else draws from the source.
 
@@ -24,8 +22,8 @@ def white_noise(
         std: Standard deviation of each, or of all.
         count: Numbers of a sample.
 
-    Yields:
-        Samples (count,).
+    Returns:
+        Iterates over samples (count,).
 
     Example:
         >>> samples = white_noise(np.random.default_rng(1), 0.0, 2.0, 3)
@@ -33,5 +31,4 @@ def white_noise(
         >>> all(bool((next(samples) == rng.normal(0.0, 2.0, 3)).all()) for _ in range(200))
         True
     """
-    while True:
-        yield from rng.normal(mean, std, (_TOGETHER, count))
+    return NoiseRows(lambda: rng.normal(mean, std, (_TOGETHER, count)))

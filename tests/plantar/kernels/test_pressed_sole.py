@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.kernels import is_compiled, python_form
+from plantar.kernels.contacts_in_sole import ContactsInSole
 from plantar.kernels.foot_contacts import FootContacts
 from plantar.kernels.pressed_sole import PressedSole
 from sim.sensing import sole_pressure
@@ -65,6 +66,23 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
         with pytest.MonkeyPatch.context() as context:
             context.setattr(sole_pressure, "PressedPatch", patches.PressedPatch)
             assert np.array_equal(one, python.press(foot_of(*case, lists), case[1], REACH))
+            assert np.array_equal(one, python.forces)
+            assert np.array_equal(one, compiled.springs.forces)
+
+
+@settings(max_examples=20, deadline=None)
+@given(seeds)
+def test_contacts_in_the_world_press_where_the_sole_sees_them(seed):
+    rng = np.random.default_rng(seed)
+    pressure, rotation = SolePressure(LAYOUT), np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    seen = ContactsInSole(rng.normal(size=3), rotation)
+    for ids, vectors, gaps, carries in contacts(seed):
+        foot = foot_of(ids, vectors @ rotation.T, gaps, carries)
+        pressure.springs.stand(foot, seen, REACH)
+        stood = np.array(pressure.springs.forces)
+        assert np.array_equal(stood, pressure.press(foot, np.asarray(seen.vectors), REACH))
+        pressure.springs.stand(foot_of(ids[:0], vectors[:0], gaps[:0], carries[:0]), seen, REACH)
+        assert not np.any(pressure.springs.forces)
 
 
 def test_patches_that_were_not_pressed_for_long_are_forgotten():

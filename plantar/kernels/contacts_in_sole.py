@@ -1,0 +1,53 @@
+"""Kernel of a foot's contacts as its sole sees them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = ["ContactsInSole"]
+
+_dot = np.dot
+
+
+class ContactsInSole:
+    """Turns a foot's contacts into the frame of its sole, again and again in the same arrays.
+
+    Args:
+        origin: The sole's origin (3,) in the world in m, where the simulator writes it.
+        rotation: Rotation (3, 3) from the sole to the world, likewise.
+
+    Attributes:
+        vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3), of those turned last.
+    """
+
+    def __init__(self, origin, rotation):
+        self.origin = origin
+        self.rotation = rotation
+        self.room = 0
+        self._make_room(8)
+
+    def _make_room(self, room):
+        """Room for so many contacts; those that are there are forgotten."""
+        self.room = room
+        shifted, turned = np.zeros((3 * room, 3)), np.zeros((3 * room, 3))
+        self.shifted = shifted
+        self.vectors = turned
+        self.rows = [(shifted[k : k + 1], turned[k : k + 1]) for k in range(3)]
+        self.heads = [(shifted[: 3 * k], turned[: 3 * k]) for k in range(room + 1)]
+
+    def turn(self, contacts):
+        """Turn the contacts as they are now.
+
+        Args:
+            contacts: The foot's `FootContacts`.
+        """
+        count = contacts.size
+        if count > self.room:
+            self._make_room(2 * count)
+        contacts.from_origin(self.origin, self.shifted)
+        if count == 1:  # BLAS adds up in another order for a single contact than for several
+            for shifted, turned in self.rows:
+                _dot(shifted, self.rotation, turned)
+        elif count > 1:
+            shifted, turned = self.heads[count]
+            _dot(shifted, self.rotation, turned)
