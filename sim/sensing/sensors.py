@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gait.controller import Sensors
 from gait.estimate.ankle_sensor import AnkleSensor
+from plantar.kernels.sensed_body import SensedBody
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side
@@ -63,11 +64,15 @@ class SensorSuite:
         self._imu_to_base = _imu_to_base(world)
         k = len(world.joint_qpos)
         noise = np.repeat([sensing.encoder_noise, sensing.gyro_noise, sensing.accelerometer_noise], [k, 3, 3])
-        self._body_noise = white_noise(np.random.default_rng(streams[2]), 0.0, noise, k + 6)
-        sensed = world.data.sensordata  # views of MuJoCo's own arrays: to ask for them costs more than to read them
-        self._gyro = sensed[world.gyro : world.gyro + 3]
-        self._accelerometer = sensed[world.accelerometer : world.accelerometer + 3]
-        self._positions = world.data.qpos
+        sensed = world.data.sensordata
+        self._body = SensedBody(
+            world.data.qpos,
+            world.joint_qpos,
+            sensed[world.gyro : world.gyro + 3],
+            sensed[world.accelerometer : world.accelerometer + 3],
+            white_noise(np.random.default_rng(streams[2]), 0.0, noise, k + 6),
+            *((np.empty(0), np.empty(0)) if plant is None else (plant.encoder_offsets, plant.gyro_bias)),
+        )
         self._ankle_noise = np.random.default_rng(streams[6]) if force_torque else None
         chance = np.random.default_rng(streams[5])
         dead = {side: _dead_taxels(len(world.robot.layouts[side]), sensing.dead_taxels, chance) for side in SIDES}
@@ -89,7 +94,6 @@ class SensorSuite:
             for side, stream in zip(SIDES, streams[:2], strict=True)
         }
         self._contacts = ContactReader(world.model, world.data, [self.skins[side].skin.geom_ids for side in SIDES])
-        self._plant = plant
         self._line: Delay[Sensors] | None = Delay(plant.sensor_delay) if plant and plant.sensor_delay else None
         self.skin_every = max(1, round(1.0 / (sensing.skin_rate * world.period)))
         self.readings: dict[Side, Reading] = {}
@@ -121,17 +125,11 @@ class SensorSuite:
 
     def _read_now(self) -> Sensors:
         """What encoders and IMU read at this instant, with the soles' latest readings."""
-        world, noise = self._world, next(self._body_noise)
-        gyro = self._gyro + noise[-6:-3]
-        specific = self._accelerometer + noise[-3:]
-        joints = self._positions[world.joint_qpos] + noise[:-6]
-        if self._plant is not None:
-            gyro = gyro + self._plant.gyro_bias
-            joints = joints + self._plant.encoder_offsets
+        joints, gyro, specific = self._body.read()
         if self._imu_to_base is not None:
             gyro, specific = self._imu_to_base.dot(gyro), self._imu_to_base.dot(specific)
         return Sensors(
-            time=float(world.data.time),
+            time=self._world.data.time,
             joint_positions=joints,
             gyro=gyro,
             accelerometer=specific,
