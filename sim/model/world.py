@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any, Protocol
 
 import mujoco
@@ -36,7 +37,7 @@ _SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it 
 
 _LEG_CONTACT = "truth_leg_contact"
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
-_DIVERGED = (
+_of_divergence = itemgetter(
     int(mujoco.mjtWarning.mjWARN_BADQPOS),
     int(mujoco.mjtWarning.mjWARN_BADQVEL),
     int(mujoco.mjtWarning.mjWARN_BADQACC),
@@ -82,8 +83,7 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
     Raises:
         SceneError: If positions, velocities, accelerations or controls were not finite or too large.
     """
-    counts = warnings.tolist()
-    if any(counts[kind] for kind in _DIVERGED):
+    if any(_of_divergence(warnings.tolist())):
         raise SceneError(
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
             "lower that, the robot's [servo] stiffness and damping, or what pushes it"
