@@ -4,6 +4,20 @@ from .few_points cimport FewPoints
 
 
 @cython.final
+cdef class ContactList:
+    cdef const int[:, :] geoms
+    cdef const double[:, :] positions
+    cdef const double[:, :] frames
+    cdef const double[:] gaps
+    cdef const int[:] addresses
+    cdef const int[:] sizes
+
+
+@cython.locals(foot=FootContacts)
+cpdef int gather_feet(tuple feet, ContactList listed, const double[:] forces) except -1
+
+
+@cython.final
 cdef class FootContacts:
     cdef const unsigned char[::1] own
     cdef readonly Py_ssize_t size
@@ -12,19 +26,8 @@ cdef class FootContacts:
     cdef readonly double[:, ::1] vectors
     cdef readonly double[::1] gaps
     cdef readonly unsigned char[::1] carries
-    cdef const int[:, :] all_geoms
-    cdef const double[:, :] all_positions
-    cdef const double[:, :] all_frames
-    cdef const double[:] all_gaps
-    cdef const int[:] all_addresses
-    cdef const int[:] all_sizes
 
-    cdef _make_room(self, Py_ssize_t room)
-
-    cpdef show(
-        self, const int[:, :] geoms, const double[:, :] positions, const double[:, :] frames, const double[:] gaps,
-        const int[:] addresses, const int[:] sizes
-    )
+    cdef int _make_room(self, Py_ssize_t room) except -1
 
     cpdef void clear(self) noexcept
 
@@ -34,10 +37,10 @@ cdef class FootContacts:
     )
 
     @cython.locals(
-        i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, m=Py_ssize_t, first=int, second=int, a=bint, b=bint, sign=double,
-        start=Py_ssize_t, row=Py_ssize_t, half=Py_ssize_t, axis=Py_ssize_t, value=double
+        count=Py_ssize_t, i=Py_ssize_t, j=Py_ssize_t, k=Py_ssize_t, m=Py_ssize_t, first=int, second=int, a=bint, b=bint,
+        sign=double, start=Py_ssize_t, row=Py_ssize_t, half=Py_ssize_t, axis=Py_ssize_t, value=double
     )
-    cpdef void gather(self, const double[:] forces) noexcept
+    cpdef int gather(self, ContactList listed, const double[:] forces) except -1
 
     @cython.locals(k=Py_ssize_t, row=Py_ssize_t, j=Py_ssize_t)
     cpdef void from_origin(self, const double[:] origin, double[:, ::1] out) noexcept

@@ -4,7 +4,40 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["FootContacts"]
+__all__ = ["ContactList", "FootContacts", "gather_feet"]
+
+
+class ContactList:
+    """Where a simulator lists the contacts of all bodies, n of them.
+
+    Args:
+        geoms: Ids (n, 2) of the geoms that touch, -1 for what is no geom.
+        positions: Contact points (n, 3) in the world in m.
+        frames: Contact frames (n, 9), axis by axis.
+        gaps: Gaps (n,) in m.
+        addresses: Where each contact's numbers begin among the forces (n,); negative for one that carries nothing.
+        sizes: How many numbers each contact has (n,), up to 6: force and torque along its axes.
+    """
+
+    def __init__(self, geoms, positions, frames, gaps, addresses, sizes):
+        self.geoms = geoms
+        self.positions = positions
+        self.frames = frames
+        self.gaps = gaps
+        self.addresses = addresses
+        self.sizes = sizes
+
+
+def gather_feet(feet, listed, forces):
+    """Gather the contacts of several feet.
+
+    Args:
+        feet: Their `FootContacts`, a tuple.
+        listed: The `ContactList`.
+        forces: Forces in N and torques in N m of all contacts that carry.
+    """
+    for foot in feet:
+        foot.gather(listed, forces)
 
 
 class FootContacts:
@@ -37,26 +70,6 @@ class FootContacts:
         self.gaps = np.empty(room)
         self.carries = np.empty(room, dtype=np.uint8)
 
-    def show(self, geoms, positions, frames, gaps, addresses, sizes):
-        """Say where the simulator lists the contacts of all bodies.
-
-        Args:
-            geoms: Ids (n, 2) of the geoms that touch, -1 for what is no geom.
-            positions: Contact points (n, 3) in the world in m.
-            frames: Contact frames (n, 9), axis by axis.
-            gaps: Gaps (n,) in m.
-            addresses: Where each contact's numbers begin among the forces (n,); negative for one that carries nothing.
-            sizes: How many numbers each contact has (n,), up to 6: force and torque along its axes.
-        """
-        self.all_geoms = geoms
-        self.all_positions = positions
-        self.all_frames = frames
-        self.all_gaps = gaps
-        self.all_addresses = addresses
-        self.all_sizes = sizes
-        if geoms.shape[0] > self.room:
-            self._make_room(2 * geoms.shape[0])
-
     def clear(self):
         """No contacts at all."""
         self.size = 0
@@ -81,18 +94,22 @@ class FootContacts:
                 self.vectors[k, j] = vectors[k, j]
         self.size = count
 
-    def gather(self, forces):
+    def gather(self, listed, forces):
         """Gather the contacts between the foot's geoms and others, with forces turned into the world frame.
 
         A contact's force is given in its own frame, whose rows are its axes, as the force on the second geom: it
         changes sign where the foot is the first. Sums run in the order of the axes.
 
         Args:
+            listed: The `ContactList`.
             forces: Forces in N and torques in N m of all contacts that carry.
         """
+        count = listed.geoms.shape[0]
+        if count > self.room:
+            self._make_room(2 * count)
         k = 0
-        for i in range(self.all_geoms.shape[0]):
-            first, second = self.all_geoms[i, 0], self.all_geoms[i, 1]
+        for i in range(count):
+            first, second = listed.geoms[i, 0], listed.geoms[i, 1]
             a = self.own[first] if first >= 0 else 0
             b = self.own[second] if second >= 0 else 0
             if a == b:
@@ -102,16 +119,16 @@ class FootContacts:
             sign = 1.0 if b else -1.0
             row = 3 * k
             for j in range(3):
-                self.vectors[row, j] = self.all_positions[i, j]
+                self.vectors[row, j] = listed.positions[i, j]
                 self.vectors[row + 1, j] = self.vectors[row + 2, j] = 0.0
-            start = self.all_addresses[i]
+            start = listed.addresses[i]
             if start >= 0:
-                for m in range(self.all_sizes[i]):
+                for m in range(listed.sizes[i]):
                     value = sign * forces[start + m]
                     half, axis = row + 1 if m < 3 else row + 2, 3 * (m % 3)
                     for j in range(3):
-                        self.vectors[half, j] += value * self.all_frames[i, axis + j]
-            self.gaps[k] = self.all_gaps[i]
+                        self.vectors[half, j] += value * listed.frames[i, axis + j]
+            self.gaps[k] = listed.gaps[i]
             self.carries[k] = start >= 0
             k += 1
         self.size = k

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.few_points import small_hull
-from plantar.kernels.foot_contacts import FootContacts
+from plantar.kernels.foot_contacts import ContactList, FootContacts, gather_feet
 from plantar.kernels.ground_reaction import GroundReaction
 
 __all__ = [
@@ -166,8 +166,7 @@ class ContactReader:
             mask[list(geom_ids)] = 1
         self._feet = tuple(FootContacts(mask) for mask in own)
         self._elliptic = model.opt.cone == _ELLIPTIC
-        self._lists: dict[int, tuple[NDArray[Any], ...]] = {}
-        self._shown = 0
+        self._lists: dict[int, ContactList] = {}
 
     def read(self) -> tuple[FootContacts, ...]:
         """The contacts of each foot as the last `mj_step` or `mj_forward` left them; the same objects each time, which
@@ -177,33 +176,29 @@ class ContactReader:
             for foot in self._feet:
                 foot.clear()
             return self._feet
-        if n != self._shown:
-            self._show(n)
-        forces = data.efc_force if self._elliptic else self._along_frames(n)
-        for foot in self._feet:
-            foot.gather(forces)
+        listed = self._lists.get(n)
+        if listed is None:
+            listed = self._lists[n] = self._list()
+        if self._elliptic:
+            gather_feet(self._feet, listed, data.efc_force)
+        else:
+            gather_feet(self._feet, *self._along_frames(n))
         return self._feet
 
-    def _show(self, n: int) -> None:
-        """Show the feet where MuJoCo lists so many contacts."""
-        if n not in self._lists:
-            c = self._data.contact
-            self._lists[n] = (c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
-        for foot in self._feet:
-            foot.show(*self._lists[n])
-        self._shown = n
+    def _list(self) -> ContactList:
+        """Where MuJoCo lists so many contacts as there are now."""
+        c = self._data.contact
+        return ContactList(c.geom, c.pos, c.frame, c.dist, c.efc_address, c.dim)
 
-    def _along_frames(self, n: int) -> NDArray[np.float64]:
-        """Force and torque of each contact in its frame, one after the other (6 n,), where the solver's own numbers are
-        along a pyramid's edges."""
+    def _along_frames(self, n: int) -> tuple[ContactList, NDArray[np.float64]]:
+        """The contacts with force and torque of each in its frame, one after the other (6 n,), where the solver's own
+        numbers are along a pyramid's edges."""
         local = np.zeros((n, 6))
         for i in range(n):
             mujoco.mj_contactForce(self._model, self._data, i, local[i])
-        geoms, positions, frames, gaps, address, _ = self._lists[n]
-        starts = np.where(address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
-        for foot in self._feet:
-            foot.show(geoms, positions, frames, gaps, starts, np.full(n, 6, dtype=np.int32))
-        return local.ravel()
+        c = self._data.contact
+        starts = np.where(c.efc_address >= 0, np.arange(0, 6 * n, 6), -1).astype(np.int32)
+        return ContactList(c.geom, c.pos, c.frame, c.dist, starts, np.full(n, 6, dtype=np.int32)), local.ravel()
 
 
 _ELLIPTIC = int(mujoco.mjtCone.mjCONE_ELLIPTIC)

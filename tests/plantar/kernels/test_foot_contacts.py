@@ -31,8 +31,7 @@ def listed(seed: int):
 def gathered(module, seed: int):
     shown, forces = listed(seed)
     foot = module.FootContacts(OWN)
-    foot.show(*shown)
-    foot.gather(forces)
+    module.gather_feet((foot,), module.ContactList(*shown), forces)
     return foot
 
 
