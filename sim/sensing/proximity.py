@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.ground_rays import cast_rays
+from plantar.kernels.sole_rays import SoleRays
 from plantar.layouts.layout import SoleLayout
 from sim.plant.colours import GroundColours
 from sim.sensing.white_noise import white_noise
@@ -71,10 +71,20 @@ class SoleProximity:
         self._top = ground_top
         self._colours = colours
         ids = np.flatnonzero(model.geom_group == GROUND_GROUP)
-        self._kinds = model.geom_type[ids].astype(np.int32)
-        self._simple = bool(np.isin(self._kinds, _SIMPLE).all())
-        self._ids = ids.astype(np.int32)
-        self._sizes, self._bounds = model.geom_size[ids], model.geom_rbound[ids]
+        kinds = model.geom_type[ids].astype(np.int32)
+        self._simple = bool(np.isin(kinds, _SIMPLE).all())
+        self._solids = ids.astype(np.int32), kinds, model.geom_size[ids], model.geom_rbound[ids]
+        self._data: Any = None  # in which the rays are cast
+        self._rays: SoleRays | None = None
+
+    def _rays_in(self, data: Any) -> SoleRays:
+        """The rays, from where the sole is in the data."""
+        if self._rays is None or data is not self._data:
+            self._data = data
+            place = data.site_xpos[self._site], data.site_xmat[self._site].reshape(3, 3)
+            ground = self._solids, data.geom_xpos, data.geom_xmat
+            self._rays = SoleRays(self._start, self._way, _LIFT, self.range, *place, *ground)
+        return self._rays
 
     def within_range(self, data: Any) -> bool:
         """Whether any ground can be in range: no taxel is higher above the highest ground than its range.
@@ -82,8 +92,7 @@ class SoleProximity:
         Args:
             data: The MjData.
         """
-        tilt = math.hypot(float(data.site_xmat[self._site, 6]), float(data.site_xmat[self._site, 7]))
-        return float(data.site_xpos[self._site, 2]) - self._reach * tilt <= self._top + self.range
+        return bool(self._rays_in(data).lies_below(self._reach, self._top + self.range))
 
     def distances(self, data: Any) -> NDArray[np.float64]:
         """Distance (n,) from each taxel to the ground in m as its colour shows it, free of noise; inf where nothing is
@@ -94,26 +103,33 @@ class SoleProximity:
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
         """
+        return np.array(self.look(data).distances)
+
+    def look(self, data: Any) -> SoleRays:
+        """Cast the rays where any ground can be in range.
+
+        Args:
+            data: The MjData after `mj_step` or `mj_forward`.
+
+        Returns:
+            The rays, whose `distances` are those of `distances` until they are cast anew.
+        """
+        rays = self._rays_in(data)
         if not self.within_range(data):
-            return np.full(len(self.layout), np.inf)
-        rotation = data.site_xmat[self._site].reshape(3, 3)
-        starts = self._start.dot(rotation.T) + data.site_xpos[self._site]
-        ways = self._way.dot(rotation.T)
-        reach = self.range + _LIFT
-        length = np.empty(len(starts))
+            rays.see_nothing()
+            return rays
         if self._simple:
-            cast_rays(
-                *(starts, ways, reach, self._ids, self._kinds, self._sizes, self._bounds),
-                *(data.geom_xpos, data.geom_xmat, length),
-            )
+            rays.cast()
         else:
+            rays.aim()
             geom = np.empty(1, dtype=np.int32)
-            for i, (start, way) in enumerate(zip(starts, ways, strict=True)):
-                length[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
-        distance = np.where((length >= 0.0) & (length <= reach), length - _LIFT, np.inf)
+            for i, (start, way) in enumerate(zip(rays.starts, rays.ways, strict=True)):
+                rays.lengths[i] = mujoco.mj_ray(self._model, data, start, way, _GROUPS, 1, -1, geom)
+        rays.measure()
         if self._colours is not None:
-            distance *= self._colours.stretch(starts + length[:, None] * ways)
-        return distance
+            distances, met = rays.distances, rays.starts + rays.lengths[:, None] * rays.ways
+            distances *= self._colours.stretch(met)
+        return rays
 
 
 class ProximitySensor:
@@ -141,7 +157,8 @@ class ProximitySensor:
         self.dead = np.array(sorted({int(i) for i in dead}), dtype=np.int64)
         self.cast = 0
         self.skipped = 0
-        self._noise = white_noise(rng, bias, noise_std, len(proximity.layout))
+        self._count = len(proximity.layout)
+        self._noise = white_noise(rng, bias, noise_std, self._count)
 
     def read(self, data: Any, wanted: bool, everything: bool = False) -> NDArray[np.float64] | None:
         """One sample.
@@ -154,16 +171,13 @@ class ProximitySensor:
         Returns:
             Distances (n,) in m, inf where nothing is in range, NaN for a dead taxel; None where nobody asks.
         """
-        count = len(self.proximity.layout)
-        noise: NDArray[np.float64] = next(self._noise)
+        row, count = self._noise.advance(), self._count
         if not (wanted or everything):
             self.skipped += count
             return None
-        distance = self.proximity.distances(data)
+        rays = self.proximity.look(data)
         self.cast += count
         if not wanted:
             return None
-        distance = distance + noise
-        distance[distance > self.proximity.range] = np.inf
-        distance[self.dead] = np.nan
-        return distance
+        sample: NDArray[np.float64] = rays.tell(self._noise, row, self.dead)
+        return sample

@@ -1,0 +1,126 @@
+"""Kernel of the proximity sensors of one sole: a ray of each taxel against the ground, and what is told of it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from . import ground_rays
+
+__all__ = ["SoleRays"]
+
+_INFINITE = float("inf")
+_NONE = float("nan")
+_dot = np.dot
+
+
+class SoleRays:
+    """The rays of n taxels, cast again and again from where the sole is.
+
+    Args:
+        starts: Where the rays begin (n, 3) in the sole frame in m.
+        ways: Unit vectors (n, 3) along them.
+        lift: How far in m a ray begins inside the sole.
+        most: Range of the sensors in m.
+        origin: The sole's origin (3,) in the world in m, where the simulator writes it.
+        rotation: Rotation (3, 3) from the sole to the world, likewise.
+        solids: Rows, kinds, sizes and bounds of the solids, as `cast_rays` takes them.
+        positions: Middles (m, 3) of all solids in the world in m, where the simulator writes them.
+        frames: Rotations (m, 9) from each solid to the world, likewise.
+
+    Attributes:
+        starts: Where the rays began (n, 3) in the world in m, of those aimed last.
+        ways: Unit vectors (n, 3) along them in the world.
+        lengths: How far they go (n,) in m until they meet something; below 0 where they meet nothing.
+        distances: Distance (n,) from each taxel to the ground in m; inf where nothing is in range.
+    """
+
+    def __init__(self, starts, ways, lift, most, origin, rotation, solids, positions, frames):
+        self.own_starts = starts
+        self.own_ways = ways
+        self.lift = lift
+        self.most = most
+        self.origin = origin
+        self.turned_back = rotation.T
+        self.lowest = rotation.reshape(9)
+        self.ids, self.kinds, self.sizes, self.bounds = solids
+        self.positions = positions
+        self.frames = frames
+        count = len(starts)
+        self.starts, self.ways = np.zeros((count, 3)), np.zeros((count, 3))
+        self.lengths, self.distances = np.zeros(count), np.zeros(count)
+        self.start, self.way, self.length, self.distance = self.starts, self.ways, self.lengths, self.distances
+        self.sample = np.zeros(count)
+        self.told = self.sample
+
+    def lies_below(self, reach, height):
+        """Whether any taxel can be below a height.
+
+        Args:
+            reach: Distance in m of the farthest taxel from the sole's origin.
+            height: The height in the world in m.
+        """
+        tilt = math.sqrt(self.lowest[6] * self.lowest[6] + self.lowest[7] * self.lowest[7])
+        return self.origin[2] - reach * tilt <= height
+
+    def aim(self):
+        """Let the rays begin where the sole is now."""
+        _dot(self.own_starts, self.turned_back, self.starts)
+        _dot(self.own_ways, self.turned_back, self.ways)
+        self._shift()
+
+    def _shift(self):
+        """Put the turned starts where the sole is."""
+        for i in range(self.start.shape[0]):
+            for j in range(3):
+                self.start[i, j] = self.start[i, j] + self.origin[j]
+
+    def cast(self):
+        """Aim the rays, and let them go until they meet a solid."""
+        self.aim()
+        ground_rays.cast_rays(
+            self.start,
+            self.way,
+            self.most + self.lift,
+            self.ids,
+            self.kinds,
+            self.sizes,
+            self.bounds,
+            self.positions,
+            self.frames,
+            self.length,
+        )
+
+    def measure(self):
+        """Set `distances` to what the rays' lengths say."""
+        for i in range(self.length.shape[0]):
+            length = self.length[i]
+            self.distance[i] = length - self.lift if 0.0 <= length <= self.most + self.lift else _INFINITE
+
+    def see_nothing(self):
+        """Set `distances` to what taxels tell that are out of range of everything."""
+        for i in range(self.distance.shape[0]):
+            self.distance[i] = _INFINITE
+
+    def tell(self, noise, row, dead):
+        """What the sensors tell of `distances`.
+
+        Args:
+            noise: `NoiseRows` in m.
+            row: The row of it that is added.
+            dead: Indices of taxels that tell nothing.
+
+        Returns:
+            Distances (n,) in m, inf where nothing is in range, NaN of a dead taxel.
+        """
+        self._take(noise, row)
+        for i in range(dead.shape[0]):
+            self.told[dead[i]] = _NONE
+        return self.sample.copy()
+
+    def _take(self, noise, row):
+        """The distances with noise, as far as the sensors reach."""
+        for i in range(self.told.shape[0]):
+            value = self.distance[i] + noise.rows[row, i]
+            self.told[i] = _INFINITE if value > self.most else value
