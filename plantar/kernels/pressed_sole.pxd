@@ -6,6 +6,9 @@ from .foot_contacts cimport FootContacts
 from .pressed_patch cimport PressedPatch
 
 
+cdef int _RECENT
+
+
 @cython.final
 cdef class PressedSole:
     cdef const double[::1] gains
@@ -18,12 +21,14 @@ cdef class PressedSole:
     cdef readonly double[::1] forces
     cdef object one_part
     cdef double[::1] part
-    cdef PressedPatch recent
-    cdef Py_ssize_t recent_count
+    cdef list recent
+    cdef Py_ssize_t[::1] recent_counts
+    cdef int slot
     cdef Py_ssize_t room
     cdef double[:, ::1] points
-    cdef double[:, ::1] places
+    cdef double[:, :, ::1] places
 
+    @cython.locals(slot=Py_ssize_t)
     cdef _make_room(self, Py_ssize_t room)
 
     cpdef press(self, FootContacts contacts, const double[:, ::1] vectors, double reach)
@@ -45,8 +50,11 @@ cdef class PressedSole:
     @cython.locals(patch=PressedPatch, i=Py_ssize_t)
     cdef int _spread(self, Py_ssize_t count, double force, double x, double y) except -1
 
-    @cython.locals(same=bint, i=Py_ssize_t, x=double, y=double, key=tuple)
+    @cython.locals(i=int, slot=int, key=tuple)
     cdef PressedPatch _patch(self, Py_ssize_t count)
+
+    @cython.locals(i=Py_ssize_t, x=double, y=double)
+    cdef bint _is_recent(self, Py_ssize_t slot, Py_ssize_t count) noexcept
 
 
 cdef bint _counts(

@@ -8,6 +8,8 @@ from . import pressed_patch
 
 __all__ = ["PressedSole"]
 
+_RECENT = 4  # patches that are looked at before any other: one for each piece of ground that a sole mostly stands on
+
 
 class PressedSole:
     """Spreads loads over the cells of a sole; what it takes to do so is made once a patch.
@@ -34,16 +36,18 @@ class PressedSole:
         self.forces = self.carried
         self.one_part = np.zeros(len(gains))
         self.part = self.one_part
-        self.recent = None  # the patch that was pressed last
-        self.recent_count = 0
+        self.recent = [None] * _RECENT  # the patches that were pressed lately
+        self.recent_counts = np.zeros(_RECENT, dtype=np.intp)  # how many points each has; 0 for none
+        self.slot = 0  # of the one that was pressed last
         self._make_room(8)
 
     def _make_room(self, room):
         """Room for so many points."""
         self.room = room
         self.points = np.zeros((room, 2))
-        self.places = np.zeros((room, 2))
-        self.recent_count = 0
+        self.places = np.zeros((_RECENT, room, 2))
+        for slot in range(_RECENT):
+            self.recent_counts[slot] = 0
 
     def press(self, contacts, vectors, reach):
         """What the taxels carry of a foot's contacts, pair of geoms by pair.
@@ -138,27 +142,36 @@ class PressedSole:
             self.forces[i] = self.forces[i] + self.part[i] * self.gains[i]
 
     def _patch(self, count):
-        """The patch of the first points: mostly the one that was pressed last."""
-        same = count == self.recent_count
-        for i in range(count if same else 0):
-            x = self.points[i, 0] / self.grid - self.places[i, 0]
-            y = self.points[i, 1] / self.grid - self.places[i, 1]
-            if not (-0.5 < x < 0.5 and -0.5 < y < 0.5):
-                same = False
-        if same:
-            return self.recent
+        """The patch of the first points: mostly one that was pressed lately."""
+        for i in range(_RECENT):
+            slot = (self.slot + i) % _RECENT
+            if self._is_recent(slot, count):
+                self.slot = slot
+                return self.recent[slot]
         key = pressed_patch.patch_key(np.asarray(self.points)[:count].tolist(), self.grid)
         patch = self.made.get(key)
         if patch is None:
             if len(self.made) >= self.most:
                 self.made.pop(next(iter(self.made)))
             patch = self.made[key] = self.make(np.array(key) * self.grid)
-        self.recent = patch
-        self.recent_count = count
+        slot = self.slot = (self.slot + 1) % _RECENT
+        self.recent[slot] = patch
+        self.recent_counts[slot] = count
         for i in range(count):
-            self.places[i, 0] = round(self.points[i, 0] / self.grid)
-            self.places[i, 1] = round(self.points[i, 1] / self.grid)
+            self.places[slot, i, 0] = round(self.points[i, 0] / self.grid)
+            self.places[slot, i, 1] = round(self.points[i, 1] / self.grid)
         return patch
+
+    def _is_recent(self, slot, count):
+        """Whether the first points span the patch of a slot."""
+        if count != self.recent_counts[slot]:
+            return False
+        for i in range(count):
+            x = self.points[i, 0] / self.grid - self.places[slot, i, 0]
+            y = self.points[i, 1] / self.grid - self.places[slot, i, 1]
+            if not (-0.5 < x < 0.5 and -0.5 < y < 0.5):
+                return False
+        return True
 
 
 def _counts(contacts, vectors, reach, k):
