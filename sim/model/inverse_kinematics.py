@@ -91,7 +91,7 @@ class InverseKinematics:
         self._error = np.zeros(rows)
         ends = np.cumsum([task.rows for task in tasks]).tolist()
         self._rows = [slice(end - task.rows, end) for task, end in zip(tasks, ends, strict=True)]
-        self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
+        self._writers = [t.writer(self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
         self._velocity = np.zeros(model.nv)
         in_units = [np.repeat([1.0 / unit, 1.0], [task.lengths, task.rows - task.lengths]) for task in tasks]
         units = np.ones(model.nv)
@@ -147,9 +147,8 @@ class InverseKinematics:
 
     def _step(self, largest: float) -> None:
         self.place()
-        for task, part, rows in self._parts:
-            task.error(part)
-            task.jacobian(rows)
+        for write in self._writers:
+            write()
         if self._newton.solve(largest):
             self.plain += 1
         else:

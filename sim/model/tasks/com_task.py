@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.task_rows import ComRows
+from sim.model.tasks.chain import chain
 from sim.model.tasks.task import Task
 
 __all__ = ["ComTask"]
@@ -38,3 +42,18 @@ class ComTask(Task):
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Velocity of the CoM (3, nv)."""
         mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)
+
+    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
+        """See `Task.writer`."""
+        model, data, first = self._model, self._data, self._body
+        last = first + 1  # the bodies of a tree follow each other
+        while last < model.nbody and model.body_parentid[last] >= first:
+            last += 1
+        chains = [chain(model, body) for body in range(first, last)]
+        rows = ComRows(
+            *(np.concatenate(chains), np.cumsum([len(c) for c in chains]), model.body_mass[first:last].copy()),
+            1.0 / max(mujoco.mjMINVAL, model.body_subtreemass[first]),
+            *(data.cdof, data.subtree_com, model.body_rootid[first:last].astype(np.intp), data.xipos[first:last]),
+            *(self._com, error, jacobian),
+        )
+        return lambda: rows.write(self.target)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.rotations import missing_turn
+from plantar.kernels.task_rows import TurnRows
 from plantar.mechanics.rotation import rotation_error
+from sim.model.tasks.chain import chain
 from sim.model.tasks.task import Task
 
 __all__ = ["OrientationTask"]
@@ -40,3 +44,13 @@ class OrientationTask(Task):
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Angular velocity of the body (3, nv) in the world frame."""
         mujoco.mj_jacBody(self._model, self._data, None, out, self._body)
+
+    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
+        """See `Task.writer`."""
+        rows = TurnRows(chain(self._model, self._body), self._data.cdof, self._rotation, error, jacobian)
+
+        def write() -> None:
+            if not rows.write(self.target):
+                error[:] = rotation_error(self.target, self._rotation)
+
+        return write

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.rotations import missing_pose
+from plantar.kernels.task_rows import PoseRows
 from plantar.mechanics.rotation import rotation_error
+from sim.model.tasks.chain import chain
 from sim.model.tasks.task import Task
 
 __all__ = ["PoseTask"]
@@ -44,3 +48,18 @@ class PoseTask(Task):
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Velocity and angular velocity of the site (6, nv) in the world frame."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
+
+    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
+        """See `Task.writer`."""
+        model, data = self._model, self._data
+        body = int(model.site_bodyid[self._site])
+        rows = PoseRows(
+            *(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]]),
+            *(self._position, self._rotation, error, jacobian),
+        )
+
+        def write() -> None:
+            if not rows.write(self.position, self.rotation):
+                error[3:] = rotation_error(self.rotation, self._rotation)
+
+        return write

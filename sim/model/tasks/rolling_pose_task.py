@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.pose_task import PoseTask
+from sim.model.tasks.task import Task
 
 __all__ = ["RollingPoseTask"]
 
@@ -20,6 +21,7 @@ class RollingPoseTask(PoseTask):
     """
 
     rows = 5
+    writer = Task.writer  # no kernel
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
         super().__init__(model, data, site)

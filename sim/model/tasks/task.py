@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,3 +34,17 @@ class Task(ABC):
     @abstractmethod
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Write the Jacobian (rows, nv), contiguous, in m and rad over the model's velocities."""
+
+    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
+        """What writes both, whenever it is called, where a solver wants them: a task that has a kernel does so at once.
+
+        Args:
+            error: Receives the error (rows,).
+            jacobian: Receives the Jacobian (rows, nv); an array of zeros that nobody else writes to.
+        """
+
+        def write() -> None:
+            self.error(error)
+            self.jacobian(jacobian)
+
+        return write

@@ -1,0 +1,69 @@
+"""What tasks write for a solver, by kernels, against their error and MuJoCo's Jacobian: the same to the last bit."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from plantar.mechanics.rotation import rotation_from_vector
+from sim.model.tasks.chain import chain
+from sim.model.tasks.com_task import ComTask
+from sim.model.tasks.orientation_task import OrientationTask
+from sim.model.tasks.pose_task import PoseTask
+from sim.model.tasks.posture_task import PostureTask
+from sim.model.tasks.rolling_pose_task import RollingPoseTask
+
+TWO_TREES = """
+<mujoco><worldbody>
+  <body name="a"><joint name="ball" type="ball"/><geom size=".1"/>
+    <body name="b" pos="0 .1 .3"><joint name="slide" type="slide"/><joint name="hinge" axis="0 1 1"/>
+      <geom type="ellipsoid" size=".1 .2 .1" pos=".1 0 0"/>
+      <body name="fixed" pos=".1 0 0"><geom size=".1"/><site name="tip" pos=".2 .1 0" euler="20 40 60"/></body>
+    </body>
+  </body>
+  <body name="other"><freejoint/><geom size=".3"/><body pos="1 1 1"><joint/><geom size=".1"/></body></body>
+  <body name="still"><geom size=".1"/><site name="mark"/></body>
+</worldbody></mujoco>
+"""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_writer_writes_what_error_and_jacobian_say(seed: int) -> None:
+    model = mujoco.MjModel.from_xml_string(TWO_TREES)
+    data, rng = mujoco.MjData(model), np.random.default_rng(seed)
+    ids = [model.joint(name).id for name in ("hinge", "slide")]
+    poses = [kind(model, data, model.site(name).id) for kind in (PoseTask, RollingPoseTask) for name in ("tip", "mark")]
+    turns = [OrientationTask(model, data, model.body(name).id) for name in ("fixed", "a", "still")]
+    coms = [ComTask(model, data, model.body(name).id) for name in ("world", "a", "b", "other", "still")]
+    tasks = [*poses, *turns, *coms, PostureTask(model, data, ids)]
+    written = [(np.zeros(t.rows), np.zeros((t.rows, model.nv))) for t in tasks]
+    writers = [t.writer(*out) for t, out in zip(tasks, written, strict=True)]
+    for _ in range(5):
+        data.qpos[:] = rng.normal(size=model.nq)
+        mujoco.mj_normalizeQuat(model, data.qpos)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        for pose in poses:
+            pose.position, pose.rotation = rng.normal(size=3), rotation_from_vector(rng.normal(size=3))
+        for turn in turns:
+            turn.target = rotation_from_vector(rng.normal(size=3))
+        for com in coms:
+            com.target = rng.normal(size=3)
+        for task, (error, jacobian), write in zip(tasks, written, writers, strict=True):
+            write()
+            wanted, moves = np.zeros(task.rows), np.zeros((task.rows, model.nv))
+            task.error(wanted)
+            task.jacobian(moves)
+            assert error.tobytes() == wanted.tobytes()
+            assert jacobian.tobytes() == moves.tobytes()
+
+
+def test_a_chain_leads_from_a_body_to_its_root() -> None:
+    model = mujoco.MjModel.from_xml_string(TWO_TREES)
+    chains = {name: chain(model, model.body(name).id).tolist() for name in ("fixed", "a", "other", "still", "world")}
+    assert chains == {
+        "fixed": [4, 3, 2, 1, 0],
+        "a": [2, 1, 0],
+        "other": [10, 9, 8, 7, 6, 5],
+        "still": [],
+        "world": [],
+    }
