@@ -2,6 +2,9 @@
 cimport cython
 from . cimport rotations
 
+cdef class Rows:
+    cpdef bint write(self) noexcept
+
 @cython.final
 cdef class PointRows:
     cdef const Py_ssize_t[::1] chain
@@ -15,10 +18,10 @@ cdef class PointRows:
     )
     cpdef void write(self, double x, double y, double z) noexcept
 
-@cython.final
-cdef class TurnRows:
+cdef class TurnRows(Rows):
     cdef const Py_ssize_t[::1] chain
     cdef const double[:, ::1] motions
+    cdef const double[:, ::1] wanted
     cdef const double[:, ::1] actual
     cdef double[::1] error
     cdef double[:, ::1] jacobian
@@ -27,21 +30,19 @@ cdef class TurnRows:
         chain="const Py_ssize_t[::1]", motions="const double[:, ::1]", out="double[:, ::1]", k=Py_ssize_t,
         i=Py_ssize_t, j=Py_ssize_t
     )
-    cpdef bint write(self, const double[:, :] wanted) noexcept
+    cpdef bint write(self) noexcept
 
-@cython.final
-cdef class PoseRows:
+cdef class PoseRows(Rows):
+    cdef const double[::1] position
     cdef const double[::1] at
-    cdef const double[:, ::1] turned
     cdef double[::1] error
     cdef PointRows point
     cdef TurnRows turn
 
     @cython.locals(at="const double[::1]", i=Py_ssize_t)
-    cpdef bint write(self, const double[:] position, const double[:, :] rotation) noexcept
+    cpdef bint write(self) noexcept
 
-@cython.final
-cdef class ComRows:
+cdef class ComRows(Rows):
     cdef const Py_ssize_t[::1] chains
     cdef const Py_ssize_t[::1] ends
     cdef const double[::1] masses
@@ -50,6 +51,7 @@ cdef class ComRows:
     cdef const double[:, ::1] centers
     cdef const Py_ssize_t[::1] trees
     cdef const double[:, ::1] places
+    cdef const double[::1] target
     cdef const double[::1] com
     cdef double[::1] error
     cdef double[:, ::1] jacobian
@@ -59,4 +61,4 @@ cdef class ComRows:
         places="const double[:, ::1]", out="double[:, ::1]", begin=Py_ssize_t, b=Py_ssize_t, k=Py_ssize_t,
         i=Py_ssize_t, j=Py_ssize_t, t=Py_ssize_t, mass=double, x=double, y=double, z=double
     )
-    cpdef void write(self, const double[:] target) noexcept
+    cpdef bint write(self) noexcept

@@ -11,9 +11,22 @@ the public face. Each object has arrays of its own to write to, zero to begin wi
 
 from __future__ import annotations
 
-from plantar.kernels import rotations
+from . import rotations
 
-__all__ = ["ComRows", "PointRows", "PoseRows", "TurnRows"]
+__all__ = ["ComRows", "PointRows", "PoseRows", "Rows", "TurnRows"]
+
+
+class Rows:
+    """Error and Jacobian of a task."""
+
+    def write(self):
+        """Write both.
+
+        Returns:
+            Whether the error is as it should be: a turn that is missing is so up to a quarter turn, and beyond that is
+            another one, which is left to the task.
+        """
+        return True
 
 
 class PointRows:
@@ -40,66 +53,62 @@ class PointRows:
             out[2, i] = motions[i, 5] + (motions[i, 0] * y - motions[i, 1] * x)
 
 
-class TurnRows:
+class TurnRows(Rows):
     """A body's orientation.
 
     Args:
         chain: Velocities (c,) that move the body.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
-        actual: Rotation (3, 3) from the body to the world frame.
+        wanted: Rotation (3, 3) from the body to the world frame that it shall have.
+        actual: The one that it has.
         error: Receives the turn (3,) that is missing, in the world frame.
         jacobian: Receives the angular velocity (3, nv) in the world frame.
     """
 
-    def __init__(self, chain, motions, actual, error, jacobian):
-        self.chain, self.motions, self.actual, self.error, self.jacobian = chain, motions, actual, error, jacobian
+    def __init__(self, chain, motions, wanted, actual, error, jacobian):
+        self.chain, self.motions, self.wanted, self.actual = chain, motions, wanted, actual
+        self.error, self.jacobian = error, jacobian
 
-    def write(self, wanted):
-        """Write both for a wanted rotation (3, 3).
-
-        Returns:
-            Whether no more than a quarter turn is missing; beyond that the error is another one.
-        """
+    def write(self):
+        """See `Rows`."""
         chain, motions, out = self.chain, self.motions, self.jacobian
         for k in range(chain.shape[0]):
             i = chain[k]
             for j in range(3):
                 out[j, i] = motions[i, j]
-        return rotations.missing_turn(wanted, self.actual, self.error)
+        return rotations.missing_turn(self.wanted, self.actual, self.error)
 
 
-class PoseRows:
+class PoseRows(Rows):
     """The pose of a frame that a body carries.
 
     Args:
         chain: Velocities (c,) that move the body.
         motions: Unit motion (nv, 6) of each velocity: w, then v.
         center: Center (3,) of the body's tree.
-        at: Origin (3,) of the frame.
-        turned: Rotation (3, 3) from the frame to the world frame.
+        position: Where the frame's origin (3,) shall be.
+        rotation: Rotation (3, 3) from the frame to the world frame that it shall have.
+        at: Where the origin is (3,).
+        turned: The rotation that the frame has (3, 3).
         error: Receives the way (3,) and the turn (3,) that are missing, in the world frame.
         jacobian: Receives the velocity (3, nv) of the origin and the angular velocity (3, nv), in the world frame.
     """
 
-    def __init__(self, chain, motions, center, at, turned, error, jacobian):
-        self.at, self.turned, self.error = at, turned, error
+    def __init__(self, chain, motions, center, position, rotation, at, turned, error, jacobian):
+        self.position, self.at, self.error = position, at, error
         self.point = PointRows(chain, motions, center, jacobian[:3])
-        self.turn = TurnRows(chain, motions, turned, error[3:], jacobian[3:])
+        self.turn = TurnRows(chain, motions, rotation, turned, error[3:], jacobian[3:])
 
-    def write(self, position, rotation):
-        """Write both for a wanted position (3,) and rotation (3, 3).
-
-        Returns:
-            Whether no more than a quarter turn is missing; beyond that the turn is another one.
-        """
+    def write(self):
+        """See `Rows`."""
         at = self.at
         for i in range(3):
-            self.error[i] = position[i] - at[i]
+            self.error[i] = self.position[i] - at[i]
         self.point.write(at[0], at[1], at[2])
-        return self.turn.write(rotation)
+        return self.turn.write()
 
 
-class ComRows:
+class ComRows(Rows):
     """The CoM of bodies.
 
     Args:
@@ -111,21 +120,22 @@ class ComRows:
         centers: Centers (t, 3) of trees.
         trees: Which of them is that of each body's tree (b,).
         places: CoM (b, 3) of each body.
-        com: CoM (3,) of all.
+        target: Where the CoM (3,) of all shall be.
+        com: Where it is (3,).
         error: Receives the way (3,) that is missing.
         jacobian: Receives the velocity (3, nv) of the CoM.
     """
 
-    def __init__(self, chains, ends, masses, share, motions, centers, trees, places, com, error, jacobian):
+    def __init__(self, chains, ends, masses, share, motions, centers, trees, places, target, com, error, jacobian):
         self.chains, self.ends, self.masses, self.share = chains, ends, masses, share
-        self.motions, self.centers, self.trees, self.places, self.com = motions, centers, trees, places, com
-        self.error, self.jacobian = error, jacobian
+        self.motions, self.centers, self.trees, self.places = motions, centers, trees, places
+        self.target, self.com, self.error, self.jacobian = target, com, error, jacobian
 
-    def write(self, target):
-        """Write both for a target (3,)."""
+    def write(self):
+        """See `Rows`."""
         chains, motions, centers, places, out = self.chains, self.motions, self.centers, self.places, self.jacobian
         for j in range(3):
-            self.error[j] = target[j] - self.com[j]
+            self.error[j] = self.target[j] - self.com[j]
             for i in range(out.shape[1]):
                 out[j, i] = 0.0
         begin = 0
@@ -141,3 +151,4 @@ class ComRows:
         for j in range(3):
             for i in range(out.shape[1]):
                 out[j, i] *= self.share
+        return True

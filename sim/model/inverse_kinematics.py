@@ -41,7 +41,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.configuration import Configuration
 from plantar.kernels.newton_step import NewtonStep
+from plantar.kernels.task_step import TaskStep
 from sim.model.tasks.posture_task import PostureTask
 from sim.model.tasks.task import Task
 
@@ -91,7 +93,10 @@ class InverseKinematics:
         self._error = np.zeros(rows)
         ends = np.cumsum([task.rows for task in tasks]).tolist()
         self._rows = [slice(end - task.rows, end) for task, end in zip(tasks, ends, strict=True)]
-        self._writers = [t.writer(self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
+        self._parts = [(t, self._error[r], self._jacobian[r]) for t, r in zip(tasks, self._rows, strict=True)]
+        kernels = [(task, error, task.rows_for(error, jacobian)) for task, error, jacobian in self._parts]
+        self._asked = [part for part, (_, _, kernel) in zip(self._parts, kernels, strict=True) if kernel is None]
+        self._with_rows = [(task, error) for task, error, kernel in kernels if kernel is not None]
         self._velocity = np.zeros(model.nv)
         in_units = [np.repeat([1.0 / unit, 1.0], [task.lengths, task.rows - task.lengths]) for task in tasks]
         units = np.ones(model.nv)
@@ -112,6 +117,11 @@ class InverseKinematics:
             np.where(free, np.inf, 0.5 * np.ptp(model.jnt_range[joints], axis=1)),
             *(_ROUNDING, _SUSPECT, (self._jacobian, self._error, self._configuration)),
             *(self._newton_jacobian, self._newton_step, self._velocity),
+        )
+        self._step_kernel = TaskStep(
+            [kernel for *_, kernel in kernels if kernel is not None],
+            self._newton,
+            _moving(model, self._configuration, self._velocity),
         )
         self.plain = self.careful = 0
         self._placed = False
@@ -147,16 +157,26 @@ class InverseKinematics:
 
     def _step(self, largest: float) -> None:
         self.place()
-        for write in self._writers:
-            write()
-        if self._newton.solve(largest):
+        for task, error, jacobian in self._asked:
+            task.error(error)
+            task.jacobian(jacobian)
+        kernel = self._step_kernel
+        if kernel.step(largest) or (not kernel.near and self._step_from_afar(largest)):
             self.plain += 1
         else:
             self._newton_step[:] = self._careful(self._newton_jacobian, largest)
+            kernel.move()
             self.careful += 1
-        self._newton.write()
-        mujoco.mj_integratePos(self._model, self._configuration, self._velocity, 1.0)
         self._placed = False
+
+    def _step_from_afar(self, largest: float) -> bool:
+        """Whether a plain step was taken where a kernel could not write all errors."""
+        for task, error in self._with_rows:
+            task.error(error)
+        if not self._newton.solve(largest):
+            return False
+        self._step_kernel.move()
+        return True
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
         """Step (n,) by levels, damped, scaled and within the limits; none if a target is not a number."""
@@ -213,6 +233,20 @@ class InverseKinematics:
         for task, rows in zip(self.tasks, self._rows, strict=True):
             levels.setdefault(task.level, []).append(rows)
         return [np.r_[tuple(levels[level])] for level in sorted(levels)]
+
+
+def _moving(model: mujoco.MjModel, configuration: NDArray[np.float64], velocity: NDArray[np.float64]) -> Configuration:
+    """A configuration (nq,) of a model that moves at a velocity (nv,)."""
+    kinds, places, rates = model.jnt_type, model.jnt_qposadr.astype(np.intp), model.jnt_dofadr.astype(np.intp)
+    free, ball = (kinds == int(kind) for kind in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL))
+    single, offsets = ~(free | ball), np.arange(3)
+    return Configuration(
+        np.concatenate([places[single], np.add.outer(places[free], offsets).ravel()]),
+        np.concatenate([rates[single], np.add.outer(rates[free], offsets).ravel()]),
+        np.concatenate([places[free] + 3, places[ball]]),
+        np.concatenate([rates[free] + 3, rates[ball]]),
+        *(configuration, velocity),
+    )
 
 
 def _amounts(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.estimate.estimator import Posture
+from plantar.kernels.leg_targets import LegTargets
 from plantar.sides import SIDES, Side
 from sim.model.inverse_kinematics import InverseKinematics
 from sim.model.tasks.com_task import ComTask
@@ -61,6 +62,10 @@ class LegModel:
         self._posture_turns = {s: probe.site_xmat[i].reshape(3, 3) for s, i in self._sites.items()}
         sole = PoseTask if len(ids) >= 2 * _FULL_LEG else RollingPoseTask
         self._soles: dict[Side, PoseTask] = {s: sole(model, self._data, self._sites[s]) for s in SIDES}
+        self._targets = LegTargets(
+            *(self._com.target, self._torso.target),
+            *((sole.position, sole.rotation) for sole in self._soles.values()),
+        )
         self._reference = PostureTask(model, self._data, ids)
         self._joints = self._data.qpos
         self._load, self._lever = np.zeros(model.nv), np.zeros((3, model.nv))
@@ -147,9 +152,10 @@ class LegModel:
             Joint angles (k,) in rad within their limits, and the largest task error before the last step
             (units of length or rad), not a number if a target is not.
         """
-        self._com.target, self._torso.target = com, rotation_torso
+        self._targets.take(
+            *(com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"])
+        )
         for side, sole in self._soles.items():
-            sole.position, sole.rotation = positions[side], rotations[side]
             sole.level = 1 if side in yielding else 0
         missed = self.inverse.solve(iterations, largest_step)
         joints: NDArray[np.float64] = self._joints[self._qpos]

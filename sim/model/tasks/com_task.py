@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.task_rows import ComRows
+from plantar.kernels.task_rows import ComRows, Rows
 from sim.model.tasks.chain import chain
-from sim.model.tasks.task import Task
+from sim.model.tasks.task import Target, Task
 
 __all__ = ["ComTask"]
 
@@ -19,7 +17,7 @@ class ComTask(Task):
     """The CoM of a body and all that hangs on it shall be at a point of the world.
 
     Attributes:
-        target: The point (3,) in m.
+        target: The point (3,) in m, copied where it is set.
 
     Args:
         model: The model.
@@ -29,11 +27,12 @@ class ComTask(Task):
 
     rows = 3
     lengths = 3
+    target = Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
         self._model, self._data, self._body = model, data, body
         self._com = data.subtree_com[body]
-        self.target: NDArray[np.float64] = self._com.copy()
+        self.target = self._com
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Target less CoM (3,) in m."""
@@ -43,17 +42,16 @@ class ComTask(Task):
         """Velocity of the CoM (3, nv)."""
         mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)
 
-    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
-        """See `Task.writer`."""
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """See `Task.rows_for`."""
         model, data, first = self._model, self._data, self._body
         last = first + 1  # the bodies of a tree follow each other
         while last < model.nbody and model.body_parentid[last] >= first:
             last += 1
         chains = [chain(model, body) for body in range(first, last)]
-        rows = ComRows(
+        return ComRows(
             *(np.concatenate(chains), np.cumsum([len(c) for c in chains]), model.body_mass[first:last].copy()),
             1.0 / max(mujoco.mjMINVAL, model.body_subtreemass[first]),
             *(data.cdof, data.subtree_com, model.body_rootid[first:last].astype(np.intp), data.xipos[first:last]),
-            *(self._com, error, jacobian),
+            *(self.target, self._com, error, jacobian),
         )
-        return lambda: rows.write(self.target)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.rotations import missing_turn
-from plantar.kernels.task_rows import TurnRows
+from plantar.kernels.task_rows import Rows, TurnRows
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.chain import chain
-from sim.model.tasks.task import Task
+from sim.model.tasks.task import Target, Task
 
 __all__ = ["OrientationTask"]
 
@@ -21,7 +19,7 @@ class OrientationTask(Task):
     """A body shall have an orientation in the world.
 
     Attributes:
-        target: Rotation (3, 3) from the body to the world frame.
+        target: Rotation (3, 3) from the body to the world frame, copied where it is set.
 
     Args:
         model: The model.
@@ -30,11 +28,12 @@ class OrientationTask(Task):
     """
 
     rows = 3
+    target = Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
         self._model, self._data, self._body = model, data, body
         self._rotation = data.xmat[body].reshape(3, 3)
-        self.target: NDArray[np.float64] = self._rotation.copy()
+        self.target = self._rotation
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Turn (3,) that is missing, in the world frame (see `plantar.mechanics.rotation.rotation_error`)."""
@@ -45,12 +44,8 @@ class OrientationTask(Task):
         """Angular velocity of the body (3, nv) in the world frame."""
         mujoco.mj_jacBody(self._model, self._data, None, out, self._body)
 
-    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
-        """See `Task.writer`."""
-        rows = TurnRows(chain(self._model, self._body), self._data.cdof, self._rotation, error, jacobian)
-
-        def write() -> None:
-            if not rows.write(self.target):
-                error[:] = rotation_error(self.target, self._rotation)
-
-        return write
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """See `Task.rows_for`."""
+        return TurnRows(
+            *(chain(self._model, self._body), self._data.cdof, self.target, self._rotation, error, jacobian)
+        )

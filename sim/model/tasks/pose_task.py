@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.kernels.rotations import missing_pose
-from plantar.kernels.task_rows import PoseRows
+from plantar.kernels.task_rows import PoseRows, Rows
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.chain import chain
-from sim.model.tasks.task import Task
+from sim.model.tasks.task import Target, Task
 
 __all__ = ["PoseTask"]
 
@@ -21,8 +19,8 @@ class PoseTask(Task):
     """A site shall be at a position and an orientation of the world.
 
     Attributes:
-        position: Its origin (3,) in m.
-        rotation: Rotation (3, 3) from the site to the world frame.
+        position: Its origin (3,) in m, copied where it is set.
+        rotation: Rotation (3, 3) from the site to the world frame, likewise.
 
     Args:
         model: The model.
@@ -32,13 +30,13 @@ class PoseTask(Task):
 
     rows = 6
     lengths = 3
+    position, rotation = Target(), Target()
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
         self._model, self._data, self._site = model, data, site
         self._position = data.site_xpos[site]
         self._rotation = data.site_xmat[site].reshape(3, 3)
-        self.position: NDArray[np.float64] = self._position.copy()
-        self.rotation: NDArray[np.float64] = self._rotation.copy()
+        self.position, self.rotation = self._position, self._rotation
 
     def error(self, out: NDArray[np.float64]) -> None:
         """Way (3,) in m and turn (3,) that are missing, in the world frame."""
@@ -49,17 +47,11 @@ class PoseTask(Task):
         """Velocity and angular velocity of the site (6, nv) in the world frame."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
 
-    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
-        """See `Task.writer`."""
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """See `Task.rows_for`."""
         model, data = self._model, self._data
         body = int(model.site_bodyid[self._site])
-        rows = PoseRows(
+        return PoseRows(
             *(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]]),
-            *(self._position, self._rotation, error, jacobian),
+            *(self.position, self.rotation, self._position, self._rotation, error, jacobian),
         )
-
-        def write() -> None:
-            if not rows.write(self.position, self.rotation):
-                error[3:] = rotation_error(self.rotation, self._rotation)
-
-        return write

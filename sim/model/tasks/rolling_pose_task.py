@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.pose_task import PoseTask
-from sim.model.tasks.task import Task
 
 __all__ = ["RollingPoseTask"]
 
@@ -21,7 +20,6 @@ class RollingPoseTask(PoseTask):
     """
 
     rows = 5
-    writer = Task.writer  # no kernel
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, site: int) -> None:
         super().__init__(model, data, site)
@@ -36,3 +34,6 @@ class RollingPoseTask(PoseTask):
         """Velocity of the site (3, nv) in the world frame, and its rate of turn (2, nv) about its own y and z axes."""
         mujoco.mj_jacSite(self._model, self._data, out[:3], self._turns, self._site)
         out[3:] = self._rotation.T[1:] @ self._turns
+
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
+        """None: this task has no kernel."""

@@ -3,12 +3,33 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Task"]
+from plantar.kernels.task_rows import Rows
+
+__all__ = ["Target", "Task"]
+
+
+class Target:
+    """What a task is asked for: an array of the task's own, at one place, where a kernel reads it.
+
+    The first array that is set gives its shape; each is copied.
+    """
+
+    def __set_name__(self, owner: type[Task], name: str) -> None:
+        self._name = name
+
+    def __get__(self, task: Task, owner: type[Task] | None = None) -> NDArray[np.float64]:
+        found: NDArray[np.float64] = task.__dict__[self._name]
+        return found
+
+    def __set__(self, task: Task, value: NDArray[np.float64]) -> None:
+        if self._name in task.__dict__:
+            task.__dict__[self._name][:] = value
+        else:
+            task.__dict__[self._name] = np.array(value, dtype=np.float64)
 
 
 class Task(ABC):
@@ -35,16 +56,11 @@ class Task(ABC):
     def jacobian(self, out: NDArray[np.float64]) -> None:
         """Write the Jacobian (rows, nv), contiguous, in m and rad over the model's velocities."""
 
-    def writer(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Callable[[], None]:
-        """What writes both, whenever it is called, where a solver wants them: a task that has a kernel does so at once.
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
+        """A kernel that writes both at once; None for a task that has none, whose solver asks for each.
 
         Args:
-            error: Receives the error (rows,).
+            error: Receives the error (rows,), but for a turn of more than a quarter: then `error` is asked as well.
             jacobian: Receives the Jacobian (rows, nv); an array of zeros that nobody else writes to.
         """
-
-        def write() -> None:
-            self.error(error)
-            self.jacobian(jacobian)
-
-        return write
+        return None
