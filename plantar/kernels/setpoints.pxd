@@ -11,6 +11,8 @@ cdef class Setpoints:
     cdef const double[::1] per_way
     cdef double period
     cdef double step
+    cdef const double[::1] joints
+    cdef const double[::1] torques
     cdef readonly double[::1] reference
     cdef readonly double[::1] velocity
     cdef readonly double[::1] setpoint
@@ -20,12 +22,13 @@ cdef class Setpoints:
     cpdef void hold(self, const double[:] joints, const double[:] torques) noexcept
 
     @cython.locals(
-        count=Py_ssize_t, i=Py_ssize_t, fastest=double, total=double, share=double, late=bint, last=double, goal=double
+        joints="const double[::1]", count=Py_ssize_t, i=Py_ssize_t, fastest=double, total=double, share=double,
+        late=bint, last=double, goal=double
     )
-    cpdef void go_to(self, const double[:] joints) noexcept
+    cpdef void go_to(self) noexcept
 
-    @cython.locals(i=Py_ssize_t, lead=double)
-    cpdef void load(self, const double[:] torques) noexcept
+    @cython.locals(i=Py_ssize_t, torque=double, lead=double)
+    cpdef void load(self, const double[:] friction=*) noexcept
 
     @cython.locals(i=Py_ssize_t)
     cpdef void offset(self, const double[:] offsets) noexcept

@@ -20,6 +20,8 @@ class Setpoints:
         per_way: One over the largest way (k,) of a set-point in a control period in 1/rad; empty without limits.
         period: Control period in s.
         step: Period in s in which `advance` is called.
+        joints: Joint angles (k,) in rad to go to, where the caller writes them.
+        torques: Torques (k,) in N m that it takes to hold them, likewise.
 
     Attributes:
         reference: Where the joints shall be now (k,) in rad; NaN before they were told anything.
@@ -27,7 +29,7 @@ class Setpoints:
         setpoint: What the servos are told (k,) in rad.
     """
 
-    def __init__(self, controls, servos, stiffness, damping, per_way, period, step):
+    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, joints, torques):
         self.controls = controls
         self.servos = servos
         self.stiffness = stiffness
@@ -35,6 +37,7 @@ class Setpoints:
         self.per_way = per_way
         self.period = period
         self.step = step
+        self.joints, self.torques = joints, torques
         count = len(servos)
         self.reference = np.full(count, _NONE)
         self.velocity = np.zeros(count)
@@ -53,13 +56,10 @@ class Setpoints:
             self.velocity[i] = self.rate[i] = 0.0
             self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
 
-    def go_to(self, joints):
+    def go_to(self):
         """Set the reference for the next control tick: the joints' goal, or as far on the way to it as the fastest one
-        may go.
-
-        Args:
-            joints: Joint angles (k,) in rad.
-        """
+        may go."""
+        joints = self.joints
         count = self.servos.shape[0]
         fastest = total = 0.0
         for i in range(self.per_way.shape[0]):
@@ -79,14 +79,17 @@ class Setpoints:
             self.reference[i] = goal
             self.rate[i] = self.velocity[i] * self.step
 
-    def load(self, torques):
+    def load(self, friction=None):
         """Set what the servos are told for the reference: they follow it without lag, and hold a load without error.
 
         Args:
-            torques: Torques (k,) in N m that the joints are expected to carry.
+            friction: Torques (k,) in N m that the joints take besides; None for none.
         """
         for i in range(self.servos.shape[0]):
-            lead = self.damping[i] * self.velocity[i] + torques[i]
+            torque = self.torques[i]
+            if friction is not None:
+                torque += friction[i]
+            lead = self.damping[i] * self.velocity[i] + torque
             self.setpoint[i] = self.reference[i] + lead / self.stiffness[i]
 
     def offset(self, offsets):

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.estimate.estimator import Posture
+from plantar.kernels.joint_entries import JointEntries
 from plantar.kernels.leg_targets import LegTargets
+from plantar.kernels.task_rows import PointRows
 from plantar.sides import SIDES, Side
 from sim.model.inverse_kinematics import InverseKinematics
+from sim.model.tasks.chain import chain
 from sim.model.tasks.com_task import ComTask
 from sim.model.tasks.orientation_task import OrientationTask
 from sim.model.tasks.pose_task import PoseTask
@@ -33,6 +36,10 @@ class LegModel:
         soles: Name of each sole's site.
         torso: Name of the body that is kept upright.
         unit: Length in m that counts as much as 1 rad where targets cannot all be met (`InverseKinematics`).
+
+    Attributes:
+        joints: Joint angles (k,) in rad that `follow` found; the next solution is written over it.
+        torques: Joint torques (k,) in N m that `carry` found, likewise.
     """
 
     def __init__(
@@ -48,7 +55,6 @@ class LegModel:
         held = np.isin(np.arange(model.njnt), ids, invert=True) & (model.jnt_type != int(mujoco.mjtJoint.mjJNT_FREE))
         self._others = model.jnt_qposadr[held]
         self._sites: dict[Side, int] = {s: model.site(soles[s]).id for s in SIDES}
-        self._feet: dict[Side, int] = {s: int(model.site_bodyid[i]) for s, i in self._sites.items()}
         upright = model.body(torso).id
         self._root = int(model.body_rootid[upright])
         self.mass = float(model.body_subtreemass[self._root])
@@ -67,8 +73,10 @@ class LegModel:
             *((sole.position, sole.rotation) for sole in self._soles.values()),
         )
         self._reference = PostureTask(model, self._data, ids)
-        self._joints = self._data.qpos
-        self._load, self._lever = np.zeros(model.nv), np.zeros((3, model.nv))
+        self.joints, self.torques, self._load = np.zeros(len(ids)), np.zeros(len(ids)), np.zeros(model.nv)
+        self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
+        self._torque_entries = JointEntries(self._load, self._dof.astype(np.intp), self.torques)
+        self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
         self.inverse = InverseKinematics(
             model,
             self._data,
@@ -152,17 +160,31 @@ class LegModel:
             Joint angles (k,) in rad within their limits, and the largest task error before the last step
             (units of length or rad), not a number if a target is not.
         """
+        missed = self.follow(com, rotation_torso, positions, rotations, iterations, yielding, largest_step)
+        return self.joints.copy(), missed
+
+    def follow(
+        self,
+        com: NDArray[np.float64],
+        rotation_torso: NDArray[np.float64],
+        positions: Mapping[Side, NDArray[np.float64]],
+        rotations: Mapping[Side, NDArray[np.float64]],
+        iterations: int = 1,
+        yielding: Collection[Side] = (),
+        largest_step: float = 0.5,
+    ) -> float:
+        """What `solve` does, for a caller who reads `joints` at once; returns the largest task error."""
         self._targets.take(
             *(com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"])
         )
         for side, sole in self._soles.items():
             sole.level = 1 if side in yielding else 0
         missed = self.inverse.solve(iterations, largest_step)
-        joints: NDArray[np.float64] = self._joints[self._qpos]
-        return joints, missed
+        self._angle_entries.take()
+        return missed
 
     def static_torques(
-        self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, NDArray[np.float64]]
+        self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]
     ) -> NDArray[np.float64]:
         """Joint torques (k,) in N m that hold the last solution against gravity and given ground forces.
 
@@ -173,15 +195,24 @@ class LegModel:
         Returns:
             tau = g(q) - sum J^T f.
         """
-        model, data = self.model, self._data
+        self.carry(forces, points)
+        return self.torques.copy()
+
+    def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
+        """What `static_torques` does, for a caller who reads `torques` at once."""
         self.inverse.place()
-        result, jac = self._load, self._lever
-        mujoco.mj_rne(model, data, 0, result)
-        for side in SIDES:
+        mujoco.mj_rne(self.model, self._data, 0, self._load)
+        for side, lever, jacobian in self._levers:
             force = forces[side]
             if force.item(2) <= 0.0:
                 continue
-            mujoco.mj_jac(model, data, jac, None, points[side], self._feet[side])
-            result -= force.dot(jac)
-        torques: NDArray[np.float64] = result[self._dof]
-        return torques
+            x, y, z = points[side]
+            lever.write(x, y, z)
+            self._torque_entries.less(force.dot(jacobian))
+        self._torque_entries.take()
+
+
+def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:
+    """What writes how a point of a body moves, and the array (3, nv) that it writes to."""
+    jacobian = np.zeros((3, model.nv))
+    return PointRows(chain(model, body), data.cdof, data.subtree_com[model.body_rootid[body]], jacobian), jacobian

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from gait.controller import Command
 from plantar.kernels.setpoints import Setpoints
-from plantar.sides import SIDES, Side
+from plantar.sides import Side
 from sim.model.leg_model import LegModel
 from sim.model.world import World
 from sim.plant.draw import TruePlant
@@ -18,6 +18,13 @@ __all__ = ["LegServos"]
 _SPEED_SHARE = 0.9  # of a joint's speed limit that its set-point may have: the joint itself overshoots by up to a tenth
 _REACH_ERROR = 0.02  # rad, or m on a leg of 0.6 m, of a joint solution; the motion of one control period leaves 8 mm
 _LARGEST_STEP = 0.1  # rad of a joint in a control period: 20 rad/s at 200 Hz, three times what the robots' knees can
+_YIELDING: dict[tuple[bool, bool], tuple[Side, ...]] = {
+    (False, False): (),
+    (True, False): ("left",),
+    (False, True): ("right",),
+    (True, True): ("left", "right"),
+}
+"""Feet that miss their targets first, for whether the left and the right one carry nothing."""
 _SLOW = 0.0247  # rad/beat from which a joint moves against its friction: 0.1 rad/s on a leg of 0.6 m
 
 
@@ -55,11 +62,11 @@ class LegServos:
             1.0 / (_SPEED_SHARE * limits * period),
             period,
             world.period,
+            *(legs.joints, legs.torques),
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
-        self._points: dict[Side, NDArray[np.float64]] = {side: np.zeros(3) for side in SIDES}
         self.out_of_reach_since: float | None = None
 
     def start(self, joints: NDArray[np.float64], torques: NDArray[np.float64]) -> None:
@@ -74,27 +81,28 @@ class LegServos:
 
     def command(self, command: Command) -> NDArray[np.float64]:
         """Solve a command for the joints; returns the joint reference (k,) in rad, within the speed limits."""
-        left, right, points = command.feet["left"], command.feet["right"], self._points
-        joints, missed = self._legs.solve(
+        left, right = command.feet["left"], command.feet["right"]
+        missed = self._legs.follow(
             command.com,
             command.rotation_torso,
             {"left": left.position, "right": right.position},
             {"left": left.rotation, "right": right.rotation},
-            yielding=[side for side in SIDES if command.feet[side].force.item(2) <= 0.0],
+            yielding=_YIELDING[left.force.item(2) <= 0.0, right.force.item(2) <= 0.0],
             largest_step=_LARGEST_STEP,
         )
         if not missed <= _REACH_ERROR and self.out_of_reach_since is None:
             self.out_of_reach_since = float(self._world.data.time)
-        for side, foot in command.feet.items():
-            point = points[side]
-            point[:2], point[2] = foot.center_of_pressure, foot.position[2]
-        torques = self._legs.static_torques({"left": left.force, "right": right.force}, points)
+        self._legs.carry(
+            {"left": left.force, "right": right.force},
+            {
+                "left": (*left.center_of_pressure.tolist(), left.position.item(2)),
+                "right": (*right.center_of_pressure.tolist(), right.position.item(2)),
+            },
+        )
         setpoints = self._setpoints
-        setpoints.go_to(joints)
-        if self._rubs:
-            # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
-            torques = torques + self._friction * np.tanh(self._velocity / self._slow)
-        setpoints.load(torques)
+        setpoints.go_to()
+        # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
+        setpoints.load(self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None)
         if command.joint_offsets is not None:
             setpoints.offset(command.joint_offsets)
         return self._reference.copy()

@@ -21,26 +21,30 @@ def test_it_writes_what_numpy_would(limited, seed):
     k = int(rng.integers(1, 14))
     servos, stiffness, damping = rng.permutation(k + 3)[:k], rng.uniform(50.0, 300.0, k), rng.uniform(0.1, 9.0, k)
     per_way = rng.uniform(2.0, 20.0, k) if limited else np.empty(0)
+    goals, loads = np.zeros(k), np.zeros(k)
     controls = [np.zeros(k + 3) for _ in FORMS]
     kernels = [
-        module.Setpoints(written, servos, stiffness, damping, per_way, PERIOD, STEP)
+        module.Setpoints(written, servos, stiffness, damping, per_way, PERIOD, STEP, goals, loads)
         for module, written in zip(FORMS, controls, strict=True)
     ]
     last = None
     for tick in range(6):
         joints, torques, offsets = rng.normal(0.0, 0.1, k), rng.normal(0.0, 40.0, k), rng.normal(0.0, 0.01, k)
+        friction = rng.normal(0.0, 5.0, k) if tick == 3 else None
+        goals[:], loads[:] = joints, torques
         held = tick == 2
         last = joints if last is None or held else last
         shares = np.abs(joints - last) * per_way if limited else np.zeros(k)
         goal = last + (joints - last) / shares.max() if shares.max() > 1.0 else joints
         velocity = np.zeros(k) if held else (goal - last) / PERIOD
-        wanted = goal + (damping * velocity + torques) / stiffness
+        held_up = torques if friction is None else torques + friction
+        wanted = goal + (damping * velocity + held_up) / stiffness
         for kernel in kernels:
             if held:
                 kernel.hold(joints, torques)
             else:
-                kernel.go_to(joints)
-                kernel.load(torques)
+                kernel.go_to()
+                kernel.load(friction)
                 kernel.offset(offsets)
         wanted = wanted if held else wanted + offsets
         for _ in range(5):

@@ -336,8 +336,9 @@ def test_set_points_lead_by_the_joints_own_damping(own: Path) -> None:
     setpoints = LegServos(world, legs, 0.005)._setpoints
     still, speed = np.zeros(12), np.full(12, 0.1)
     setpoints.hold(still, still)
-    setpoints.go_to(0.005 * speed)
-    setpoints.load(still)
+    legs.joints[:] = 0.005 * speed
+    setpoints.go_to()
+    setpoints.load()
     gain = world.stiffness * (np.asarray(setpoints.setpoint) - 0.005 * speed) / speed
     np.testing.assert_allclose(gain - world.damping, [0, 0, 0, 30.0, *[0] * 8], atol=1e-9)
 
