@@ -16,17 +16,16 @@ robot stands and heads only turns and shifts the costs: results 10 m away are th
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
-from itertools import combinations
-from typing import Any
 
 import daqp
 import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
+from plantar.kernels.wrench_program import WrenchProgram
 from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_of_wrench
@@ -121,24 +120,25 @@ class Program:
 class _Workspace:
     """Arrays and solver for one number of contacts; filled in place, and only where something has changed."""
 
-    def __init__(self, count: int, weights: DistributionWeights) -> None:
+    def __init__(self, count: int, weight: float, length: float, weights: DistributionWeights) -> None:
         n = 6 * count
-        self.unit = np.empty(n)
+        self.unit = np.tile(weight * np.array([1.0, 1.0, 1.0, length, length, length]), count)
         self.jacobian = np.zeros((6, n))
+        self.costly = np.zeros((6, n))  # the Jacobian times the cost of the net wrench
         # What does not depend on poses and shares.
         self.own = np.diag(np.tile([1.0, 1.0, 0.0, 0.0, 0.0, 1.0], count)) * weights.friction
         self.fixed = np.zeros((n, n))  # what does not depend on the shares
         self.hessian = np.eye(n)
-        self.cells: Any = self.hessian.data  # single cells, three times as fast as through the array
-        self.pairs = list(combinations(range(count), 2))
+        self.wanted = np.zeros(6)
         self.gradient = np.zeros(n)
         self.constraints = np.zeros((_ROWS * count, n))
         self.upper = np.zeros(_ROWS * count)
         self.lower = np.full(_ROWS * count, -1e30)
-        self.middle = (0.0, 0.0, 0.0)
         self.contacts: list[Contact | None] = [None] * count
-        self.shares: tuple[float, ...] = ()
         self.solver: daqp.Model | None = None
+        scales = (weight, length, weights.net, weights.pressure)
+        filled = (self.fixed, self.hessian, self.wanted, self.gradient)
+        self.program = WrenchProgram(scales, self.unit, self.jacobian, *filled)
 
     def forget(self) -> None:
         """Start afresh: a request with numbers that are not finite leaves nothing behind."""
@@ -183,7 +183,6 @@ class WrenchDistribution:
         self.length = length
         self.weights = weights or DistributionWeights()
         self.minimum_force = minimum_force
-        self._unit = weight * np.array([1.0, 1.0, 1.0, length, length, length])
         self._workspaces: dict[int, _Workspace] = {}
 
     def solve(
@@ -211,35 +210,31 @@ class WrenchDistribution:
             return WrenchShare(DistributionState.AIRBORNE, {}, -np.asarray(wrench, dtype=float), 0.0)
         work = self._workspace(len(contacts))
         wished = _in_order(contacts, shares)
-        wanted = self._prepare(work, contacts, wrench, point, wished)
-        if wanted is None:
+        if not self._prepare(work, contacts, wrench, point, wished):
             return self._rest(contacts, wished)
         solver = work.solver
         assert solver is not None
         scaled, _, flag, _ = solver.solve()
+        state, violation = DistributionState.TRACKED, 0.0
         if flag < 1:
             scaled = self._least_violating(work)
-        error = work.jacobian.dot(scaled) - wanted
-        largest = max(map(abs, error.tolist()))
+            state = DistributionState.INFEASIBLE
+            violation = self.weight * float((work.constraints @ scaled - work.upper).max())
+        error = np.empty(6)
+        largest = work.program.finish(scaled, error)
         if not math.isfinite(largest):
             work.forget()
             return self._rest(contacts, wished)
-        violation = 0.0
-        state = DistributionState.TRACKED if largest <= _TRACKED else DistributionState.SATURATED
-        if flag < 1:
-            state = DistributionState.INFEASIBLE
-            violation = self.weight * float((work.constraints @ scaled - work.upper).max())
-        parts = (scaled * work.unit).reshape(-1, 6)
-        # By index: an array's iterator takes three times as long.
-        wrenches = {name: parts[i] for i, name in enumerate(contacts)}
-        return WrenchShare(state, wrenches, error * self._unit, violation)
+        if largest > _TRACKED and flag >= 1:
+            state = DistributionState.SATURATED
+        wrenches = {name: scaled[6 * i : 6 * i + 6] for i, name in enumerate(contacts)}
+        return WrenchShare(state, wrenches, error, violation)
 
     def _workspace(self, count: int) -> _Workspace:
         """The workspace for a number of contacts, made at its first use."""
         work = self._workspaces.get(count)
         if work is None:
-            work = self._workspaces[count] = _Workspace(count, self.weights)
-            work.unit[:] = np.tile(self._unit, count)
+            work = self._workspaces[count] = _Workspace(count, self.weight, self.length, self.weights)
         return work
 
     def program(
@@ -266,7 +261,7 @@ class WrenchDistribution:
         if not contacts:
             raise InputError("a wrench distribution without contacts has no program; allowed: one contact or more")
         work = self._workspace(len(contacts))
-        if self._prepare(work, contacts, wrench, point, _in_order(contacts, shares)) is None:
+        if not self._prepare(work, contacts, wrench, point, _in_order(contacts, shares)):
             raise InputError("the request of a wrench distribution needs finite numbers, and shares above 0")
         return Program(
             work.hessian.copy(),
@@ -283,13 +278,11 @@ class WrenchDistribution:
         wrench: NDArray[np.float64] | Sequence[float],
         point: NDArray[np.float64] | Sequence[float],
         shares: tuple[float, ...],
-    ) -> NDArray[np.float64] | None:
-        """Fill the workspace; returns the wanted wrench (6,) in the program's units, None if invalid."""
-        fx, fy, fz, tx, ty, tz = np.asarray(wrench, dtype=float).tolist()
-        px, py, pz = np.asarray(point, dtype=float).tolist()
-        total = sum(shares)
-        if not (math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + total) and total > 0.0):
-            return None
+    ) -> bool:
+        """Fill the workspace and the solver; False where the request is invalid."""
+        program = work.program
+        if not program.ask(shares, *_plain(wrench), *_plain(point)):
+            return False
         moved = limited = False
         for i, contact in enumerate(contacts.values()):
             last = work.contacts[i]
@@ -298,33 +291,22 @@ class WrenchDistribution:
             if last is None or contact.limits != last.limits:
                 if not math.isfinite(sum(contact.rectangle) + contact.friction + sum(contact.preferred or ())):
                     work.forget()
-                    return None
+                    return False
                 limited = True
                 self._constrain(work, i, contact)
-            moved = (
-                moved
-                or last is None
-                or contact.position.tolist() != last.position.tolist()
-                or contact.rotation.tolist() != last.rotation.tolist()
-            )
+            moved = program.place(i, contact.position, contact.rotation) or moved or last is None
             work.contacts[i] = contact
-        if moved and not _turn(work, contacts.values(), self.length):
+        if moved and not program.turn():
             work.forget()
-            return None
-        changed = moved or limited or shares != work.shares
-        if changed:
-            if moved or limited:
-                work.jacobian.T.dot(self.weights.net * work.jacobian, out=work.fixed)
-                work.fixed += work.own
-            work.shares = shares
-            self._weigh(work, shares)
-        mx, my, mz = work.middle
-        dx, dy, dz = px - mx, py - my, pz - mz
-        w, m = self.weight, self.weight * self.length
-        moments = ((tx + dy * fz - dz * fy) / m, (ty + dz * fx - dx * fz) / m, (tz + dx * fy - dy * fx) / m)
-        wanted = np.array([fx / w, fy / w, fz / w, *moments])
-        wanted.dot(work.jacobian, out=work.gradient)
-        work.gradient *= -self.weights.net
+            return False
+        if moved or limited:
+            np.multiply(work.jacobian, self.weights.net, out=work.costly)
+            work.jacobian.T.dot(work.costly, out=work.fixed)
+            work.fixed += work.own
+        changed = program.weigh(moved or limited)
+        program.aim()
+        work.wanted.dot(work.jacobian, out=work.gradient)
+        program.finish_gradient()
         if work.solver is None:
             work.solver = daqp.Model()
             work.solver.settings = {"primal_tol": 1e-10}
@@ -335,7 +317,7 @@ class WrenchDistribution:
             work.solver.update(H=work.hessian, f=work.gradient)
         else:
             work.solver.update(f=work.gradient)
-        return wanted
+        return True
 
     def _constrain(self, work: _Workspace, i: int, contact: Contact) -> None:
         """Cone, least force and own costs of one contact, in the program's units."""
@@ -354,17 +336,6 @@ class WrenchDistribution:
             own[k + 2, k + 3] = own[k + 3, k + 2] = -ankle * y
             own[k + 2, k + 4] = own[k + 4, k + 2] = ankle * x
             own[k + 3, k + 3] = own[k + 4, k + 4] = ankle
-
-    def _weigh(self, work: _Workspace, shares: tuple[float, ...]) -> None:
-        """Hessian of the cost, in the program's units."""
-        np.copyto(work.hessian, work.fixed)
-        cells, pressure = work.cells, self.weights.pressure
-        for i, j in work.pairs:
-            one, other, a, b = shares[i], shares[j], 6 * i + 2, 6 * j + 2
-            cells[a, a] += pressure * other * other
-            cells[b, b] += pressure * one * one
-            cells[a, b] -= pressure * one * other
-            cells[b, a] -= pressure * one * other
 
     def _least_violating(self, work: _Workspace) -> NDArray[np.float64]:
         """Solution (n,) with the least sum of squared violations, and the least cost among those."""
@@ -389,6 +360,14 @@ class WrenchDistribution:
         return WrenchShare(DistributionState.INVALID, wrenches, np.full(6, np.nan), 0.0)
 
 
+def _plain(numbers: NDArray[np.float64] | Sequence[float]) -> Sequence[float]:
+    """Plain numbers: a tuple, as control loops hand over, is some already."""
+    if type(numbers) is tuple:
+        return numbers
+    plain: list[float] = np.asarray(numbers, dtype=float).tolist()
+    return plain
+
+
 def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[float, ...]:
     """The shares in the order of the contacts; equal ones where none are given."""
     if shares is None:
@@ -397,23 +376,3 @@ def _in_order(contacts: Contacts, shares: Mapping[str, float] | None) -> tuple[f
     if len(found) != len(contacts) or len(found) != len(shares):
         raise InputError(f"shares are given for {', '.join(shares) or 'nothing'}; allowed: for {', '.join(contacts)}")
     return tuple(found)
-
-
-def _turn(work: _Workspace, contacts: Collection[Contact], length: float) -> bool:
-    """Jacobian of the net wrench about the middle of the contacts, in the program's units; False if not finite."""
-    places = [c.position.tolist() for c in contacts]
-    mx, my, mz = work.middle = tuple(sum(v) / len(places) for v in zip(*places, strict=True))
-    total = 0.0
-    for k, (contact, (x, y, z)) in enumerate(zip(contacts, places, strict=True)):
-        dx, dy, dz = (x - mx) / length, (y - my) / length, (z - mz) / length
-        (a, b, c), (d, e, f), (g, h, i) = contact.rotation.tolist()
-        levers = [
-            *(dy * g - dz * d, dy * h - dz * e, dy * i - dz * f),
-            *(dz * a - dx * g, dz * b - dx * h, dz * c - dx * i),
-            *(dx * d - dy * a, dx * e - dy * b, dx * f - dy * c),
-        ]
-        total += sum(levers) + (a + b + c + d + e + f + g + h + i)
-        columns = work.jacobian[:, 6 * k : 6 * k + 6]
-        columns[:3, :3] = columns[3:, 3:] = contact.rotation
-        columns[3:, :3] = np.array(levers).reshape(3, 3)
-    return math.isfinite(total)
