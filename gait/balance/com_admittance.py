@@ -16,6 +16,12 @@ LARGEST_OFFSET = 0.5
 class ComAdmittance:
     """Offset of the CoM reference from the plan.
 
+    Attributes:
+        x: Offset of the CoM reference from the plan along x in m.
+        y: The same along y.
+        rate_x: Its rate along x in m/s.
+        rate_y: The same along y.
+
     Args:
         zmp_gain: k_f in 1/s: how fast the CoM reference yields to a ZMP error.
         com_gain: k_x in 1/s: how fast it returns to the plan.
@@ -34,7 +40,7 @@ class ComAdmittance:
     def __init__(
         self, zmp_gain: float, com_gain: float, zmp_filter: float, period: float, largest: float = math.inf
     ) -> None:
-        self._x = self._y = self._rate_x = self._rate_y = 0.0
+        self.x = self.y = self.rate_x = self.rate_y = 0.0
         self._zmp_gain = zmp_gain
         self._com_gain = com_gain
         self._period = period
@@ -45,12 +51,12 @@ class ComAdmittance:
     @property
     def offset(self) -> NDArray[np.float64]:
         """Offset (2,) of the CoM reference from the plan in m."""
-        return np.array((self._x, self._y))
+        return np.array((self.x, self.y))
 
     @property
     def rate(self) -> NDArray[np.float64]:
         """Its rate (2,) in m/s."""
-        return np.array((self._rate_x, self._rate_y))
+        return np.array((self.rate_x, self.rate_y))
 
     def update(self, error: NDArray[np.float64]) -> None:
         """One control tick.
@@ -58,15 +64,23 @@ class ComAdmittance:
         Args:
             error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
         """
-        x, y = error.tolist()
+        self.follow(*error.tolist())
+
+    def follow(self, x: float, y: float) -> None:
+        """One control tick, with plain numbers: see `update`.
+
+        Args:
+            x: Measured less desired ZMP along x in m.
+            y: The same along y.
+        """
         # Keeps the noise of the taxels out of the CoM's reference.
         self._error_x += self._share * (x - self._error_x)
         self._error_y += self._share * (y - self._error_y)
         # The second term brings the CoM back onto the plan; without it a bias of the ZMP would add up to a drift.
-        self._rate_x = self._zmp_gain * self._error_x - self._com_gain * self._x
-        self._rate_y = self._zmp_gain * self._error_y - self._com_gain * self._y
-        self._x += self._period * self._rate_x
-        self._y += self._period * self._rate_y
-        size = math.sqrt(self._x * self._x + self._y * self._y)
+        self.rate_x = self._zmp_gain * self._error_x - self._com_gain * self.x
+        self.rate_y = self._zmp_gain * self._error_y - self._com_gain * self.y
+        self.x += self._period * self.rate_x
+        self.y += self._period * self.rate_y
+        size = math.sqrt(self.x * self.x + self.y * self.y)
         if size > self._largest:
-            self._x, self._y = self._x * (self._largest / size), self._y * (self._largest / size)
+            self.x, self.y = self.x * (self._largest / size), self.y * (self._largest / size)

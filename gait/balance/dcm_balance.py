@@ -12,13 +12,12 @@ from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
-from plantar.kernels.convex import closest_point
+from plantar.kernels.convex import nearest
+from plantar.kernels.vectors import vector2
 from plantar.settings.schema import Settings, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
-
-_NO_ERROR = np.zeros(2)
 
 
 class BalanceGains(Settings):
@@ -74,16 +73,22 @@ class DcmBalance:
         Returns:
             Desired ZMP (2,) in m.
         """
+        return np.array(self._desired(reference, dcm, region))
+
+    def _desired(
+        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
+    ) -> tuple[float, float]:
+        """`desired_zmp` as plain numbers: on two of them an array costs several times as much, at every tick."""
         # At xi = xi_r this is the planned VRP; a DCM that is off has its error driven to zero at the rate k_xi (T
         # 4.28).
         (px, py), (rx, ry), (x, y) = reference.vrp.tolist(), reference.dcm.tolist(), dcm.tolist()
         gain = 1.0 + self.gains.dcm_gain / self.omega
         x, y = px - gain * (rx - x), py - gain * (ry - y)
         if not len(region):
-            return np.array((x, y))
+            return x, y
         # No foot can press beside its contact: what is wanted there is cut to what the ground can give (T Algorithm 1).
-        nearest: NDArray[np.float64] = closest_point(region, x, y)
-        return nearest
+        cut: tuple[float, float] = nearest(region, x, y)
+        return cut
 
     def update(
         self,
@@ -103,17 +108,18 @@ class DcmBalance:
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
-        desired = self.desired_zmp(reference, dcm, region)
-        self._admittance.update(_NO_ERROR if zmp is None else zmp - desired)
-        com = reference.com + self._admittance.offset
-        return BalanceState(
-            zmp_desired=desired,
-            com=com,
-            com_velocity=reference.com_velocity + self._admittance.rate,
-            # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset
-            # above.
-            com_acceleration=self.omega**2 * (com - desired),
-        )
+        (px, py), offset = self._desired(reference, dcm, region), self._admittance
+        if zmp is None:
+            offset.follow(0.0, 0.0)
+        else:
+            zx, zy = zmp.tolist()
+            offset.follow(zx - px, zy - py)
+        (cx, cy), (vx, vy) = reference.com.tolist(), reference.com_velocity.tolist()
+        cx, cy, vx, vy = cx + offset.x, cy + offset.y, vx + offset.rate_x, vy + offset.rate_y
+        # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset above.
+        stiffness = self.omega**2
+        ax, ay = stiffness * (cx - px), stiffness * (cy - py)
+        return BalanceState(vector2(px, py), vector2(cx, cy), vector2(vx, vy), vector2(ax, ay))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Load transfer by the plan; the feet do not give way.

@@ -21,7 +21,8 @@ from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance, FootCo
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
-from plantar.geometry.polygon import closest_point
+from plantar.kernels.convex import nearest
+from plantar.kernels.vectors import vector2
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
@@ -123,7 +124,7 @@ class WrenchBalance:
         self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
         self.feet = FootAdmittance(gains.feet, period)
         self.states: Counter[str] = Counter()
-        self._integral = np.zeros(2)
+        self._integral = (0.0, 0.0)
         largest = LARGEST_OFFSET * gains.body.leg
         self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
 
@@ -145,16 +146,19 @@ class WrenchBalance:
         Returns:
             Desired ZMP and CoM reference.
         """
-        desired = self._desired_zmp(reference, dcm, region)
-        acceleration = self.omega**2 * (reference.com + self._admittance.offset - desired)
+        # Plain numbers: on two of them an array costs several times as much, and this runs at every tick.
+        px, py = self._desired_zmp(reference, dcm, region)
+        (cx, cy), (vx, vy), offset = reference.com.tolist(), reference.com_velocity.tolist(), self._admittance
+        stiffness = self.omega**2
+        ax, ay = stiffness * (cx + offset.x - px), stiffness * (cy + offset.y - py)
         if self.gains.zmp_gain > 0.0:
-            self._admittance.update(np.zeros(2) if zmp is None else zmp - desired)
-        return BalanceState(
-            zmp_desired=desired,
-            com=reference.com + self._admittance.offset,
-            com_velocity=reference.com_velocity + self._admittance.rate,
-            com_acceleration=acceleration,
-        )
+            if zmp is None:
+                offset.follow(0.0, 0.0)
+            else:
+                zx, zy = zmp.tolist()
+                offset.follow(zx - px, zy - py)
+        cx, cy, vx, vy = cx + offset.x, cy + offset.y, vx + offset.rate_x, vy + offset.rate_y
+        return BalanceState(vector2(px, py), vector2(cx, cy), vector2(vx, vy), vector2(ax, ay))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Share the pendulum's wrench between the feet that stand, and let them give way.
@@ -176,18 +180,24 @@ class WrenchBalance:
 
     def _desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    ) -> tuple[float, float]:
         """T 4.18 with an integral that forgets; it stands still while the region holds the desired ZMP back."""
-        g, dt = self.gains, self.period
-        error = dcm - reference.dcm
-        wanted = reference.vrp + (1.0 + g.dcm_gain / self.omega) * error + self._integral
-        nearest = closest_point(region, wanted)
-        if nearest is None:
-            return wanted
-        if g.dcm_integral > 0.0 and math.dist(nearest, wanted) < 1e-9:
-            moved = self._integral + dt * (g.dcm_integral * error - g.dcm_forgetting * self._integral)
-            self._integral = np.minimum(np.maximum(moved, -g.largest_integral), g.largest_integral)
-        return nearest
+        g, (ix, iy) = self.gains, self._integral
+        (px, py), (rx, ry), (x, y) = reference.vrp.tolist(), reference.dcm.tolist(), dcm.tolist()
+        gain, ex, ey = 1.0 + g.dcm_gain / self.omega, x - rx, y - ry
+        x, y = px + gain * ex + ix, py + gain * ey + iy
+        if not len(region):
+            return x, y
+        inside: tuple[float, float] = nearest(region, x, y)
+        if g.dcm_integral > 0.0 and math.dist(inside, (x, y)) < 1e-9:
+            self._integral = self._integrated(ix, ex), self._integrated(iy, ey)
+        return inside
+
+    def _integrated(self, integral: float, error: float) -> float:
+        """One coordinate of the integral after one tick with an error of the DCM in m."""
+        g = self.gains
+        moved = integral + self.period * (g.dcm_integral * error - g.dcm_forgetting * integral)
+        return min(max(moved, -g.largest_integral), g.largest_integral)
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> dict[Side, NDArray[np.float64]]:
         """Distribute the pendulum's wrench over the feet that stand.

@@ -42,8 +42,11 @@ cdef class OffsetRoom:
     @cython.locals(out=cython.p_double, i=Py_ssize_t)
     cdef copied(self, Py_ssize_t size)
 
-@cython.locals(room=OffsetRoom, _margin=double, qx=double, qy=double)
+@cython.locals(qx=double, qy=double)
 cpdef closest_point(polygon, double x, double y)
+
+@cython.locals(room=OffsetRoom, _margin=double, qx=double, qy=double)
+cpdef (double, double) nearest(polygon, double x, double y) except *
 
 @cython.locals(room=OffsetRoom, margin=double, _qx=double, _qy=double)
 cpdef double signed_margin(polygon, double x, double y) except? -1.0

@@ -19,6 +19,7 @@ __all__ = [
     "area_and_centroid",
     "closest_point",
     "inner_offset",
+    "nearest",
     "offset",
     "seen_from_above",
     "signed_margin",
@@ -164,10 +165,16 @@ def closest_point(polygon, x, y):
     Returns:
         The closest point (2,), the point itself where it is inside; NaN where the point, or no vertex, is finite.
     """
+    qx, qy = nearest(polygon, x, y)
+    return vectors.vector2(qx, qy)
+
+
+def nearest(polygon, x, y):
+    """`closest_point` as two numbers."""
     room = _borrow(0)  # of a polygon of more than a few vertices its buffer is read
     _margin, qx, qy = _nearest_of_any(_entered(polygon, room), x, y)
     _FREE.append(room)
-    return vectors.vector2(qx, qy)
+    return qx, qy
 
 
 def signed_margin(polygon, x, y):

@@ -69,6 +69,8 @@ def test_convex_kernels_agree_to_the_last_bit(seed):
     assert same(convex.area_and_centroid(ring), CONVEX.area_and_centroid(ring))
     x, y = (ring.mean(axis=0) + rng.normal(size=2) * np.ptp(ring) * rng.choice([0.0, 0.1, 1.0])).tolist()
     assert same(convex.closest_point(ring, x, y), CONVEX.closest_point(ring, x, y))
+    assert same(convex.nearest(ring, x, y), convex.closest_point(ring, x, y))
+    assert same(CONVEX.nearest(ring, x, y), CONVEX.closest_point(ring, x, y))
     assert same(convex.signed_margin(ring, x, y), CONVEX.signed_margin(ring, x, y))
     if len(ring) > 2:
         distance = float(np.ptp(ring, axis=0).max() * rng.choice([1e-9, 0.1, 0.3, 2.0]))
