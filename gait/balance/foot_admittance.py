@@ -8,16 +8,15 @@ and the other one down. All corrections return to zero slowly, and quickly for a
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.layouts.layout import Side
+from plantar.kernels.sole_admittance import SoleAdmittance
 from plantar.settings.schema import Settings, number, share
-from plantar.sides import SIDES
+from plantar.sides import SIDES, Side
 
-__all__ = ["AdmittanceGains", "FootAdmittance", "FootCorrection"]
+__all__ = ["AdmittanceGains", "FootAdmittance"]
 
 
 class AdmittanceGains(Settings):
@@ -42,23 +41,12 @@ class AdmittanceGains(Settings):
     largest_lift: float = share(1 / 30, "leg", 0, 0.2)
 
 
-@dataclass
-class FootCorrection:
-    """Correction of one commanded sole.
-
-    Attributes:
-        roll: Turn about the sole's x axis in rad.
-        pitch: Turn about its y axis in rad.
-        shift: Shift upwards in m.
-    """
-
-    roll: float = 0.0
-    pitch: float = 0.0
-    shift: float = 0.0
-
-
 class FootAdmittance:
     """Admittance of both feet.
+
+    Attributes:
+        corrections: Correction of each commanded sole: its turn in rad about its x and its y axis, `roll` and `pitch`,
+            and its `shift` in m upwards.
 
     Args:
         gains: The gains.
@@ -66,14 +54,18 @@ class FootAdmittance:
     """
 
     def __init__(self, gains: AdmittanceGains, period: float) -> None:
+        g = gains
         self.gains = gains
         self.period = period
-        self.corrections = {s: FootCorrection() for s in SIDES}
-        self._measured: dict[Side, list[float] | None] = {"left": None, "right": None}
+        share = period / (g.foot_filter + period)
+        rates = (g.foot_turn_gain, g.foot_return, g.foot_release)
+        self.corrections: Mapping[Side, SoleAdmittance] = {
+            side: SoleAdmittance(period, share, *rates, g.largest_turn, g.largest_lift) for side in SIDES
+        }
 
     def update(
         self, wanted: Mapping[Side, NDArray[np.float64]], measured: Mapping[Side, NDArray[np.float64]]
-    ) -> Mapping[Side, FootCorrection]:
+    ) -> Mapping[Side, SoleAdmittance]:
         """One control tick.
 
         Args:
@@ -81,46 +73,23 @@ class FootAdmittance:
             measured: Wrench (6,) that it carries, for the same feet.
 
         Returns:
-            Correction of each foot; that of a foot in the air fades.
+            Correction of each foot, `corrections`; that of a foot in the air fades.
         """
-        g, dt = self.gains, self.period
-        share = dt / (g.foot_filter + dt)
-        errors: dict[Side, float] = {}
-        for side in SIDES:
-            foot = self.corrections[side]
-            if side not in wanted:
-                # A foot in the air has no load to compare with, and its filter must begin anew at touchdown.
-                self._measured[side] = None
-                keep = max(0.0, 1.0 - g.foot_release * dt)
-                foot.roll, foot.pitch, foot.shift = keep * foot.roll, keep * foot.pitch, keep * foot.shift
-                # An exponential never ends: below what any servo resolves the correction is exactly none.
-                if abs(foot.roll) + abs(foot.pitch) + abs(foot.shift) < 1e-7:
-                    foot.roll = foot.pitch = foot.shift = 0.0
-                continue
-            # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
-            _, _, *now, _ = measured[side].tolist()
-            last = self._measured[side]
-            fz, tx, ty = (
-                now if last is None else [old + share * (new - old) for old, new in zip(last, now, strict=True)]
-            )
-            self._measured[side] = [fz, tx, ty]
-            _, _, wanted_fz, wanted_tx, wanted_ty, _ = wanted[side].tolist()
-            foot.roll = self._moved(foot.roll, g.foot_turn_gain * (tx - wanted_tx), g.largest_turn)
-            foot.pitch = self._moved(foot.pitch, g.foot_turn_gain * (ty - wanted_ty), g.largest_turn)
-            errors[side] = fz - wanted_fz
-        # Foot force difference control: one foot goes up as much as the other goes down, so that the body keeps its
-        # height.
+        errors: list[float] = []
+        for side, foot in self.corrections.items():
+            if side in wanted:
+                _, _, fz, tx, ty, _ = measured[side].tolist()
+                _, _, wanted_fz, wanted_tx, wanted_ty, _ = wanted[side].tolist()
+                errors.append(foot.turn(fz, tx, ty, wanted_fz, wanted_tx, wanted_ty))
+            else:
+                foot.fade()
         if len(errors) == 2:
-            rate = 0.5 * g.foot_lift_gain * (errors["left"] - errors["right"])
-            for side, sign in (("left", 1.0), ("right", -1.0)):
-                foot = self.corrections[side]
-                foot.shift = self._moved(foot.shift, sign * rate, g.largest_lift)
+            # Foot force difference control: one foot goes up as much as the other goes down, so that the body keeps
+            # its height.
+            rate = 0.5 * self.gains.foot_lift_gain * (errors[0] - errors[1])
+            self.corrections["left"].lift(rate)
+            self.corrections["right"].lift(-rate)
         else:
-            for side in errors:
-                self.corrections[side].shift = self._moved(self.corrections[side].shift, 0.0, g.largest_lift)
+            for side in wanted:
+                self.corrections[side].lift(0.0)
         return self.corrections
-
-    def _moved(self, value: float, rate: float, largest: float) -> float:
-        """A correction after one tick at a rate, drawn back to zero and limited."""
-        value += self.period * (rate - self.gains.foot_return * value)
-        return min(largest, max(-largest, value))

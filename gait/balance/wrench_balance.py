@@ -11,17 +11,18 @@ import math
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
-from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance, FootCorrection
+from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
 from plantar.kernels.convex import nearest
+from plantar.kernels.sole_admittance import SoleAdmittance
 from plantar.kernels.vectors import vector2
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
@@ -170,11 +171,11 @@ class WrenchBalance:
         Returns:
             What each foot shall carry and how it gives way.
         """
-        wanted = self.distributed(balanced, feet)
-        measured = {side: foot.wrench for side, foot in feet.states.items() if foot.wrench is not None}
+        states, wanted = feet.states, self.distributed(balanced, feet)
+        measured = {side: foot.wrench for side, foot in states.items() if foot.wrench is not None}
         corrections = self.feet.update(wanted, measured)
         return {
-            side: _action(wanted.get(side, _NO_WRENCH), feet.states[side], correction)
+            side: _action(wanted.get(side, _NO_WRENCH), states[side], correction)
             for side, correction in corrections.items()
         }
 
@@ -199,7 +200,7 @@ class WrenchBalance:
         moved = integral + self.period * (g.dcm_integral * error - g.dcm_forgetting * integral)
         return min(max(moved, -g.largest_integral), g.largest_integral)
 
-    def distributed(self, balanced: BalanceState, feet: Feet) -> dict[Side, NDArray[np.float64]]:
+    def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
         """Distribute the pendulum's wrench over the feet that stand.
 
         Args:
@@ -212,31 +213,31 @@ class WrenchBalance:
         contacts: dict[str, Contact] = {
             side: foot.contact for side, foot in feet.states.items() if foot.contact is not None
         }
-        ax, ay = balanced.com_acceleration.tolist()
-        x, y = balanced.zmp_desired.tolist()
+        (ax, ay), (x, y) = balanced.com_acceleration.tolist(), balanced.zmp_desired.tolist()
         shares: dict[str, float] | None = None
         ground = 0.0
-        if contacts:
-            places = [c.center_in_world for c in contacts.values()]
-            ground = sum(p[2] for p in places) / len(places)
-            if len(places) == 2:
-                first = _share(x, y, *places)
-                shares = dict(zip(contacts, (first, 1.0 - first), strict=True))
+        if len(contacts) == 2:
+            (one, first), (other, second) = contacts.items()
+            here, there = first.center_in_world, second.center_in_world
+            ground = (here[2] + there[2]) / 2
+            share = _share(x, y, here, there)
+            shares = {one: share, other: 1.0 - share}
+        else:
+            for contact in contacts.values():
+                ground = contact.center_in_world[2]
         # Along the line from the ZMP to the CoM: no moment about the ZMP.
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
-        share = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
-        self.states[share.state.value] += 1
-        return {side: share.wrenches[side] for side in feet.states if side in contacts}
+        found = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
+        self.states[found.state.value] += 1
+        return cast("Mapping[Side, NDArray[np.float64]]", found.wrenches)
 
 
-def _action(wrench: NDArray[np.float64], foot: FootState, correction: FootCorrection) -> FootAction:
+def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
     """A wrench in the sole frame as a force at its centre of pressure, and how the foot gives way."""
-    fx, fy, fz, tx, ty, _ = wrench.tolist()
-    cop = np.array([-ty / fz, tx / fz]) if fz > 0.0 else foot.center
+    _, _, fz, tx, ty, _ = wrench.tolist()
+    cop = np.array((-ty / fz, tx / fz)) if fz > 0.0 else foot.center
     place = foot.position[:2] + foot.level[:2, :2].dot(cop)
-    return FootAction(
-        foot.level.dot(np.array([fx, fy, fz])), place, correction.roll, correction.pitch, correction.shift
-    )
+    return FootAction(foot.level.dot(wrench[:3]), place, correction.roll, correction.pitch, correction.shift)
 
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from plantar.lazy import lazy
 from plantar.mechanics.wrench import wrench_in_frame
 from plantar.mechanics.wrench_cone import Rectangle
 
@@ -42,12 +42,12 @@ class Contact:
         """What does not depend on where the contact is."""
         return self.rectangle, self.friction, self.preferred
 
-    @cached_property
+    @lazy
     def center_in_world(self) -> tuple[float, float, float]:
         """The preferred centre of pressure in the world frame in m."""
         x, y = self.preferred or self.rectangle.center
-        point = self.position + self.rotation @ np.array([x, y, 0.0])
-        return float(point[0]), float(point[1]), float(point[2])
+        (px, py, pz), (dx, dy, dz) = self.position.tolist(), self.rotation.dot(np.array((x, y, 0.0))).tolist()
+        return px + dx, py + dy, pz + dz
 
     def wrench_in_world(self, wrench: ArrayLike) -> NDArray[np.float64]:
         """A wrench (..., 6) about the contact frame's origin as one about the world's origin, in N and N m.
