@@ -59,6 +59,7 @@ from gait.propose.step_adjustment import StepAdjustment
 from gait.propose.step_timing import StepTiming
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.kernels.sole_targets import risen, turned
 from plantar.kernels.vectors import matrix, vector, vector2
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
@@ -575,7 +576,7 @@ class WalkingController:
             level = rotation = self.motion.rotation(side)
             x, y = self._damping[side].turn.tolist()
             if x or y:
-                rotation = level.dot(rotation_from_vector(np.array([x, y, 0.0])))
+                rotation = turned(level, x, y)
             foot = FootState(self.motion.footholds[side][0], level, rotation, self.contacts.center(side))
             if contacts and (phase.swing != side or self.motion.landed):
                 foot = foot.changed(contact=self._contact(side), wrench=soles[side].wrench_in_sole)
@@ -586,14 +587,12 @@ class WalkingController:
         """Pose and load of each sole: turned about its centre and shifted as the balance law has it give way."""
         targets: dict[Side, FootTarget] = {}
         for side, action in actions.items():
-            foot = feet.states[side]
-            position, rotation, center = foot.position, foot.rotation, foot.center
-            if action.roll or action.pitch or action.shift:
+            foot, roll, pitch, shift = feet.states[side], action.roll, action.pitch, action.shift
+            position, rotation = foot.position, foot.rotation
+            if roll or pitch or shift:
                 x, y = self._damping[side].turn.tolist()
-                rotation = foot.level.dot(rotation_from_vector(np.array([x + action.roll, y + action.pitch, 0.0])))
-                # About the centre: it stays at its height, to first order.
-                rise = action.shift + action.pitch * center[0] - action.roll * center[1]
-                position = position + np.array([0.0, 0.0, rise])
+                rotation = turned(foot.level, x + roll, y + pitch)
+                position = risen(position, foot.center, roll, pitch, shift)
             targets[side] = FootTarget(position, rotation, action.force, action.center_of_pressure)
         return targets
 

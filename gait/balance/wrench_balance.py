@@ -23,6 +23,7 @@ from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
 from plantar.kernels.convex import nearest
 from plantar.kernels.sole_admittance import SoleAdmittance
+from plantar.kernels.sole_targets import pressed
 from plantar.kernels.vectors import vector2
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
@@ -234,10 +235,8 @@ class WrenchBalance:
 
 def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:
     """A wrench in the sole frame as a force at its centre of pressure, and how the foot gives way."""
-    _, _, fz, tx, ty, _ = wrench.tolist()
-    cop = np.array((-ty / fz, tx / fz)) if fz > 0.0 else foot.center
-    place = foot.position[:2] + foot.level[:2, :2].dot(cop)
-    return FootAction(foot.level.dot(wrench[:3]), place, correction.roll, correction.pitch, correction.shift)
+    force, place = pressed(wrench, foot.level, foot.position, foot.center)
+    return FootAction(force, place, correction.roll, correction.pitch, correction.shift)
 
 
 def _share(x: float, y: float, first: tuple[float, ...], second: tuple[float, ...]) -> float:
