@@ -572,15 +572,17 @@ class WalkingController:
     def _feet(self, phase: Phase, soles: Mapping[Side, SoleLoad], contacts: bool) -> Feet:
         """The feet as a balance law sees them, with contacts and wrenches of those that stand if it wants them."""
         states: dict[Side, FootState] = {}
+        motion, crept = self.motion, self._crept() if contacts else ()
         for side in SIDES:
-            level = rotation = self.motion.rotation(side)
+            level = rotation = motion.rotation(side)
             x, y = self._damping[side].turn.tolist()
             if x or y:
                 rotation = turned(level, x, y)
-            foot = FootState(self.motion.footholds[side][0], level, rotation, self.contacts.center(side))
-            if contacts and (phase.swing != side or self.motion.landed):
-                foot = foot.changed(contact=self._contact(side), wrench=soles[side].wrench_in_sole)
-            states[side] = foot
+            contact = wrench = None
+            if contacts and (phase.swing != side or motion.landed):
+                contact, wrench = self._contact(side, crept), soles[side].wrench_in_sole
+            center = self.contacts.center(side)
+            states[side] = FootState(motion.footholds[side][0], level, rotation, center, contact, wrench)
         return Feet(states, phase.stance, self._frame)
 
     def _targets(self, feet: Feet, actions: Mapping[Side, FootAction]) -> dict[Side, FootTarget]:
@@ -657,27 +659,26 @@ class WalkingController:
         turn = math.remainder(heading(state.rotations_sole[side]) - yaw, 2.0 * math.pi)
         self._frame.update(position, state.positions_sole[side], turn)
 
-    def _contact(self, side: Side) -> Contact:
-        """Contact of a foot that stands; the same object until it is off by 1/6000 of the leg (0.1 mm for H1) or
-        0.1 mrad, as the frame creeps."""
+    def _crept(self) -> tuple[int, ...]:
+        """How far the command frame has crept, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
+        frame, fine = self._frame, 6000.0 / self.settings.body.leg
+        x, y, z = frame.offset
+        return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
+
+    def _contact(self, side: Side, crept: tuple[int, ...]) -> Contact:
+        """Contact of a foot that stands; the same object until the frame has crept by a step of `_crept`."""
         polygon = self.contacts.polygon(side)
         rectangle = self._rectangle_of.get(side)
         if rectangle is None or rectangle[0] is not polygon:
             (x0, y0), _, (x1, y1), _ = safe_rectangle(polygon, _CONTACT_OFFSET * self.settings.body.sole).tolist()
             rectangle = self._rectangle_of[side] = (polygon, Rectangle(x0, x1, y0, y1))
         position, yaw = self.motion.footholds[side]
-        x, y, z = self._frame.offset
-        fine = 6000.0 / self.settings.body.leg
-        place = (rectangle[1], yaw, round(x * fine), round(y * fine), round(z * fine), round(self._frame.turn, 4))
+        place = (rectangle[1], yaw, crept)
         known = self._contact_of.get(side)
         if known is None or known[0] is not position or known[1] != place:
-            center = self.contacts.center(side)
-            contact = Contact(
-                self._frame.to_world(position),
-                level_rotation(yaw + self._frame.turn),
-                rectangle[1],
-                preferred=(float(center[0]), float(center[1])),
-            )
+            x, y = self.contacts.center(side).tolist()
+            turn = level_rotation(yaw + self._frame.turn)
+            contact = Contact(self._frame.to_world(position), turn, rectangle[1], preferred=(x, y))
             known = self._contact_of[side] = (position, place, contact)
         return known[2]
 
