@@ -12,12 +12,12 @@ piece, each short enough for a slip to stand out of what noise leaves.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.gyro_bias import GyroBias as _Kernel
 from plantar.sides import Side
 
 __all__ = ["GyroBias"]
@@ -43,6 +43,7 @@ class GyroBias:
         value: The bias (3,) in the base frame in rad/s.
         missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro says, less its bias, in
             the piece that has just ended and in which no sole slipped; None while none has.
+        kernel: What computes it: the estimator calls it within its own.
 
     Args:
         period: Control period in s.
@@ -58,21 +59,22 @@ class GyroBias:
     """
 
     def __init__(self, period: float, time_constant: float, largest: float, piece: float, slip: float) -> None:
-        self.value = np.zeros(3)
-        self.missed: NDArray[np.float64] | None = None
-        self._period = period
-        self._least = period / time_constant
-        self._largest = largest
-        self._most_ticks = max(1, round(piece / period))
-        self._slip = slip
-        self._gathered = 0.0
-        self._begin()
+        self._value, self._missed = np.zeros(3), np.zeros(3)
+        most_ticks = max(1, round(piece / period))
+        self.kernel = _Kernel(
+            *(period, period / time_constant, largest, most_ticks, slip),
+            *(_ONE_FOOT, _FIRST_PIECES * most_ticks, self._value, self._missed),
+        )
 
-    def _begin(self) -> None:
-        """A piece begins."""
-        self._beyond = (0.0, 0.0, 0.0)
-        self._ticks = 0
-        self._worth = 0.0
+    @property
+    def value(self) -> NDArray[np.float64]:
+        """The bias (3,) as it is now."""
+        return self._value.copy()
+
+    @property
+    def missed(self) -> NDArray[np.float64] | None:
+        """What the legs turned more in the piece that ended at the last tick (3,)."""
+        return self._missed.copy() if self.kernel.concluded else None
 
     def update(
         self,
@@ -91,27 +93,8 @@ class GyroBias:
         Returns:
             The bias (3,) in rad/s; the last one while no foot stands still.
         """
-        self.missed = None
-        if turn is not None:
-            # Plain numbers: on three of them an array costs five times as much, and this runs at every tick.
-            (bx, by, bz), (gx, gy, gz), (vx, vy, vz) = self._beyond, gyro.tolist(), self.value.tolist()
-            (tx, ty, tz), dt = turn.tolist(), self._period
-            self._beyond = bx + (dt * (gx - vx) - tx), by + (dt * (gy - vy) - ty), bz + (dt * (gz - vz) - tz)
-            self._ticks += 1
-            self._worth += 1.0 if weights["left"] > 0.0 and weights["right"] > 0.0 else _ONE_FOOT
-        if self._ticks and (turn is None or self._ticks >= self._most_ticks):
-            self._conclude()
+        gx, gy, gz = gyro.tolist()
+        tx, ty, tz = (0.0, 0.0, 0.0) if turn is None else turn.tolist()
+        both = weights["left"] > 0.0 and weights["right"] > 0.0
+        self.kernel.update(gx, gy, gz, turn is not None, tx, ty, tz, both)
         return self.value
-
-    def _conclude(self) -> None:
-        """A piece has ended: take it in."""
-        beyond, duration = np.array(self._beyond), self._ticks * self._period
-        allowed = np.array([math.inf, math.inf, self._slip])  # flat soles slip about the vertical
-        if self._gathered < _FIRST_PIECES * self._most_ticks:
-            allowed = np.maximum(allowed, np.abs(beyond))  # what is beyond is the bias, which is not known yet
-        self._gathered += self._worth
-        share = min(1.0, max(self._ticks * self._least, self._worth / self._gathered))
-        moved = self.value + share / duration * np.minimum(np.maximum(beyond, -allowed), allowed)
-        self.value = np.minimum(np.maximum(moved, -self._largest), self._largest)
-        self.missed = np.where(np.abs(beyond) <= allowed, -beyond, 0.0)
-        self._begin()

@@ -11,13 +11,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plantar.sides import SIDES, Side
+from plantar.kernels.gyro_bias import SteadyLoad as _Kernel
+from plantar.sides import Side
 
 __all__ = ["SteadyLoad"]
 
 
 class SteadyLoad:
     """Compares what each foot carries with what both do, and with its own running mean.
+
+    Attributes:
+        kernel: What computes it: the estimator calls it within its own.
 
     Args:
         period: Control period in s.
@@ -36,10 +40,7 @@ class SteadyLoad:
     """
 
     def __init__(self, period: float, share: float, time_constant: float, band: float) -> None:
-        self._share = share
-        self._follow = min(1.0, period / time_constant)
-        self._band = band
-        self._mean: dict[Side, float] | None = None
+        self.kernel = _Kernel(share, min(1.0, period / time_constant), band)
 
     def update(self, loads: Mapping[Side, float]) -> dict[Side, float]:
         """One control tick.
@@ -50,15 +51,6 @@ class SteadyLoad:
         Returns:
             The same loads in N, 0 of a foot that may turn.
         """
-        mean = self._mean
-        if mean is None:
-            mean = self._mean = {side: loads[side] for side in SIDES}
-        total = sum(loads.values())
-        nearly_all, hardly = self._share * total, (1.0 - self._share) * total
-        steady: dict[Side, float] = {}
-        for side in SIDES:
-            load = loads[side]
-            mean[side] += self._follow * (load - mean[side])
-            still = load >= nearly_all or (load > hardly and abs(load - mean[side]) < self._band)
-            steady[side] = load if still else 0.0
-        return steady
+        kernel = self.kernel
+        kernel.update(loads["left"], loads["right"])
+        return {"left": kernel.left, "right": kernel.right}

@@ -1,0 +1,133 @@
+"""Kernel of a gyro's bias by feet that stand still, and of which feet do.
+
+`gait.estimate.gyro_bias` and `gait.estimate.steady_load` are the public faces: they say what is compared, and why. Feet
+are numbered in the order of `plantar.sides.SIDES`.
+"""
+
+from __future__ import annotations
+
+__all__ = ["GyroBias", "SteadyLoad"]
+
+_INFINITE = float("inf")
+
+
+class SteadyLoad:
+    """Compares what each of two feet carries with what both do, and with its own running mean.
+
+    Args:
+        share: Share of what both feet carry from which one stands still; the other one then does not.
+        follow: Share of a new load in the running mean.
+        band: Largest difference in N of load and mean of a foot that stands still beside the other one.
+
+    Attributes:
+        left: What the left foot carries in N, 0 where it may turn.
+        right: The same of the right one.
+    """
+
+    def __init__(self, share, follow, band):
+        self.share, self.follow, self.band = share, follow, band
+        self.begun = False
+        self.mean_left = self.mean_right = self.left = self.right = 0.0
+
+    def update(self, left, right):
+        """One control tick.
+
+        Args:
+            left: What the left foot carries in N; 0 where it does not count as loaded.
+            right: The same of the right one.
+        """
+        if not self.begun:
+            self.begun = True
+            self.mean_left, self.mean_right = left, right
+        total = left + right
+        nearly_all, hardly = self.share * total, (1.0 - self.share) * total
+        self.mean_left += self.follow * (left - self.mean_left)
+        self.mean_right += self.follow * (right - self.mean_right)
+        self.left = left if self._is_still(left, self.mean_left, nearly_all, hardly) else 0.0
+        self.right = right if self._is_still(right, self.mean_right, nearly_all, hardly) else 0.0
+
+    def _is_still(self, load, mean, nearly_all, hardly):
+        return load >= nearly_all or (load > hardly and abs(load - mean) < self.band)
+
+
+class GyroBias:
+    """Mean of what a gyro measures beyond the turn of the legs, piece by piece.
+
+    The arrays of its results belong to the caller; this object keeps them and writes them.
+
+    Args:
+        period: Control period in s.
+        least: What a tick weighs at least in the mean, of everything that it knows.
+        largest: Largest bias of an axis in rad/s.
+        most_ticks: Ticks of a piece.
+        slip: Angle in rad about z that noise leaves at most in a piece.
+        one_foot: What a tick counts in which one foot stands still, of one in which both do.
+        known: Worth of what has been gathered from which a slip can be told from a bias.
+        value: Receives the bias (3,) in the base frame in rad/s.
+        missed: Receives the angle (3,) in the base frame in rad by which the legs turned more than the gyro says, less
+            its bias, in the piece that has ended.
+
+    Attributes:
+        concluded: Whether a piece has ended at the last tick.
+    """
+
+    def __init__(self, period, least, largest, most_ticks, slip, one_foot, known, value, missed):
+        self.period, self.least, self.largest = period, least, largest
+        self.most_ticks, self.slip, self.one_foot, self.known = most_ticks, slip, one_foot, known
+        self.value, self.missed = value, missed
+        self.concluded = False
+        self.gathered = 0.0
+        self._begin()
+
+    def _begin(self):
+        """A piece begins."""
+        self.x = self.y = self.z = self.worth = 0.0  # how far the gyro turned beyond the legs in rad
+        self.ticks = 0
+
+    def update(self, gyro_x, gyro_y, gyro_z, stands, turn_x, turn_y, turn_z, both):
+        """One control tick.
+
+        Args:
+            gyro_x: Angular velocity of the base about its own x in rad/s, as measured.
+            gyro_y: The same about y.
+            gyro_z: The same about z.
+            stands: Whether a foot stands still.
+            turn_x: Angle about the base's x in rad by which feet that stand still say it has turned in the tick.
+            turn_y: The same about y.
+            turn_z: The same about z.
+            both: Whether both feet stand still.
+        """
+        self.concluded = False
+        if stands:
+            self.x += self.period * (gyro_x - self.value[0]) - turn_x
+            self.y += self.period * (gyro_y - self.value[1]) - turn_y
+            self.z += self.period * (gyro_z - self.value[2]) - turn_z
+            self.ticks += 1
+            self.worth += 1.0 if both else self.one_foot
+        if self.ticks > 0 and (not stands or self.ticks >= self.most_ticks):
+            self._conclude()
+
+    def _conclude(self):
+        """A piece has ended: take it in."""
+        duration = self.ticks * self.period
+        first = self.gathered < self.known
+        self.gathered += self.worth
+        share = self.ticks * self.least
+        if self.worth / self.gathered > share:
+            share = self.worth / self.gathered
+        if share > 1.0:
+            share = 1.0
+        for i in range(3):
+            beyond = self.x if i == 0 else self.y if i == 1 else self.z
+            allowed = self.slip if i == 2 else _INFINITE  # flat soles slip about the vertical
+            if first and abs(beyond) > allowed:
+                allowed = abs(beyond)  # what is beyond is the bias, which is not known yet
+            self.value[i] = _limited(self.value[i] + share / duration * _limited(beyond, allowed), self.largest)
+            self.missed[i] = -beyond if abs(beyond) <= allowed else 0.0
+        self.concluded = True
+        self._begin()
+
+
+def _limited(number, largest):
+    """A number, or the nearest one from -largest to it."""
+    return -largest if number < -largest else largest if number > largest else number
