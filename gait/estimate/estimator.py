@@ -16,9 +16,9 @@ Kalman filter (`gait.estimate.dcm_filter`) may do the same in its place, horizon
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +41,10 @@ __all__ = [
     "EstimatorGains",
     "FloatingBaseEstimator",
     "LegKinematics",
+    "LiveKinematics",
     "Posture",
     "SoleLoad",
+    "live_kinematics",
 ]
 
 
@@ -85,6 +87,20 @@ class LegKinematics(Protocol):
     def posture(self, joint_positions: NDArray[np.float64]) -> Posture:
         """Forward kinematics of joint positions (k,) in rad."""
         ...
+
+
+@runtime_checkable
+class LiveKinematics(LegKinematics, Protocol):
+    """A robot model that spares its user the copies of each posture."""
+
+    def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """The same as `posture`, in the same arrays at each call, where they hold until the next one of either."""
+        ...
+
+
+def live_kinematics(kinematics: LegKinematics) -> Callable[[NDArray[np.float64]], Posture]:
+    """The quickest forward kinematics of a model, of which a posture is read before the next one is asked for."""
+    return kinematics.live_posture if isinstance(kinematics, LiveKinematics) else kinematics.posture
 
 
 class EstimatorGains(Settings):
@@ -156,6 +172,7 @@ class FloatingBaseEstimator:
             *(self._places, self._turns, self._zmp, self._stood),
         )
         self._begun = False
+        self._posture = live_kinematics(self.kinematics)
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self.push_acceleration = np.zeros(2)
 
@@ -184,7 +201,7 @@ class FloatingBaseEstimator:
         Returns:
             The estimated state.
         """
-        posture = self.kinematics.posture(joint_positions)
+        posture = self._posture(joint_positions)
         if airborne is not None:
             # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
             share = min(1.0, self.period / self.gains.tare)

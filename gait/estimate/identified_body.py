@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gait.estimate.com_offset import com_offset
 from gait.estimate.encoder_offsets import StandingTolerances, encoder_offsets, standing_base
-from gait.estimate.estimator import LegKinematics, Posture, SoleLoad
+from gait.estimate.estimator import LegKinematics, Posture, SoleLoad, live_kinematics
 from gait.estimate.identification import IdentificationRules
 from gait.estimate.opening_stand import OpeningStand
 from plantar.sides import Side
@@ -58,6 +58,10 @@ class IdentifiedBody:
         self.known = False
         self._weight = weight
         self._kinematics = kinematics
+        self._live_posture = live_kinematics(kinematics)
+        self._reads_off = self._lies_off = False  # whether encoders, and the CoM, are known to differ from the model
+        self._com = np.zeros(3)
+        self._corrected: tuple[Posture, Posture] | None = None  # the model's live posture, and the body's
         self._feet = feet
         self._rules = rules
         self._stand = OpeningStand()
@@ -71,6 +75,18 @@ class IdentifiedBody:
         read = joint_positions - self.encoder_offsets if len(self.encoder_offsets) else joint_positions
         posture = self._kinematics.posture(read)
         return Posture(posture.com + self.com_offset, posture.positions, posture.rotations)
+
+    def live_posture(self, joint_positions: NDArray[np.float64]) -> Posture:
+        """The same in the same arrays at each call (see `LiveKinematics`)."""
+        read = joint_positions - self.encoder_offsets if self._reads_off else joint_positions
+        posture = self._live_posture(read)
+        if not self._lies_off:
+            return posture
+        corrected = self._corrected
+        if corrected is None or corrected[0] is not posture:
+            corrected = self._corrected = posture, Posture(self._com, posture.positions, posture.rotations)
+        np.add(posture.com, self.com_offset, out=self._com)
+        return corrected[1]
 
     def stand(
         self, joint_positions: NDArray[np.float64], accelerometer: NDArray[np.float64], soles: Mapping[Side, SoleLoad]
@@ -106,6 +122,7 @@ class IdentifiedBody:
             size = float(np.linalg.norm(beside))
             if size > rules.com_least:
                 self.com_offset = _limited(beside, size, rules.com_largest)
+        self._reads_off, self._lies_off = bool(self.encoder_offsets.any()), bool(self.com_offset.any())
         lever = 0.5 * math.dist(self._feet["left"][:2], self._feet["right"][:2])
         more = self.mass_ratio * (1.0 + abs(float(self.com_offset[1])) / lever) - 1.0
         self._tenths = min(_TENTHS_MOST, 10.0 * more if more > _EVEN else 0.0)

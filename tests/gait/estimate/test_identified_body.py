@@ -59,6 +59,12 @@ def test_finds_offsets_mass_and_com_of_one_robot() -> None:
     posture = body.posture(wrong)
     np.testing.assert_allclose(posture.com, body.com_offset)
     assert abs(posture.positions["left"][0] - posture.positions["right"][0]) < 1.2e-3  # 8 mm by the encoders
+    for joints in (wrong, 2.0 * wrong, wrong):
+        posture, live = body.posture(joints), body.live_posture(joints)
+        assert np.array_equal(live.com, posture.com)
+        for side in SIDES:
+            assert np.array_equal(live.positions[side], posture.positions[side])
+            assert np.array_equal(live.rotations[side], posture.rotations[side])
 
 
 def test_is_the_model_where_robot_and_model_agree() -> None:

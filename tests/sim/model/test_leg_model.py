@@ -64,6 +64,23 @@ def test_converges_to_every_target(legs: LegModel, seed: int) -> None:
     assert base + base_to_world @ posture.com == pytest.approx(com, abs=1e-8)
 
 
+def test_a_live_posture_is_the_same_in_arrays_that_stay(legs: LegModel) -> None:
+    rng, joints = np.random.default_rng(7), legs.configuration[7:]
+    first = legs.live_posture(joints)
+    for _ in range(3):
+        bent = joints + 0.1 * rng.normal(size=len(joints))
+        posture, live = legs.posture(bent), legs.live_posture(bent)
+        assert live is first
+        assert not live.com.flags.writeable
+        pairs = [(posture.com, live.com)]
+        for side in SIDES:
+            pairs += [(posture.positions[side], live.positions[side]), (posture.rotations[side], live.rotations[side])]
+        legs.posture(joints)
+        assert all(not np.array_equal(a, b) for a, b in pairs)  # what was copied has not moved
+        legs.live_posture(bent)
+        assert all(np.array_equal(a, b) for a, b in pairs)
+
+
 def test_agrees_with_mink(h1: Robot, legs: LegModel) -> None:
     mink = pytest.importorskip("mink")
     model = robot_spec(h1).compile()
