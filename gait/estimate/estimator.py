@@ -15,7 +15,6 @@ Kalman filter (`gait.estimate.dcm_filter`) may do the same in its place, horizon
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
@@ -134,7 +133,10 @@ class FloatingBaseEstimator:
         period: Control period in s.
         feet: Known standing pose (x, y, z, yaw) of each sole at the start.
         gains: Gains.
-        gyro_bias: Identifies the gyro's bias; None takes the gyro at its word.
+        gyro_bias: Identifies the gyro's bias; None takes the gyro at its word. With it the heading goes by what the
+            gyro has turned more than the legs since the start while feet stood still, so that nothing stays of what a
+            bias turned it before it was known; in between it goes by the gyro less its bias. Without it a foot counts
+            from when it comes to carry.
         steady: Tells which feet stand still enough to hold the gyro against; None takes all that are loaded.
         push: Estimates a push on the body from the soles and the IMU; None expects none.
         dcm_filter: Estimates the horizontal CoM and its velocity; None leaves them to the observer.
@@ -158,21 +160,23 @@ class FloatingBaseEstimator:
                 f"estimator.observer is {gains.observer:g} rad/s; allowed: more than {self.omega:.3g} rad/s, as fast "
                 "as a pendulum of this height falls: what is slower runs away with it"
             )
-        self._rotation, self._position = np.eye(3), np.zeros(3)
-        self._com, self._velocity = np.zeros(3), np.zeros(3)
-        self._places, self._turns = np.zeros((2, 3)), np.zeros((2, 3, 3))
-        self._zmp, self._stood = np.zeros(2), np.zeros(3)
-        # The arrays above are the state; the kernel writes them.
+        self._rotation, self._position, self._com, self._velocity = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3)
+        places, turns, self._zmp = np.zeros((2, 3)), np.zeros((2, 3, 3)), np.zeros(2)
+        # The kernel writes the state into these arrays. How to copy each is kept, as looking that up takes a while.
+        state = (self._rotation, self._position, self._com, self._velocity, places, turns, self._zmp, np.zeros(3))
+        self._copies = [array.copy for array in (*state[:4], *places, *turns)]
         self._base = FloatingBase(
             self.omega,
             self.period,
             GRAVITY,
             (gains.averaging, gains.gravity, gains.yaw, gains.observer, gains.minimum_load),
-            *(self._rotation, self._position, self._com, self._velocity),
-            *(self._places, self._turns, self._zmp, self._stood),
+            state,
+            None if self.gyro_bias is None else self.gyro_bias.kernel,
+            None if self.steady is None else self.steady.kernel,
         )
         self._begun = False
         self._posture = live_kinematics(self.kinematics)
+        self._watched: Posture | None = None
         self._tare: dict[Side, float] = {"left": 0.0, "right": 0.0}
         self.push_acceleration = np.zeros(2)
 
@@ -206,39 +210,44 @@ class FloatingBaseEstimator:
             # The foot is in the air: all that it measures is drift, which is taken off the loads to come.
             share = min(1.0, self.period / self.gains.tare)
             self._tare[airborne] += share * (soles[airborne].vertical_force - self._tare[airborne])
-        left, right = soles["left"], soles["right"]
-        # Ground never pulls; what the tare leaves below zero is noise.
-        load_left = max(0.0, left.vertical_force - self._tare["left"])
-        load_right = max(0.0, right.vertical_force - self._tare["right"])
+        loads: dict[str, float] = {"left": self._carry(0, "left", soles), "right": self._carry(1, "right", soles)}
         base = self._base
-        base.carry(load_left, load_right, left.position_cop_in_sole, right.position_cop_in_sole)
-        self._take(posture)
-        if not self._begun:
+        self._watch(posture)
+        if self._begun:
+            planned = (0.0, 0.0) if planned_acceleration is None else planned_acceleration.tolist()
+            carries = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
+        else:
             self._begun = True
             # The robot stands still at the start, so the specific force is gravity alone.
+            base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
-        else:
-            rate, missed = self._rate(gyro, load_left, load_right)
-            base.turn(rate, accelerometer, planned_acceleration, self.gyro_bias is not None, missed)
-            base.move()
-        zmp = self._zmp.copy() if base.place() else None
-        if zmp is not None and not math.isfinite(zmp.item(0) + zmp.item(1)):
-            raise InputError("the ZMP or the vertical force of a foot is not finite")
+            carries = base.place()
+        zmp = self._zmp.copy() if carries else None
         if self.push is not None:
             self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt)
         base.observe(*self.push_acceleration.tolist())
         if self.dcm_filter is not None:
             self._filter(self.dcm_filter, posture, zmp)
+        rotation, position, com, velocity, left, right, turn_left, turn_right = self._copies
         return BaseState(
-            self._rotation.copy(),
-            self._position.copy(),
-            self._com.copy(),
-            self._velocity.copy(),
+            rotation(),
+            position(),
+            com(),
+            velocity(),
             zmp,
-            {"left": load_left, "right": load_right},
-            {"left": self._places[0].copy(), "right": self._places[1].copy()},
-            {"left": self._turns[0].copy(), "right": self._turns[1].copy()},
+            loads,
+            {"left": left(), "right": right()},
+            {"left": turn_left(), "right": turn_right()},
         )
+
+    def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:
+        """Tell the kernel what a foot carries; the load in N."""
+        sole = soles[side]
+        load, point = max(0.0, sole.vertical_force - self._tare[side]), sole.position_cop_in_sole
+        x, y = (0.0, 0.0) if point is None else point.tolist()
+        # Ground never pulls; what the tare leaves below zero is noise.
+        self._base.carry(index, load, point is not None, x, y)
+        return load
 
     def stand_again(self, joint_positions: NDArray[np.float64]) -> None:
         """Take the robot to stand on the known footholds again: it has not moved, but its kinematics are known better.
@@ -249,13 +258,16 @@ class FloatingBaseEstimator:
         if not self._begun:
             return
         posture = self.kinematics.posture(joint_positions)
-        self._take(posture)
+        self._watch(posture)
+        self._base.take()
         self._stand(posture, self._rotation[2].copy())
         self._base.rest()
 
-    def _take(self, posture: Posture) -> None:
-        places, turns = posture.positions, posture.rotations
-        self._base.take(posture.com, places["left"], places["right"], turns["left"], turns["right"])
+    def _watch(self, posture: Posture) -> None:
+        """Let the kernel read a posture; one that is live it knows already."""
+        if posture is not self._watched:
+            self._watched, places, turns = posture, posture.positions, posture.rotations
+            self._base.watch(posture.com, places["left"], places["right"], turns["left"], turns["right"])
 
     def _stand(self, posture: Posture, up: NDArray[np.float64]) -> None:
         """Level the base by a unit vector (3,) against gravity in the base frame, head it along the feet, and stand on
@@ -264,24 +276,6 @@ class FloatingBaseEstimator:
         self._base.stand(rotation, position, *(self.feet[side][3] for side in SIDES))
         if self.dcm_filter is not None:
             self.dcm_filter.reset()
-
-    def _rate(
-        self, gyro: NDArray[np.float64], load_left: float, load_right: float
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-        """Angular velocity (3,) in rad/s by the gyro less its bias, and the angle (3,) in rad that the gyro missed.
-
-        Where the gyro's bias is identified, the heading goes by what it has turned more than the legs since the start
-        while feet stood still, so that nothing stays of what a bias turned it before it was known; in between it goes
-        by the gyro less its bias. Else a foot counts from when it comes to carry.
-        """
-        if self.gyro_bias is None:
-            return gyro, None
-        least = self.gains.minimum_load
-        weights: dict[Side, float] = {"left": max(0.0, load_left - least), "right": max(0.0, load_right - least)}
-        still = weights if self.steady is None else self.steady.update(weights)
-        stands = self._base.stand_still(still["left"], still["right"])
-        bias = self.gyro_bias.update(gyro, self._stood if stands else None, still)
-        return gyro - bias, self.gyro_bias.missed
 
     def _pushed(
         self,

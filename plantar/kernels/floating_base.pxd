@@ -1,7 +1,7 @@
 # C types of floating_base.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport rotations
+from . cimport gyro_bias, rotations
 
 cdef double _NONE
 
@@ -37,14 +37,28 @@ cdef class FloatingBase:
     cdef double[:, ::1] work
     cdef double[::1] vector
     cdef double[::1] other
+    cdef double[::1] rate
+    cdef double[::1] specific
+    cdef double[::1] planned
+    cdef const double[:] com_now
+    cdef const double[:] left_now
+    cdef const double[:] right_now
+    cdef const double[:, :] turn_left_now
+    cdef const double[:, :] turn_right_now
+    cdef gyro_bias.GyroBias bias
+    cdef gyro_bias.SteadyLoad steady
 
-    @cython.locals(
-        i=Py_ssize_t, j=Py_ssize_t, side=Py_ssize_t, places="double[:, :, ::1]", turns="double[:, :, :, ::1]"
-    )
-    cpdef void take(
+    cpdef void watch(
         self, const double[:] com, const double[:] left, const double[:] right, const double[:, :] turn_left,
         const double[:, :] turn_right
     ) except *
+
+    @cython.locals(
+        i=Py_ssize_t, j=Py_ssize_t, side=Py_ssize_t, places="double[:, :, ::1]", turns="double[:, :, :, ::1]",
+        com="const double[:]", left="const double[:]", right="const double[:]", turn_left="const double[:, :]",
+        turn_right="const double[:, :]"
+    )
+    cpdef void take(self) noexcept
 
     @cython.locals(i=Py_ssize_t, j=Py_ssize_t)
     cpdef void stand(
@@ -53,9 +67,18 @@ cdef class FloatingBase:
 
     cpdef void rest(self) except *
 
-    cpdef void carry(
-        self, double load_left, double load_right, const double[:] cop_left, const double[:] cop_right
-    ) except *
+    cpdef void carry(self, Py_ssize_t side, double load, bint pressed, double x, double y) noexcept
+
+    @cython.locals(i=Py_ssize_t, rate="double[::1]", bias=gyro_bias.GyroBias)
+    cpdef bint follow(
+        self, double gyro_x, double gyro_y, double gyro_z, double specific_x, double specific_y, double specific_z,
+        double planned_x, double planned_y
+    ) except -1
+
+    @cython.locals(
+        left=double, right=double, stands=bint, both=bint, steady=gyro_bias.SteadyLoad, stood="double[::1]"
+    )
+    cdef void _identify(self, double gyro_x, double gyro_y, double gyro_z) noexcept
 
     @cython.locals(
         side=Py_ssize_t, k=Py_ssize_t, turns="double[:, :, :, ::1]", stood="double[::1]", weight=double, total=double,
@@ -93,7 +116,7 @@ cdef class FloatingBase:
         places="double[:, ::1]", turns="double[:, :, ::1]", loads="double[::1]", cops="double[:, ::1]", load=double,
         total=double, x=double, y=double
     )
-    cpdef bint place(self) except *
+    cpdef bint place(self) except -1
 
     @cython.locals(
         i=Py_ssize_t, com="double[::1]", velocity="double[::1]", zmp="double[::1]", period=double, near=double,

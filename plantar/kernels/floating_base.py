@@ -10,6 +10,8 @@ import math
 
 import numpy as np
 
+from plantar.errors import InputError
+
 from . import rotations
 
 __all__ = ["FloatingBase"]
@@ -29,21 +31,20 @@ class FloatingBase:
         gravity: Acceleration of gravity in m/s^2.
         gains: Averaging in s, correction of tilt and of heading in 1/s, bandwidth of the observer in rad/s, and least
             load in N, as of `EstimatorGains`.
-        rotation: Receives the rotation (3, 3) from the base frame to the world.
-        position: Receives the base position (3,) in m.
-        com: Receives the CoM (3,) in m.
-        velocity: Receives the velocity (3,) of the CoM in m/s.
-        places: Receives the origin of each sole frame (2, 3) in the world in m.
-        turns: Receives the rotation (2, 3, 3) from each sole frame to the world.
-        zmp: Receives the composite ZMP (2,) in m, NaN without load.
-        stood: Receives the angle (3,) in the base frame in rad by which soles that stand still say the base has turned.
+        state: Arrays that receive the rotation (3, 3) from the base frame to the world, the base position (3,) in m,
+            the CoM (3,) in m, its velocity (3,) in m/s, the origin of each sole frame (2, 3) in the world in m, the
+            rotation (2, 3, 3) from each sole frame to the world, the composite ZMP (2,) in m, NaN without load, and
+            the angle (3,) in the base frame in rad by which soles that stand still say the base has turned.
+        bias: `plantar.kernels.gyro_bias.GyroBias` that identifies the gyro's bias; None takes the gyro at its word.
+        steady: `SteadyLoad` that tells which feet stand still for that; None takes all that are loaded.
     """
 
-    def __init__(self, omega, period, gravity, gains, rotation, position, com, velocity, places, turns, zmp, stood):
+    def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
         self.omega, self.period, self.gravity = omega, period, gravity
         self.averaging, self.tilt_rate, self.yaw_rate, self.bandwidth, self.minimum_load = gains
-        self.rotation, self.position, self.com, self.velocity = rotation, position, com, velocity
-        self.places, self.turns, self.zmp, self.stood = places, turns, zmp, stood
+        self.rotation, self.position, self.com, self.velocity = state[:4]
+        self.places, self.turns, self.zmp, self.stood = state[4:]
+        self.bias, self.steady = bias, steady
         self.samples = 0
         self.astray = 0.0
         self.headings = np.full(2, _NONE)
@@ -52,9 +53,11 @@ class FloatingBase:
         self.loads, self.pressed, self.cops = np.zeros(2), np.zeros(2, dtype=np.uint8), np.zeros((2, 2))
         self.before, self.matrix, self.work = np.eye(3), np.zeros((3, 3)), np.zeros((3, 3))
         self.vector, self.other = np.zeros(3), np.zeros(3)
+        self.rate, self.specific, self.planned = np.zeros(3), np.zeros(3), np.zeros(2)
+        self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
 
-    def take(self, com, left, right, turn_left, turn_right):
-        """Take in the posture of this tick; that of the tick before is kept beside it.
+    def watch(self, com, left, right, turn_left, turn_right):
+        """Keep the arrays of a posture: `take` reads them at each tick, whoever writes them.
 
         Args:
             com: CoM (3,) in the base frame in m.
@@ -63,6 +66,13 @@ class FloatingBase:
             turn_left: Rotation (3, 3) from the left sole frame to the base frame.
             turn_right: The same of the right one.
         """
+        self.com_now, self.left_now, self.right_now = com, left, right
+        self.turn_left_now, self.turn_right_now = turn_left, turn_right
+
+    def take(self):
+        """Take in the posture of this tick; that of the tick before is kept beside it."""
+        com, left, right = self.com_now, self.left_now, self.right_now
+        turn_left, turn_right = self.turn_left_now, self.turn_right_now
         places, turns = self.places_in_base, self.turns_in_base
         for i in range(3):
             self.com_in_base[i] = com[i]
@@ -97,21 +107,61 @@ class FloatingBase:
         self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
         self.astray = 0.0
 
-    def carry(self, load_left, load_right, cop_left, cop_right):
-        """Take in what the feet carry at this tick, which all that follows goes by.
+    def carry(self, side, load, pressed, x, y):
+        """Take in what a foot carries at this tick, which all that follows goes by.
 
         Args:
-            load_left: Vertical force on the left foot in N.
-            load_right: The same on the right one.
-            cop_left: Centre of pressure (2,) in the left sole frame in m; None without load.
-            cop_right: The same of the right one.
+            side: The foot.
+            load: Vertical force on it in N.
+            pressed: Whether it has a centre of pressure.
+            x: That in the sole frame in m.
+            y: The same.
         """
-        self.loads[0], self.loads[1] = load_left, load_right
-        self.pressed[0], self.pressed[1] = cop_left is not None, cop_right is not None
-        if cop_left is not None:
-            self.cops[0, 0], self.cops[0, 1] = cop_left[0], cop_left[1]
-        if cop_right is not None:
-            self.cops[1, 0], self.cops[1, 1] = cop_right[0], cop_right[1]
+        self.loads[side], self.pressed[side] = load, pressed
+        self.cops[side, 0], self.cops[side, 1] = x, y
+
+    def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
+        """Take in the posture of this tick, and turn and move the base by the tick.
+
+        Args:
+            gyro_x: Angular velocity about the base's x in rad/s, as measured.
+            gyro_y: The same about y.
+            gyro_z: The same about z.
+            specific_x: Specific force along the base's x in m/s^2.
+            specific_y: The same along y.
+            specific_z: The same along z.
+            planned_x: Acceleration of the CoM along the world's x in m/s^2 that the plan asks for.
+            planned_y: The same along y.
+
+        Returns:
+            Whether the feet carry something, as `place`.
+        """
+        self.take()
+        rate, bias = self.rate, self.bias
+        rate[0], rate[1], rate[2] = gyro_x, gyro_y, gyro_z
+        self.specific[0], self.specific[1], self.specific[2] = specific_x, specific_y, specific_z
+        self.planned[0], self.planned[1] = planned_x, planned_y
+        if bias is None:
+            self.turn(rate, self.specific, self.planned, False, None)
+        else:
+            self._identify(gyro_x, gyro_y, gyro_z)
+            for i in range(3):
+                rate[i] -= bias.value[i]
+            self.turn(rate, self.specific, self.planned, True, bias.missed if bias.concluded else None)
+        self.move()
+        return self.place()
+
+    def _identify(self, gyro_x, gyro_y, gyro_z):
+        """Hold the gyro against the feet that stand still."""
+        left = max(0.0, self.loads[0] - self.minimum_load)
+        right = max(0.0, self.loads[1] - self.minimum_load)
+        steady, stood = self.steady, self.stood
+        if steady is not None:
+            steady.update(left, right)
+            left, right = steady.left, steady.right
+        stands = self.stand_still(left, right)
+        both = left > 0.0 and right > 0.0
+        self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
 
     def stand_still(self, weight_left, weight_right):
         """How soles that stand still say the base has turned in this tick: sin a of R_s(k-1) R_s(k)^T, weighted.
@@ -258,6 +308,9 @@ class FloatingBase:
 
         Returns:
             Whether they carry something.
+
+        Raises:
+            InputError: If what they carry, or where, is not finite.
         """
         loads, cops = self.loads, self.cops
         rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
@@ -273,8 +326,13 @@ class FloatingBase:
                 total += load
                 x += load * (places[side, 0] + turns[side, 0, 0] * cops[side, 0] + turns[side, 0, 1] * cops[side, 1])
                 y += load * (places[side, 1] + turns[side, 1, 0] * cops[side, 0] + turns[side, 1, 1] * cops[side, 1])
-        self.zmp[0], self.zmp[1] = (x / total, y / total) if total > 0.0 else (_NONE, _NONE)
-        return total > 0.0
+        if not total > 0.0:
+            self.zmp[0] = self.zmp[1] = _NONE
+            return False
+        self.zmp[0], self.zmp[1] = x / total, y / total
+        if not math.isfinite(self.zmp[0] + self.zmp[1]):
+            raise InputError("the ZMP or the vertical force of a foot is not finite")
+        return True
 
     def observe(self, push_x, push_y):
         """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 that a push gives."""

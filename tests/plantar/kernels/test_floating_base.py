@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from plantar import kernels
-from plantar.kernels import floating_base, rotations
+from plantar import InputError, kernels
+from plantar.kernels import floating_base, gyro_bias, rotations
 from plantar.mechanics.rotation import (
     heading,
     orthonormalised,
@@ -18,15 +18,15 @@ from plantar.mechanics.zmp import zmp_of_feet
 
 OMEGA, PERIOD, GRAVITY = 3.5, 0.005, 9.81
 AVERAGING, TILT, YAW, BANDWIDTH, LEAST = GAINS = (0.02, 0.1, 1.0, 10.0, 40.0)
-SOURCES = {name: kernels.python_form(name) for name in ("rotations", "floating_base")}
+SOURCES = {name: kernels.python_form(name) for name in ("rotations", "gyro_bias", "floating_base")}
 EXACT = {"rtol": 1e-13, "atol": 1e-13}
 
 
-def base_of(module):
-    """A base with its state."""
+def base_of(module, *identifies):
+    """A base with its state, and what identifies its gyro's bias."""
     shapes = ((3, 3), (3,), (3,), (3,), (2, 3), (2, 3, 3), (2,), (3,))
     state = [np.zeros(shape) for shape in shapes]
-    return module.FloatingBase(OMEGA, PERIOD, GRAVITY, GAINS, *state), state
+    return module.FloatingBase(OMEGA, PERIOD, GRAVITY, GAINS, state, *identifies), state
 
 
 def ticks(seed, count=60):
@@ -41,6 +41,13 @@ def ticks(seed, count=60):
         planned = rng.normal(size=2) if rng.random() < 0.7 else None
         missed = 1e-3 * rng.normal(size=3) if rng.random() < 0.3 else None
         yield posture, rng.normal(size=3), specific, planned, loads.tolist(), cops, missed, rng.normal(size=2).tolist()
+
+
+def take(base, posture, loads, cops):
+    """Hand over a posture and what the feet carry."""
+    for side, (load, cop) in enumerate(zip(loads, cops, strict=True)):
+        base.carry(side, load, cop is not None, *((math.nan, math.nan) if cop is None else cop.tolist()))
+    base.watch(*posture)
 
 
 class Reference:
@@ -90,8 +97,8 @@ def test_a_tick_is_that_of_the_equations(seed, by_legs):
     reference, past = Reference(), None
     for posture, rate, specific, planned, loads, cops, missed, push in ticks(seed):
         old, at, center, speed = rotation.copy(), position.copy(), com.copy(), velocity.copy()
-        base.carry(*loads, *cops)
-        base.take(*posture)
+        take(base, posture, loads, cops)
+        base.take()
         if past is None:
             old, at = Rotation.from_rotvec([0.1, 0.2, 0.3]).as_matrix(), np.array([0.1, 0.2, 0.8])
             base.stand(old, at, 0.5, 0.6)
@@ -136,8 +143,8 @@ def test_both_forms_agree_to_the_last_bit(by_legs):
         base, state = base_of(module)
         first = True
         for posture, rate, specific, planned, loads, cops, missed, push in ticks(9, 30):
-            base.carry(*loads, *cops)
-            base.take(*posture)
+            take(base, posture, loads, cops)
+            base.take()
             if first:
                 base.stand(np.eye(3), np.zeros(3), 0.0, 0.0)
             else:
@@ -151,14 +158,63 @@ def test_both_forms_agree_to_the_last_bit(by_legs):
     assert np.array_equal(*found, equal_nan=True)
 
 
+def bias_of(module):
+    """A gyro's bias, which takes in pieces of three ticks, and which feet it goes by."""
+    value, missed = np.zeros(3), np.zeros(3)
+    bias = module.GyroBias(PERIOD, 0.01, 0.05, 3, 6e-4, 0.1, 6, value, missed)
+    return bias, module.SteadyLoad(0.8, 0.02, 40.0), value, missed
+
+
+@pytest.mark.parametrize("identifies", [False, True])
+def test_a_tick_in_one_call_is_its_steps(identifies):
+    """The kernel as it runs against its steps, called one by one; the source of both against the compiled form."""
+    found = []
+    for module, bias_module in ((floating_base, gyro_bias), (SOURCES["floating_base"], SOURCES["gyro_bias"])):
+        bias, steady, *_ = bias_of(bias_module)
+        whole, state = base_of(module, *((bias, steady) if identifies else ()))
+        parts, apart = base_of(module)
+        other, other_steady, value, missed = bias_of(bias_module)
+        for base in (whole, parts):
+            base.stand(np.eye(3), np.zeros(3), 0.0, 0.0)
+        for posture, rate, specific, planned, loads, cops, _, push in ticks(5):
+            planned = np.zeros(2) if planned is None else planned
+            for base in (whole, parts):
+                take(base, posture, loads, cops)
+            carries = whole.follow(*rate.tolist(), *specific.tolist(), *planned.tolist())
+            parts.take()
+            if identifies:
+                other_steady.update(*(max(0.0, load - LEAST) for load in loads))
+                still = other_steady.left, other_steady.right
+                stands = parts.stand_still(*still)
+                other.update(*rate.tolist(), stands, *apart[7].tolist(), min(still) > 0.0)
+                rate = rate - value
+            parts.turn(rate, specific, planned, identifies, missed if other.concluded else None)
+            parts.move()
+            assert parts.place() == carries
+            for base in (whole, parts):
+                base.observe(*push)
+            assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(state, apart, strict=True))
+        found.append(np.concatenate([x.ravel() for x in state]))
+    assert np.array_equal(*found, equal_nan=True)
+
+
+def test_what_is_not_finite_is_refused():
+    for module in (floating_base, SOURCES["floating_base"]):
+        base, _ = base_of(module)
+        base.carry(0, 300.0, True, math.nan, 0.0)
+        with pytest.raises(InputError, match=r"the ZMP or the vertical force of a foot is not finite"):
+            base.place()
+
+
 @pytest.mark.parametrize("weights", [(300.0, 100.0), (0.0, 50.0), (50.0, -1.0), (0.0, 0.0), (math.nan, 10.0)])
 def test_the_mean_turn_of_soles_is_their_sine(weights):
     a, b, c, d = Rotation.from_rotvec(np.random.default_rng(0).normal(size=(4, 3))).as_matrix()
     told = []
     for module in (floating_base, SOURCES["floating_base"]):
         base, (*_, found) = base_of(module)
-        base.take(*np.zeros((3, 3)), a, b)
-        base.take(*np.zeros((3, 3)), c, d)
+        for pair in ((a, b), (c, d)):
+            base.watch(*np.zeros((3, 3)), *pair)
+            base.take()
         assert base.stand_still(*weights) == any(w > 0.0 for w in weights)
         told.append(found)
     assert np.array_equal(*told)
