@@ -31,7 +31,7 @@ from gait.estimate.estimator import FloatingBaseEstimator, LegKinematics, SoleLo
 from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.identified_body import IdentifiedBody
 from gait.estimate.push_estimate import PushEstimate
-from gait.estimate.skin_load import at_its_limit
+from gait.estimate.skin_load import percept_to_its_limit
 from gait.estimate.sole_slope import SoleSlope
 from gait.estimate.steady_load import SteadyLoad
 from gait.estimate.wrench_filter import WrenchFilter
@@ -377,8 +377,10 @@ class WalkingController:
     def _sense(self, sensors: Sensors) -> _Sensed:
         """What soles and ankles say, with each taxel's force clipped at its limit."""
         s = self.settings
-        percepts = {
-            side: Percept(layout, at_its_limit(sensors.readings[side], layout)) for side, layout in self._soles()
+        readings, layouts = sensors.readings, self.layouts
+        percepts: dict[Side, Percept] = {
+            "left": percept_to_its_limit(readings["left"], layouts["left"]),
+            "right": percept_to_its_limit(readings["right"], layouts["right"]),
         }
         ankles = {
             side: sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])

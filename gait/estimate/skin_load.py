@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from gait.estimate.ankle_sensor import SoleWrench
 from plantar.layouts.layout import SoleLayout
+from plantar.percepts.percept import Percept
 from plantar.sensing.clipping import unclipped_mean
 from plantar.sensing.reading import Reading
 
-__all__ = ["SkinLoad", "at_its_limit"]
+__all__ = ["SkinLoad", "at_its_limit", "percept_to_its_limit"]
 
 
 def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
@@ -35,6 +36,20 @@ def at_its_limit(reading: Reading, layout: SoleLayout) -> Reading:
     if not layout.kernel.reaches(reading.force, layout.force_limit):
         return reading
     return replace(reading, force=np.minimum(reading.force, np.nextafter(layout.force_limit, 0.0)))
+
+
+def percept_to_its_limit(reading: Reading, layout: SoleLayout) -> Percept:
+    """What a sole senses, saturated taxels as of `at_its_limit`, with its loads summed.
+
+    Args:
+        reading: The sole's reading.
+        layout: The sole.
+
+    Returns:
+        The percept.
+    """
+    loads = layout.kernel.unsaturated_loads(reading.force, layout.force_threshold, layout.force_limit)
+    return Percept(layout, at_its_limit(reading, layout)) if loads is None else Percept.summed(layout, reading, loads)
 
 
 class SkinLoad:

@@ -96,6 +96,8 @@ cdef class SoleKernel:
     @cython.locals(scratch=SoleScratch)
     cpdef loads_above(self, force, double threshold, double saturation)
 
+    cpdef unsaturated_loads(self, force, double threshold, double saturation)
+
     @cython.locals(scratch=SoleScratch, i=Py_ssize_t, largest=double)
     cpdef bint reaches(self, force, double level) except *
 

@@ -296,6 +296,19 @@ class SoleKernel:
         self.give_back(scratch)
         return sums
 
+    def unsaturated_loads(self, force, threshold, saturation):
+        """`loads_above` of a sole without a saturated taxel.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is saturated; in N.
+
+        Returns:
+            (9,), as `loads`; None where a taxel is saturated.
+        """
+        return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
+
     def reaches(self, force, level):
         """Whether some taxel's force is as large as a level.
 

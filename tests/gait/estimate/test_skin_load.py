@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from gait.estimate.skin_load import SkinLoad, at_its_limit
+from gait.estimate.skin_load import SkinLoad, at_its_limit, percept_to_its_limit
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.tiling import hex_layout
 from plantar.percepts.percept import Percept
@@ -61,3 +61,26 @@ def test_a_foot_that_stands_on_one_taxel_carries_what_that_can_measure(sole: Sol
     assert Percept(sole, held).vertical_force == pytest.approx(sole.force_limit)
     sound = Reading(0.0, np.minimum(force, 500.0))
     assert at_its_limit(sound, sole) is sound
+
+
+@pytest.mark.parametrize("largest", [0.0, 2.0, 50.0, 1e4])
+def test_a_percept_with_its_loads_summed_is_that_of_the_limited_reading(sole: SoleLayout, largest: float) -> None:
+    force = largest * np.random.default_rng(0).random(len(sole))
+    force[3] = np.nan
+    reading = Reading(0.0, force)
+    percept, plain = percept_to_its_limit(reading, sole), Percept(sole, at_its_limit(reading, sole))
+    assert (percept.reading is reading) == (largest < sole.force_limit)
+    for name in Percept.members():
+        if name in (
+            "vertical_force",
+            "contact_area",
+            "position_cop_in_sole",
+            "wrench_in_sole",
+            "active",
+            "support_area",
+        ):
+            found, wanted = getattr(percept, name), getattr(plain, name)
+            assert np.array_equal(found, wanted) if wanted is not None else found is None
+    assert set(vars(plain)) >= set(vars(percept))
+    assert not percept.wrench_in_sole.flags.writeable
+    assert percept.position_cop_in_sole is None or not percept.position_cop_in_sole.flags.writeable

@@ -140,6 +140,7 @@ def test_arrays_of_another_length_are_refused_and_not_read_past(form):
             lambda few=few: kernel.faults(few, 9.0),
             lambda few=few: kernel.loads(few, mask),
             lambda few=few: kernel.loads_above(few, 0.0, 9.0),
+            lambda few=few: kernel.unsaturated_loads(few, 0.0, 9.0),
             lambda few=few: kernel.hull_above(few, 0.0, 9.0),
             lambda few=few: kernel.tick(few, 0.0, 9.0, 0.0, 0.0, 0.0),
         ):
