@@ -96,6 +96,10 @@ cdef class SoleKernel:
     @cython.locals(scratch=SoleScratch)
     cpdef loads_above(self, force, double threshold, double saturation)
 
+    @cython.locals(
+        values=cython.p_double, out=cython.p_double, lever_x="const double[::1]", lever_y="const double[::1]",
+        areas="const double[::1]", i=Py_ssize_t, f=double, fz=double, tx=double, ty=double, area=double
+    )
     cpdef unsaturated_loads(self, force, double threshold, double saturation)
 
     @cython.locals(scratch=SoleScratch, i=Py_ssize_t, largest=double)

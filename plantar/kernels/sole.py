@@ -307,7 +307,28 @@ class SoleKernel:
         Returns:
             (9,), as `loads`; None where a taxel is saturated.
         """
-        return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
+        if not self.flat or memory.size(force) != self.taxels:
+            return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
+        # What is active is finite here, so that of the sums those with a column of 0 are 0, and two others are the
+        # negative of each other, or the same.
+        values, lever_x, lever_y, areas = memory.values(force), self.lever_x, self.lever_y, self.areas
+        fz = tx = ty = area = 0.0
+        for i in range(self.taxels):
+            f = values[i]
+            if f >= saturation:
+                return None
+            if f > threshold:
+                fz += f
+                tx += f * lever_x[i]
+                ty += f * lever_y[i]
+                area += areas[i]
+        sums = memory.new_vector(9)
+        out = memory.room(sums)
+        out[0] = out[1] = out[5] = 0.0
+        out[2], out[3], out[4], out[6] = fz, tx, ty, area
+        # Not -ty: without load on either side of x = 0 that is -0.
+        out[7], out[8] = ((0.0 - ty) / fz, tx / fz) if 0.0 < fz < _INFINITE else (_NONE, _NONE)
+        return sums
 
     def reaches(self, force, level):
         """Whether some taxel's force is as large as a level.

@@ -23,8 +23,15 @@ LAYOUTS = {
     "upright": hex_layout(OUTLINE, clip=False, angle=math.pi / 2),
     "small": hex_layout(OUTLINE, cell_area=150e-6),
 }
+INTERPRETED = python_form("sole")
 seeds = st.integers(0, 2**32 - 1)
 layouts = st.sampled_from(sorted(LAYOUTS))
+
+
+def kernel_arguments(layout):
+    """What the kernel of a layout is made of."""
+    cells = (layout.vertices[:, :2], layout.corner_start, layout.corner_vertex)
+    return layout.positions, layout.rotations[:, :, 2], layout.areas, *cells
 
 
 def corners_of(layout, active):
@@ -125,12 +132,34 @@ def test_faults_are_the_dead_and_the_saturated_taxels(limit):
     assert saturated.tolist() == saturated_taxels(force, limit).tolist()
 
 
+@given(seeds, layouts, st.sampled_from([-math.inf, 0.0, 1.0, 5.0]), st.sampled_from([30.0, 785.0, math.inf]))
+@settings(max_examples=300)
+def test_loads_of_an_unsaturated_sole_are_those_of_all_columns(seed, name, threshold, saturation):
+    layout, rng = LAYOUTS[name], np.random.default_rng(seed)
+    flat = layout.kernel
+    curved = SoleKernel(np.add(layout.positions, [0.0, 0.0, 1e-300]), *kernel_arguments(layout)[1:])
+    form = INTERPRETED.SoleKernel(*kernel_arguments(layout))
+    assert (flat.flat, curved.flat) == (True, False)
+    force = rng.choice([0.0, -0.0, 3.0, -8.0, 29.0, math.nan, -math.inf], len(layout)) * rng.choice([1.0, rng.random()])
+    if rng.random() < 0.3:
+        force[rng.integers(len(layout))] = rng.choice([30.0, 785.0, math.inf])
+    told = [kernel.unsaturated_loads(force, threshold, saturation) for kernel in (flat, curved, form)]
+    if (force >= saturation).any():
+        assert told == [None] * 3
+        return
+    wanted = flat.loads_above(force, threshold, saturation)
+    carries = math.isfinite(wanted[7])
+    for found in told:
+        assert found[: 9 if carries else 7].tobytes() == wanted[: 9 if carries else 7].tobytes()
+        assert np.isnan(found[7:]).all() != carries
+    on = (force > threshold) & (force < saturation)
+    assert wanted[2] == pytest.approx(math.fsum(force[on]), rel=1e-12, abs=1e-9)
+
+
 @pytest.mark.parametrize("form", ["compiled or not", "interpreted"])
 def test_arrays_of_another_length_are_refused_and_not_read_past(form):
     layout = LAYOUTS["whole"]
-    cells = (layout.vertices[:, :2], layout.corner_start, layout.corner_vertex)
-    arguments = (layout.positions, layout.rotations[:, :, 2], layout.areas, *cells)
-    kernel = layout.kernel if form != "interpreted" else python_form("sole").SoleKernel(*arguments)
+    kernel = layout.kernel if form != "interpreted" else INTERPRETED.SoleKernel(*kernel_arguments(layout))
     n = len(layout)
     force, mask = np.ones(n), np.ones(n, dtype=np.uint8)
     for size in (0, 1, n - 1, n + 1):
