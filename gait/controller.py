@@ -382,11 +382,11 @@ class WalkingController:
             "left": percept_to_its_limit(readings["left"], layouts["left"]),
             "right": percept_to_its_limit(readings["right"], layouts["right"]),
         }
-        ankles = {
-            side: sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])
-            for side, sensor in s.ankles.items()
-            if side in sensors.ankles
-        }
+        ankles: dict[Side, SoleWrench] = {}
+        if sensors.ankles:
+            for side, sensor in s.ankles.items():
+                if side in sensors.ankles:
+                    ankles[side] = sensor.sole_wrench(sensors.ankles[side], self._rotations_sole[side])
         soles: Mapping[Side, SoleLoad] = ankles if s.zmp_source == "force_torque" else percepts
         return _Sensed(sensors.time, self.schedule.at(sensors.time), percepts, ankles, soles)
 
