@@ -161,10 +161,11 @@ class FloatingBaseEstimator:
                 "as a pendulum of this height falls: what is slower runs away with it"
             )
         self._rotation, self._position, self._com, self._velocity = np.eye(3), np.zeros(3), np.zeros(3), np.zeros(3)
-        places, turns, self._zmp = np.zeros((2, 3)), np.zeros((2, 3, 3)), np.zeros(2)
-        # The kernel writes the state into these arrays. How to copy each is kept, as looking that up takes a while.
-        state = (self._rotation, self._position, self._com, self._velocity, places, turns, self._zmp, np.zeros(3))
-        self._copies = [array.copy for array in (*state[:4], *places, *turns)]
+        # The kernel writes the state into these arrays.
+        state = (
+            *(self._rotation, self._position, self._com, self._velocity),
+            *(np.zeros((2, 3)), np.zeros((2, 3, 3)), np.zeros(2), np.zeros(3)),
+        )
         self._base = FloatingBase(
             self.omega,
             self.period,
@@ -215,29 +216,30 @@ class FloatingBaseEstimator:
         self._watch(posture)
         if self._begun:
             planned = (0.0, 0.0) if planned_acceleration is None else planned_acceleration.tolist()
-            carries = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
+            zmp = base.follow(*gyro.tolist(), *accelerometer.tolist(), *planned)
         else:
             self._begun = True
             # The robot stands still at the start, so the specific force is gravity alone.
             base.take()
             self._stand(posture, accelerometer / float(np.linalg.norm(accelerometer)))
-            carries = base.place()
-        zmp = self._zmp.copy() if carries else None
+            zmp = base.place()
         if self.push is not None:
             self.push_acceleration = self._pushed(self.push, accelerometer, zmp, felt)
-        base.observe(*self.push_acceleration.tolist())
+            base.observe(*self.push_acceleration.tolist())
+        else:
+            base.observe(0.0, 0.0)
         if self.dcm_filter is not None:
             self._filter(self.dcm_filter, posture, zmp)
-        rotation, position, com, velocity, left, right, turn_left, turn_right = self._copies
+        rotation, position, com, velocity, left, right, turn_left, turn_right = base.snapshot()
         return BaseState(
-            rotation(),
-            position(),
-            com(),
-            velocity(),
+            rotation,
+            position,
+            com,
+            velocity,
             zmp,
             loads,
-            {"left": left(), "right": right()},
-            {"left": turn_left(), "right": turn_right()},
+            {"left": left, "right": right},
+            {"left": turn_left, "right": turn_right},
         )
 
     def _carry(self, index: int, side: Side, soles: Mapping[Side, SoleLoad]) -> float:

@@ -1,7 +1,7 @@
 # C types of floating_base.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
-from . cimport gyro_bias, rotations
+from . cimport gyro_bias, rotations, vectors
 
 cdef double _NONE
 
@@ -70,10 +70,10 @@ cdef class FloatingBase:
     cpdef void carry(self, Py_ssize_t side, double load, bint pressed, double x, double y) noexcept
 
     @cython.locals(i=Py_ssize_t, rate="double[::1]", bias=gyro_bias.GyroBias)
-    cpdef bint follow(
+    cpdef follow(
         self, double gyro_x, double gyro_y, double gyro_z, double specific_x, double specific_y, double specific_z,
         double planned_x, double planned_y
-    ) except -1
+    )
 
     @cython.locals(
         left=double, right=double, stands=bint, both=bint, steady=gyro_bias.SteadyLoad, stood="double[::1]"
@@ -116,10 +116,17 @@ cdef class FloatingBase:
         places="double[:, ::1]", turns="double[:, :, ::1]", loads="double[::1]", cops="double[:, ::1]", load=double,
         total=double, x=double, y=double
     )
-    cpdef bint place(self) except -1
+    cpdef place(self)
+
+    @cython.locals(places="double[:, ::1]", turns="double[:, :, ::1]")
+    cpdef snapshot(self)
 
     @cython.locals(
         i=Py_ssize_t, com="double[::1]", velocity="double[::1]", zmp="double[::1]", period=double, near=double,
         fast=double, acceleration=double, error=double
     )
     cpdef void observe(self, double push_x, double push_y) except *
+
+
+cdef _vector(const double[::1] v)
+cdef _matrix(const double[:, ::1] m)

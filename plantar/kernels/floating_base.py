@@ -12,7 +12,7 @@ import numpy as np
 
 from plantar.errors import InputError
 
-from . import rotations
+from . import rotations, vectors
 
 __all__ = ["FloatingBase"]
 
@@ -134,7 +134,7 @@ class FloatingBase:
             planned_y: The same along y.
 
         Returns:
-            Whether the feet carry something, as `place`.
+            The ZMP, as `place`.
         """
         self.take()
         rate, bias = self.rate, self.bias
@@ -307,7 +307,7 @@ class FloatingBase:
         """Where the soles are in the world, and the ZMP of what they carry.
 
         Returns:
-            Whether they carry something.
+            The ZMP in a new array (2,) in m; None where they carry nothing.
 
         Raises:
             InputError: If what they carry, or where, is not finite.
@@ -328,11 +328,32 @@ class FloatingBase:
                 y += load * (places[side, 1] + turns[side, 1, 0] * cops[side, 0] + turns[side, 1, 1] * cops[side, 1])
         if not total > 0.0:
             self.zmp[0] = self.zmp[1] = _NONE
-            return False
-        self.zmp[0], self.zmp[1] = x / total, y / total
-        if not math.isfinite(self.zmp[0] + self.zmp[1]):
+            return None
+        x, y = x / total, y / total
+        if not math.isfinite(x + y):
             raise InputError("the ZMP or the vertical force of a foot is not finite")
-        return True
+        self.zmp[0], self.zmp[1] = x, y
+        return vectors.vector2(x, y)
+
+    def snapshot(self):
+        """The state in new arrays, which stay as they are.
+
+        Returns:
+            Rotation (3, 3) from the base frame to the world, base position (3,) in m, CoM (3,) in m, its velocity (3,)
+            in m/s, origin (3,) of the left sole frame and of the right one in the world in m, rotation (3, 3) from the
+            left sole frame to the world and from the right one.
+        """
+        places, turns = self.places, self.turns
+        return (
+            _matrix(self.rotation),
+            _vector(self.position),
+            _vector(self.com),
+            _vector(self.velocity),
+            _vector(places[0]),
+            _vector(places[1]),
+            _matrix(turns[0]),
+            _matrix(turns[1]),
+        )
 
     def observe(self, push_x, push_y):
         """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 that a push gives."""
@@ -353,3 +374,13 @@ class FloatingBase:
             error = self.position[i] + self.vector[i] - com[i]
             com[i] += near * error
             velocity[i] += fast * error
+
+
+def _vector(v):
+    """A new array of the same (3,)."""
+    return vectors.vector(v[0], v[1], v[2])
+
+
+def _matrix(m):
+    """A new array of the same (3, 3)."""
+    return vectors.matrix(m[0, 0], m[0, 1], m[0, 2], m[1, 0], m[1, 1], m[1, 2], m[2, 0], m[2, 1], m[2, 2])

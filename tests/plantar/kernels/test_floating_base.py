@@ -117,13 +117,15 @@ def test_a_tick_is_that_of_the_equations(seed, by_legs):
         ]
         step = np.average(moves, axis=0, weights=[w for _, w, _ in points]) if points else PERIOD * speed
         np.testing.assert_allclose(position, at + step, **EXACT)
-        carries = base.place()
+        carried = base.place()
         for k in range(2):
             np.testing.assert_allclose(places[k], position + rotation @ posture[1 + k], **EXACT)
             np.testing.assert_allclose(turns[k], rotation @ posture[3 + k], **EXACT)
         cop = [None if c is None else (places[k] + turns[k][:, :2] @ c)[:2] for k, c in enumerate(cops)]
         expected = zmp_of_feet(cop, loads)
+        carries = carried is not None
         assert carries == (expected is not None)
+        assert not carries or np.array_equal(carried, zmp)
         np.testing.assert_allclose(zmp, [np.nan] * 2 if expected is None else expected, **EXACT)
         base.observe(*push)
         wanted = OMEGA**2 * (center[:2] - expected) if carries else np.zeros(2)
@@ -180,7 +182,7 @@ def test_a_tick_in_one_call_is_its_steps(identifies):
             planned = np.zeros(2) if planned is None else planned
             for base in (whole, parts):
                 take(base, posture, loads, cops)
-            carries = whole.follow(*rate.tolist(), *specific.tolist(), *planned.tolist())
+            carried = whole.follow(*rate.tolist(), *specific.tolist(), *planned.tolist())
             parts.take()
             if identifies:
                 other_steady.update(*(max(0.0, load - LEAST) for load in loads))
@@ -190,10 +192,14 @@ def test_a_tick_in_one_call_is_its_steps(identifies):
                 rate = rate - value
             parts.turn(rate, specific, planned, identifies, missed if other.concluded else None)
             parts.move()
-            assert parts.place() == carries
+            apart_carried = parts.place()
+            assert (carried is None) == (apart_carried is None)
+            assert carried is None or np.array_equal(carried, apart_carried)
             for base in (whole, parts):
                 base.observe(*push)
             assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(state, apart, strict=True))
+            kept = [*state[:4], *state[4], *state[5]]
+            assert all(np.array_equal(a, b) and a is not b for a, b in zip(whole.snapshot(), kept, strict=True))
         found.append(np.concatenate([x.ravel() for x in state]))
     assert np.array_equal(*found, equal_nan=True)
 
