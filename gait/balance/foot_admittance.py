@@ -78,9 +78,7 @@ class FootAdmittance:
         errors: list[float] = []
         for side, foot in self.corrections.items():
             if side in wanted:
-                _, _, fz, tx, ty, _ = measured[side].tolist()
-                _, _, wanted_fz, wanted_tx, wanted_ty, _ = wanted[side].tolist()
-                errors.append(foot.turn(fz, tx, ty, wanted_fz, wanted_tx, wanted_ty))
+                errors.append(foot.turn(measured[side], wanted[side]))
             else:
                 foot.fade()
         if len(errors) == 2:

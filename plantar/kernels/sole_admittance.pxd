@@ -1,5 +1,6 @@
 # C types of sole_admittance.py. Without a compiler this file is not read.
 cimport cython
+from . cimport pointers as memory
 
 cdef double _NONE
 
@@ -22,9 +23,8 @@ cdef class SoleAdmittance:
 
     cpdef void fade(self) noexcept
 
-    cpdef double turn(
-        self, double fz, double tx, double ty, double wanted_fz, double wanted_tx, double wanted_ty
-    ) noexcept
+    @cython.locals(now=cython.p_double, goal=cython.p_double, fz=double, tx=double, ty=double)
+    cpdef double turn(self, measured, wanted) except? -1.0
 
     cpdef void lift(self, double rate) noexcept
 

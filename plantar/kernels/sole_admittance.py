@@ -6,6 +6,8 @@ Plain Python that also compiles ahead of time (`sole_admittance.pxd` gives the C
 
 from __future__ import annotations
 
+from . import memory
+
 __all__ = ["SoleAdmittance"]
 
 _NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades is exactly none
@@ -50,28 +52,27 @@ class SoleAdmittance:
         if abs(self.roll) + abs(self.pitch) + abs(self.shift) < _NONE:
             self.roll = self.pitch = self.shift = 0.0
 
-    def turn(self, fz, tx, ty, wanted_fz, wanted_tx, wanted_ty):
-        """Turn by one tick under load: a sole turns and lifts for these; friction carries the other three.
+    def turn(self, measured, wanted):
+        """Turn by one tick under load, until the sole feels the moments that it shall.
 
         Args:
-            fz: Measured normal force in N.
-            tx: Measured moment about the sole's x axis in N m.
-            ty: The same about its y axis.
-            wanted_fz: What it shall be; likewise wanted_tx and wanted_ty.
-            wanted_tx: The same of the moment about x.
-            wanted_ty: The same of the moment about y.
+            measured: Wrench (6,) on the sole in its frame in N and N m.
+            wanted: What it shall be (6,).
 
         Returns:
             Error in N of the normal force.
         """
+        now, goal = memory.values(measured), memory.values(wanted)
+        # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
+        fz, tx, ty = now[2], now[3], now[4]
         if self.stands:
             fz = self.fz + self.share * (fz - self.fz)
             tx = self.tx + self.share * (tx - self.tx)
             ty = self.ty + self.share * (ty - self.ty)
         self.stands, self.fz, self.tx, self.ty = True, fz, tx, ty
-        self.roll = self._moved(self.roll, self.turn_gain * (tx - wanted_tx), self.largest_turn)
-        self.pitch = self._moved(self.pitch, self.turn_gain * (ty - wanted_ty), self.largest_turn)
-        return fz - wanted_fz
+        self.roll = self._moved(self.roll, self.turn_gain * (tx - goal[3]), self.largest_turn)
+        self.pitch = self._moved(self.pitch, self.turn_gain * (ty - goal[4]), self.largest_turn)
+        return fz - goal[2]
 
     def lift(self, rate):
         """Shift by one tick under load, at a rate in m/s upwards."""

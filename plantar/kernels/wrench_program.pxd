@@ -1,6 +1,7 @@
 # C types of wrench_program.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport pointers as memory
 
 @cython.final
 cdef class WrenchProgram:
@@ -21,10 +22,11 @@ cdef class WrenchProgram:
     cdef double[::1] request
     cdef double[::1] middle
 
-    @cython.locals(request="double[::1]", i=Py_ssize_t, share=double, total=double)
-    cpdef bint ask(
-        self, shares, double fx, double fy, double fz, double tx, double ty, double tz, double px, double py, double pz
-    ) except *
+    @cython.locals(
+        request="double[::1]", i=Py_ssize_t, share=double, total=double, some=double, fx=double, fy=double, fz=double,
+        tx=double, ty=double, tz=double, px=double, py=double, pz=double
+    )
+    cpdef bint ask(self, wrench, point, shares) except *
 
     @cython.locals(moved=bint, j=Py_ssize_t, k=Py_ssize_t)
     cpdef bint place(self, Py_ssize_t i, const double[:] position, const double[:, :] rotation) noexcept
@@ -52,7 +54,7 @@ cdef class WrenchProgram:
     cpdef void finish_gradient(self) noexcept
 
     @cython.locals(
-        jacobian="double[:, ::1]", wanted="double[::1]", unit="const double[::1]", i=Py_ssize_t, j=Py_ssize_t,
-        off=double, largest=double
+        jacobian="double[:, ::1]", wanted="double[::1]", unit="const double[::1]", solution=cython.p_double,
+        out=cython.p_double, wrenches=list, i=Py_ssize_t, j=Py_ssize_t, off=double, largest=double
     )
-    cpdef double finish(self, double[::1] unknowns, double[::1] error) except? -1.0
+    cpdef tuple finish(self, unknowns)

@@ -10,6 +10,8 @@ import math
 
 import numpy as np
 
+from . import memory
+
 __all__ = ["WrenchProgram"]
 
 
@@ -36,26 +38,29 @@ class WrenchProgram:
         self.wished, self.shares = np.zeros(count), np.zeros(count)
         self.request, self.middle = np.zeros(9), np.zeros(3)
 
-    def ask(self, shares, fx, fy, fz, tx, ty, tz, px, py, pz):
+    def ask(self, wrench, point, shares):
         """Take in a request.
 
         Args:
-            shares: Shares (n,) of the normal force.
-            fx: Wanted net force in N in the world frame; likewise fy and fz.
-            tx: Wanted moment in N m about a point; likewise ty and tz.
-            px: That point in the world frame in m; likewise py and pz.
+            wrench: Wanted net wrench, six numbers in N and N m in the world frame about the point.
+            point: Three numbers of the world frame in m.
+            shares: Share of the normal force of each contact.
 
         Returns:
             Whether all numbers are finite, and some share is above 0.
         """
-        request, total = self.request, 0.0
+        request = self.request
+        fx, fy, fz, tx, ty, tz = wrench
+        px, py, pz = point
         request[0], request[1], request[2], request[3], request[4], request[5] = fx, fy, fz, tx, ty, tz
         request[6], request[7], request[8] = px, py, pz
+        total = fx + fy + fz + tx + ty + tz + px + py + pz
+        some = 0.0
         for i in range(self.wished.shape[0]):
             share = shares[i]
             self.wished[i] = share
-            total += share
-        return math.isfinite(fx + fy + fz + tx + ty + tz + px + py + pz + total) and total > 0.0
+            some += share
+        return math.isfinite(total + some) and some > 0.0
 
     def place(self, i, position, rotation):
         """Put a contact somewhere.
@@ -155,25 +160,31 @@ class WrenchProgram:
         for i in range(self.gradient.shape[0]):
             self.gradient[i] *= -self.net
 
-    def finish(self, unknowns, error):
+    def finish(self, unknowns):
         """What a solution means.
 
         Args:
-            unknowns: The solution (6 n,); becomes the wrenches in N and N m, contact by contact.
-            error: Receives the net wrench (6,) less the wanted one in N and N m.
+            unknowns: The solution (6 n,).
 
         Returns:
-            The largest error in the program's units, NaN if some error is none.
+            The largest error in the program's units, NaN if some error is none; the net wrench (6,) less the wanted one
+            in N and N m; and the wrench (6,) of each contact. All are new arrays.
         """
         jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
+        solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), []
+        out = memory.room(error)
         for j in range(6):
             off = 0.0
             for i in range(unit.shape[0]):
-                off += jacobian[j, i] * unknowns[i]
+                off += jacobian[j, i] * solution[i]
             off -= wanted[j]
-            error[j] = off * unit[j]
+            out[j] = off * unit[j]
             if not abs(off) <= largest and largest == largest:
                 largest = abs(off)
-        for i in range(unit.shape[0]):
-            unknowns[i] *= unit[i]
-        return largest
+        for i in range(self.wished.shape[0]):
+            wrench = memory.new_vector(6)
+            out = memory.room(wrench)
+            for j in range(6):
+                out[j] = solution[6 * i + j] * unit[6 * i + j]
+            wrenches.append(wrench)
+        return largest, error, wrenches

@@ -220,15 +220,13 @@ class WrenchDistribution:
             scaled = self._least_violating(work)
             state = DistributionState.INFEASIBLE
             violation = self.weight * float((work.constraints @ scaled - work.upper).max())
-        error = np.empty(6)
-        largest = work.program.finish(scaled, error)
+        largest, error, parts = work.program.finish(scaled)
         if not math.isfinite(largest):
             work.forget()
             return self._rest(contacts, wished)
         if largest > _TRACKED and flag >= 1:
             state = DistributionState.SATURATED
-        wrenches = {name: scaled[6 * i : 6 * i + 6] for i, name in enumerate(contacts)}
-        return WrenchShare(state, wrenches, error, violation)
+        return WrenchShare(state, dict(zip(contacts, parts, strict=True)), error, violation)
 
     def _workspace(self, count: int) -> _Workspace:
         """The workspace for a number of contacts, made at its first use."""
@@ -281,7 +279,7 @@ class WrenchDistribution:
     ) -> bool:
         """Fill the workspace and the solver; False where the request is invalid."""
         program = work.program
-        if not program.ask(shares, *_plain(wrench), *_plain(point)):
+        if not program.ask(_plain(wrench), _plain(point), shares):
             return False
         moved = limited = False
         for i, contact in enumerate(contacts.values()):

@@ -13,6 +13,11 @@ PERIOD, SHARE, GAIN, BACK, RELEASE = 0.005, 0.2, 1e-3, 1.0, 8.0
 LARGEST = np.array([0.01, 0.01, 0.004])
 
 
+def wrench(fz, tx, ty):
+    """Wrench (6,) on a sole; what friction carries does not matter."""
+    return np.array([7.0, -8.0, fz, tx, ty, 9.0])
+
+
 def correction(foot):
     return np.array([foot.roll, foot.pitch, foot.shift])
 
@@ -35,7 +40,7 @@ def test_it_moves_as_numpy_would(seed):
             rates = np.array([GAIN * off[1], GAIN * off[2], rate])
             known = np.clip(known + PERIOD * (rates - BACK * known), -LARGEST, LARGEST)
             for foot in feet:
-                assert foot.turn(*measured.tolist(), *wanted.tolist()) == off[0]
+                assert foot.turn(wrench(*measured), wrench(*wanted)) == off[0]
                 foot.lift(rate)
         np.testing.assert_allclose(correction(feet[0]), known, rtol=1e-12, atol=1e-15)
         assert np.array_equal(*map(correction, feet))
@@ -44,7 +49,7 @@ def test_it_moves_as_numpy_would(seed):
 def test_what_fades_ends_at_none():
     for module in FORMS:
         foot = module.SoleAdmittance(PERIOD, SHARE, GAIN, BACK, RELEASE, LARGEST[0], LARGEST[2])
-        foot.turn(300.0, 20.0, -15.0, 300.0, 0.0, 0.0)
+        foot.turn(wrench(300.0, 20.0, -15.0), wrench(300.0, 0.0, 0.0))
         before = correction(foot)
         assert np.abs(before[:2]).min() > 1e-5
         foot.fade()

@@ -48,7 +48,7 @@ def test_it_fills_the_program_that_numpy_would(seed, count):
     wrench, unknowns = UNIT * rng.normal(size=6), rng.normal(size=6 * count)
     forms, solved = [Filled(module, count, fixed) for module in FORMS], []
     for form in forms:
-        assert form.kernel.ask(tuple(shares.tolist()), *wrench.tolist(), *point.tolist())
+        assert form.kernel.ask(tuple(wrench.tolist()), tuple(point.tolist()), tuple(shares.tolist()))
         assert all(form.kernel.place(i, *contact) for i, contact in enumerate(contacts))
         assert not any(form.kernel.place(i, *contact) for i, contact in enumerate(contacts))
         assert form.kernel.turn()
@@ -56,17 +56,17 @@ def test_it_fills_the_program_that_numpy_would(seed, count):
         assert not form.kernel.weigh(False)
         form.kernel.aim()
         form.kernel.finish_gradient()
-        wrenches, error = unknowns.copy(), np.empty(6)
-        solved.append((form.kernel.finish(wrenches, error), wrenches, error))
+        largest, error, wrenches = form.kernel.finish(unknowns)
+        solved.append((largest, np.array(wrenches), error))
     form, (largest, wrenches, error) = forms[0], solved[0]
     middle = np.mean([position for position, _ in contacts], axis=0)
     wanted = np.concatenate([wrench[:3], wrench[3:] + np.cross(point - middle, wrench[:3])])
     np.testing.assert_allclose(form.wanted, wanted / UNIT, rtol=1e-12, atol=1e-13)
-    net = net_wrench(contacts, wrenches.reshape(-1, 6), middle)
+    net = net_wrench(contacts, wrenches, middle)
     np.testing.assert_allclose(form.jacobian @ unknowns, net / UNIT, rtol=1e-11, atol=1e-12)
     np.testing.assert_allclose(error, net - wanted, rtol=1e-10, atol=1e-9)
     assert largest == pytest.approx(np.abs(error / UNIT).max())
-    np.testing.assert_array_equal(wrenches, unknowns * np.tile(UNIT, count))
+    np.testing.assert_array_equal(wrenches, unknowns.reshape(-1, 6) * UNIT)
     np.testing.assert_array_equal(form.gradient, np.full(6 * count, -NET))
     # Half of v' H v adds the sum over pairs of the squared deviations from the wanted proportion.
     normal = unknowns[2::6]
@@ -84,11 +84,12 @@ def test_numbers_that_are_not_finite_are_told(module):
     rng = np.random.default_rng(1)
     form = Filled(module, 2, np.eye(12))
     request, (one, other) = [0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0, 0.1, 0.0, 0.0], contacts_of(rng, 2)
-    assert form.kernel.ask((0.5, 0.5), *request)
+    assert form.kernel.ask(request[:6], request[6:], (0.5, 0.5))
     for i in range(9):
-        assert not form.kernel.ask((0.5, 0.5), *request[:i], np.nan, *request[i + 1 :])
+        broken = [*request[:i], np.nan, *request[i + 1 :]]
+        assert not form.kernel.ask(broken[:6], broken[6:], (0.5, 0.5))
     for shares in ((np.nan, 1.0), (0.5, np.inf), (0.0, 0.0), (-1.0, 0.5)):
-        assert not form.kernel.ask(shares, *request)
+        assert not form.kernel.ask(request[:6], request[6:], shares)
     form.kernel.place(0, *one)
     for position in (np.array([0.0, np.nan, 0.0]), np.array([0.0, 0.0, np.inf])):
         assert form.kernel.place(1, position, other[1])
@@ -98,4 +99,4 @@ def test_numbers_that_are_not_finite_are_told(module):
     for place in range(6):
         unknowns = rng.normal(size=12)
         unknowns[place] = np.nan
-        assert np.isnan(form.kernel.finish(unknowns, np.empty(6)))
+        assert np.isnan(form.kernel.finish(unknowns)[0])
