@@ -12,12 +12,13 @@ from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
-from plantar.kernels.convex import nearest
-from plantar.kernels.vectors import vector2
+from plantar.kernels.dcm_feedback import DcmFeedback
 from plantar.settings.schema import Settings, share
 from plantar.sides import Side
 
 __all__ = ["BalanceGains", "DcmBalance"]
+
+_NO_INTEGRAL = (0.0, 0.0, 0.0)
 
 
 class BalanceGains(Settings):
@@ -57,7 +58,10 @@ class DcmBalance:
         self.period = period
         self.states: Counter[str] = Counter()
         largest = LARGEST_OFFSET * gains.body.leg
-        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        # At xi = xi_r the desired ZMP is the planned VRP; a DCM that is off has its error driven to zero at the rate
+        # k_xi (T 4.28).
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, _NO_INTEGRAL, period, admittance, True, True)
 
     def desired_zmp(
         self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
@@ -73,22 +77,8 @@ class DcmBalance:
         Returns:
             Desired ZMP (2,) in m.
         """
-        return np.array(self._desired(reference, dcm, region))
-
-    def _desired(
-        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
-    ) -> tuple[float, float]:
-        """`desired_zmp` as plain numbers: on two of them an array costs several times as much, at every tick."""
-        # At xi = xi_r this is the planned VRP; a DCM that is off has its error driven to zero at the rate k_xi (T
-        # 4.28).
-        (px, py), (rx, ry), (x, y) = reference.vrp.tolist(), reference.dcm.tolist(), dcm.tolist()
-        gain = 1.0 + self.gains.dcm_gain / self.omega
-        x, y = px - gain * (rx - x), py - gain * (ry - y)
-        if not len(region):
-            return x, y
-        # No foot can press beside its contact: what is wanted there is cut to what the ground can give (T Algorithm 1).
-        cut: tuple[float, float] = nearest(region, x, y)
-        return cut
+        zmp: NDArray[np.float64] = self._feedback.desired(reference.vrp, reference.dcm, dcm, region)
+        return zmp
 
     def update(
         self,
@@ -108,18 +98,8 @@ class DcmBalance:
         Returns:
             The desired ZMP and the CoM reference that tracks it (T 4.29 around the moving plan).
         """
-        (px, py), offset = self._desired(reference, dcm, region), self._admittance
-        if zmp is None:
-            offset.follow(0.0, 0.0)
-        else:
-            zx, zy = zmp.tolist()
-            offset.follow(zx - px, zy - py)
-        (cx, cy), (vx, vy) = reference.com.tolist(), reference.com_velocity.tolist()
-        cx, cy, vx, vy = cx + offset.x, cy + offset.y, vx + offset.rate_x, vy + offset.rate_y
-        # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset above.
-        stiffness = self.omega**2
-        ax, ay = stiffness * (cx - px), stiffness * (cy - py)
-        return BalanceState(vector2(px, py), vector2(cx, cy), vector2(vx, vy), vector2(ax, ay))
+        plan = reference
+        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Load transfer by the plan; the feet do not give way.

@@ -7,7 +7,6 @@ shares; the CoM reference gives way a little to what is left of the ZMP error.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import field, replace
@@ -21,10 +20,9 @@ from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
-from plantar.kernels.convex import nearest
+from plantar.kernels.dcm_feedback import DcmFeedback
 from plantar.kernels.sole_admittance import SoleAdmittance
 from plantar.kernels.sole_targets import pressed
-from plantar.kernels.vectors import vector2
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY
@@ -126,9 +124,12 @@ class WrenchBalance:
         self.distribution = WrenchDistribution(mass * GRAVITY, weights, gains.minimum_force, _LENGTH * gains.body.leg)
         self.feet = FootAdmittance(gains.feet, period)
         self.states: Counter[str] = Counter()
-        self._integral = (0.0, 0.0)
         largest = LARGEST_OFFSET * gains.body.leg
-        self._admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        admittance = ComAdmittance(gains.zmp_gain, gains.com_gain, gains.zmp_filter, period, largest)
+        # T 4.18 with an integral that forgets; it stands still while the region holds the desired ZMP back.
+        integral = (gains.dcm_integral, gains.dcm_forgetting, gains.largest_integral)
+        yields = gains.zmp_gain > 0.0
+        self._feedback = DcmFeedback(omega, gains.dcm_gain, integral, period, admittance, yields, False)
 
     def update(
         self,
@@ -148,19 +149,8 @@ class WrenchBalance:
         Returns:
             Desired ZMP and CoM reference.
         """
-        # Plain numbers: on two of them an array costs several times as much, and this runs at every tick.
-        px, py = self._desired_zmp(reference, dcm, region)
-        (cx, cy), (vx, vy), offset = reference.com.tolist(), reference.com_velocity.tolist(), self._admittance
-        stiffness = self.omega**2
-        ax, ay = stiffness * (cx + offset.x - px), stiffness * (cy + offset.y - py)
-        if self.gains.zmp_gain > 0.0:
-            if zmp is None:
-                offset.follow(0.0, 0.0)
-            else:
-                zx, zy = zmp.tolist()
-                offset.follow(zx - px, zy - py)
-        cx, cy, vx, vy = cx + offset.x, cy + offset.y, vx + offset.rate_x, vy + offset.rate_y
-        return BalanceState(vector2(px, py), vector2(cx, cy), vector2(vx, vy), vector2(ax, ay))
+        plan = reference
+        return BalanceState(*self._feedback.decide(plan.vrp, plan.dcm, plan.com, plan.com_velocity, dcm, zmp, region))
 
     def act(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, FootAction]:
         """Share the pendulum's wrench between the feet that stand, and let them give way.
@@ -179,27 +169,6 @@ class WrenchBalance:
             side: _action(wanted.get(side, _NO_WRENCH), states[side], correction)
             for side, correction in corrections.items()
         }
-
-    def _desired_zmp(
-        self, reference: LipReference, dcm: NDArray[np.float64], region: NDArray[np.float64]
-    ) -> tuple[float, float]:
-        """T 4.18 with an integral that forgets; it stands still while the region holds the desired ZMP back."""
-        g, (ix, iy) = self.gains, self._integral
-        (px, py), (rx, ry), (x, y) = reference.vrp.tolist(), reference.dcm.tolist(), dcm.tolist()
-        gain, ex, ey = 1.0 + g.dcm_gain / self.omega, x - rx, y - ry
-        x, y = px + gain * ex + ix, py + gain * ey + iy
-        if not len(region):
-            return x, y
-        inside: tuple[float, float] = nearest(region, x, y)
-        if g.dcm_integral > 0.0 and math.dist(inside, (x, y)) < 1e-9:
-            self._integral = self._integrated(ix, ex), self._integrated(iy, ey)
-        return inside
-
-    def _integrated(self, integral: float, error: float) -> float:
-        """One coordinate of the integral after one tick with an error of the DCM in m."""
-        g = self.gains
-        moved = integral + self.period * (g.dcm_integral * error - g.dcm_forgetting * integral)
-        return min(max(moved, -g.largest_integral), g.largest_integral)
 
     def distributed(self, balanced: BalanceState, feet: Feet) -> Mapping[Side, NDArray[np.float64]]:
         """Distribute the pendulum's wrench over the feet that stand.
@@ -229,7 +198,7 @@ class WrenchBalance:
         # Along the line from the ZMP to the CoM: no moment about the ZMP.
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
         found = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
-        self.states[found.state.value] += 1
+        self.states[str(found.state)] += 1
         return cast("Mapping[Side, NDArray[np.float64]]", found.wrenches)
 
 

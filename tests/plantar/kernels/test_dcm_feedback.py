@@ -1,0 +1,77 @@
+"""The kernel of the DCM feedback in both forms against numpy, tick after tick."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from plantar.geometry.polygon import closest_point
+from plantar.kernels import dcm_feedback, python_form
+
+FORMS = (dcm_feedback, python_form("dcm_feedback"))
+OMEGA, GAIN, PERIOD, FILTER = 3.4, 2.0, 0.005, 0.02
+ZMP_GAIN, COM_GAIN, LARGEST = 0.8, 1.2, 0.05
+INTEGRAL = (0.7, 0.2, 0.004)
+BOX = np.array([[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]])
+ANYWHERE = np.empty((0, 2))
+
+
+def feedback(module, yields, after):
+    offset = module.ComAdmittance(ZMP_GAIN, COM_GAIN, FILTER, PERIOD, LARGEST)
+    return module.DcmFeedback(OMEGA, GAIN, INTEGRAL, PERIOD, offset, yields, after)
+
+
+@pytest.mark.parametrize(("yields", "after"), [(True, True), (True, False), (False, False)])
+@settings(max_examples=25)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_it_decides_what_numpy_would(yields, after, seed):
+    rng = np.random.default_rng(seed)
+    kernels = [feedback(module, yields, after) for module in FORMS]
+    integral, offset, rate, error = np.zeros((4, 2))
+    for tick in range(50):
+        vrp, planned, com, velocity, dcm = rng.normal(0.0, 0.03, (5, 2))
+        zmp = None if rng.random() < 0.2 else rng.normal(0.0, 0.1, 2)
+        region = ANYWHERE if tick % 20 == 7 else BOX if tick < 25 else 0.5 * BOX
+        free = vrp + (1.0 + GAIN / OMEGA) * (dcm - planned) + integral
+        wanted = free if region is ANYWHERE else closest_point(region, free)
+        if region is not ANYWHERE and np.array_equal(wanted, free):
+            moved = integral + PERIOD * (INTEGRAL[0] * (dcm - planned) - INTEGRAL[1] * integral)
+            integral = np.clip(moved, -INTEGRAL[2], INTEGRAL[2])
+        before = offset
+        if yields:
+            error = error + PERIOD / (FILTER + PERIOD) * ((0.0 if zmp is None else zmp - wanted) - error)
+            rate = ZMP_GAIN * error - COM_GAIN * offset
+            offset = offset + PERIOD * rate
+            offset = offset * min(1.0, LARGEST / max(1e-9, float(np.hypot(*offset))))
+        acceleration = OMEGA**2 * (com + (offset if after else before) - wanted)
+        expected = (wanted, com + offset, velocity + rate, acceleration)
+        asked = [kernel.desired(vrp, planned, dcm, region) for kernel in kernels]  # changes nothing
+        found = [kernel.decide(vrp, planned, com, velocity, dcm, zmp, region) for kernel in kernels]
+        for one, other, wished in zip(*found, expected, strict=True):
+            np.testing.assert_array_equal(one, other)
+            np.testing.assert_allclose(one, wished, rtol=1e-12, atol=1e-14)
+        np.testing.assert_array_equal(asked[0], asked[1])
+        np.testing.assert_allclose(asked[0], wanted, rtol=1e-12, atol=0.006)
+        if tick == 0:
+            np.testing.assert_array_equal(asked[0], found[0][0])
+
+
+@pytest.mark.parametrize("module", FORMS)
+def test_a_constant_error_of_the_zmp_moves_the_com_by_the_ratio_of_the_gains(module):
+    admittance = module.ComAdmittance(zmp_gain=1.0, com_gain=4.0, zmp_filter=0.02, period=0.005)
+    for _ in range(2000):
+        admittance.update(np.array([0.02, -0.04]))
+    np.testing.assert_allclose(admittance.offset, [0.005, -0.01])
+    assert (admittance.x, admittance.y) == tuple(admittance.offset)
+
+
+@pytest.mark.parametrize("module", FORMS)
+def test_what_is_not_known_is_told_and_leaves_the_integral_alone(module):
+    kernel, zero = feedback(module, False, False), np.zeros(2)
+    lost = kernel.decide(zero, zero, zero, zero, np.array([np.nan, 0.0]), None, BOX)
+    assert np.isnan(lost[0]).all()
+    assert np.array_equal(kernel.desired(zero, zero, zero, BOX), zero)
+    with pytest.raises(ValueError, match="contiguous"):
+        kernel.decide(zero, zero, zero, zero, np.zeros((2, 2))[:, 0], None, BOX)
