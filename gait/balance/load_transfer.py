@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from gait.balance.law import BalanceState, Feet, FootAction, FootState
+from gait.balance.law import BalanceState, Feet, FootAction
+from plantar.kernels.load_transfer import shared_load
 from plantar.mechanics.lip import GRAVITY
 from plantar.sides import Side
 
@@ -26,26 +25,9 @@ def transferred(balanced: BalanceState, mass: float, feet: Feet) -> dict[Side, F
     Returns:
         What each foot shall carry.
     """
-    # Plain numbers: on two of them an array costs ten times as much, and this runs at every tick.
-    x, y = feet.frame.to_command(balanced.zmp_desired).tolist()
-    ax, ay = balanced.com_acceleration.tolist()
-    (lx, ly), (rx, ry) = _center(feet.states["left"]), _center(feet.states["right"])
-    if feet.stance is not None:
-        share = 1.0 if feet.stance == "left" else 0.0
-    else:
-        dx, dy = lx - rx, ly - ry
-        share = min(1.0, max(0.0, ((x - rx) * dx + (y - ry) * dy) / (dx * dx + dy * dy)))
-    other = 1.0 - share
-    fx, fy, fz = mass * ax, mass * ay, mass * GRAVITY
-    x, y = x - (share * lx + other * rx), y - (share * ly + other * ry)
-    return {
-        "left": FootAction(np.array((share * fx, share * fy, share * fz)), np.array((lx + x, ly + y))),
-        "right": FootAction(np.array((other * fx, other * fy, other * fz)), np.array((rx + x, ry + y))),
-    }
-
-
-def _center(foot: FootState) -> tuple[float, float]:
-    """Point (x, y) of the command frame in m at which a foot is to be loaded."""
-    (x, y, _), (cx, cy) = foot.position.tolist(), foot.center.tolist()
-    (xx, xy, _), (yx, yy, _), _ = foot.rotation.tolist()
-    return x + (xx * cx + xy * cy), y + (yx * cx + yy * cy)
+    left, right, zmp = feet.states["left"], feet.states["right"], feet.frame.to_command(balanced.zmp_desired)
+    stance = 0 if feet.stance is None else 1 if feet.stance == "left" else 2
+    force, place, other_force, other_place = shared_load(
+        zmp, balanced.com_acceleration, mass, GRAVITY, left, right, stance
+    )
+    return {"left": FootAction(force, place), "right": FootAction(other_force, other_place)}
