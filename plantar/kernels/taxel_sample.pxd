@@ -1,5 +1,7 @@
 # C types of taxel_sample.py. Without a compiler this file is not read.
 cimport cython
+from .contacts_in_sole cimport ContactsInSole
+from .foot_contacts cimport FootContacts
 from .noise_rows cimport NoiseRows
 from .pressed_sole cimport PressedSole
 
@@ -16,7 +18,7 @@ cdef class TaxelSample:
 
     cpdef of(self, const double[:] force)
 
-    cpdef of_sole(self, PressedSole sole)
+    cpdef of_contacts(self, PressedSole sole, FootContacts contacts, ContactsInSole seen, double reach)
 
     @cython.locals(i=Py_ssize_t, value=double)
     cdef void _take(self, const double[:] force, Py_ssize_t row) noexcept

@@ -40,15 +40,19 @@ class TaxelSample:
         self._take(force, self.noise.advance())
         return self.sample.copy()
 
-    def of_sole(self, sole):
-        """What the taxels read of what a sole carries.
+    def of_contacts(self, sole, contacts, seen, reach):
+        """What the taxels read of what presses on their sole.
 
         Args:
             sole: The `PressedSole`.
+            contacts: As its `stand` takes them.
+            seen: Likewise.
+            reach: Likewise.
 
         Returns:
             Readings as of `of`.
         """
+        sole.stand(contacts, seen, reach)
         self._take(sole.forces, self.noise.advance())
         return self.sample.copy()
 

@@ -87,8 +87,8 @@ class SoleSkin:
         if isinstance(self.pressure, SolePressure) and self._rim is None:
             self.springs = self.pressure.springs
         self._reach = reach
-        self._data: Any = None  # which of them are seen in the sole frame
-        self._in_sole: ContactsInSole | None = None
+        self._data: Any = None  # in which contacts are seen from the sole
+        self._in_sole = ContactsInSole(np.zeros(3), np.eye(3))
         self.pressed = self.in_air = 0
 
     def __len__(self) -> int:
@@ -108,32 +108,40 @@ class SoleSkin:
         Returns:
             Forces (n,) in N, none negative; zeros for a sole in the air.
         """
-        if self.springs is not None:
-            self.press(data, contacts)
-            return np.array(self.springs.forces)
         contacts = self._counted(data, contacts)
+        if self.springs is not None:
+            self.springs.stand(contacts, self._in_sole, self._reach)
+            return np.array(self.springs.forces)
         out = np.zeros(len(self.layout))
         if contacts.size:
-            seen = self._seen(data)
-            seen.turn(contacts)
-            for fz, tx, ty, patch in contacts.pair_loads(seen.vectors, self._reach):
+            self._in_sole.turn(contacts)
+            for fz, tx, ty, patch in contacts.pair_loads(self._in_sole.vectors, self._reach):
                 if fz > 0.0:
                     part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
                     out += part if self._rim is None else part * self._rim.share(patch)
         return out
 
-    def press(self, data: Any, contacts: FootContacts | None = None) -> None:
-        """Let contacts press on the springs, whose `forces` then are what `taxel_forces` gives.
+    def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
+        """What electronics read of the springs, without an array of the forces in between.
 
         Args:
             data: The MjData after `mj_step` or `mj_forward`.
             contacts: The sole's contacts where they are known already.
+            sample: Samples the taxels.
+
+        Returns:
+            Readings (n,) in N.
         """
-        assert self.springs is not None
-        self.springs.stand(self._counted(data, contacts), self._seen(data), self._reach)
+        contacts = self._counted(data, contacts)
+        read: NDArray[np.float64] = sample.of_contacts(self.springs, contacts, self._in_sole, self._reach)
+        return read
 
     def _counted(self, data: Any, contacts: FootContacts | None) -> FootContacts:
-        """The sole's contacts, which are counted."""
+        """The sole's contacts, which are counted, and are seen from where it is in the data."""
+        if data is not self._data:
+            self._data = data
+            rotation = data.site_xmat[self.site_id].reshape(3, 3)
+            self._in_sole = ContactsInSole(data.site_xpos[self.site_id], rotation)
         if contacts is None:
             contacts = foot_contacts(self.model, data, self.geom_ids).gathered()
         if contacts.size:
@@ -141,14 +149,6 @@ class SoleSkin:
         else:
             self.in_air += 1
         return contacts
-
-    def _seen(self, data: Any) -> ContactsInSole:
-        """What sees contacts in the sole frame."""
-        if data is not self._data or self._in_sole is None:
-            self._data = data
-            rotation = data.site_xmat[self.site_id].reshape(3, 3)
-            self._in_sole = ContactsInSole(data.site_xpos[self.site_id], rotation)
-        return self._in_sole
 
 
 @dataclass(frozen=True)
@@ -225,8 +225,7 @@ class SkinSensor:
             noise = white_noise(rng, 0.0, self.noise_std, count)
         self._sample = TaxelSample(noise, count, *self.range, self.dead)
         self._errors = errors
-        # Where nothing comes between a sole's springs and the electronics, forces need no array of their own.
-        self._springs = skin.springs if isinstance(skin, SoleSkin) and errors is None else None
+        self._direct = isinstance(skin, SoleSkin) and skin.springs is not None and errors is None
         self._queue: deque[Reading] = deque(maxlen=self.delay_periods + 1)
         self._start = 0.0
         self._taken = 0
@@ -266,14 +265,12 @@ class SkinSensor:
 
     def _forces(self, data: Any, contacts: FootContacts | None) -> NDArray[np.float64]:
         """Force (n,) on each taxel in N as it is sampled."""
-        if self._springs is not None:
-            self.skin.press(data, contacts)
-            sample: NDArray[np.float64] = self._sample.of_sole(self._springs)
-        else:
-            force = self.skin.taxel_forces(data, contacts)
-            if self._errors is not None:
-                force = self._errors.felt(force, float(data.time))
-            sample = self._sample.of(force)
+        if self._direct:
+            return self.skin.sampled(data, contacts, self._sample)
+        force = self.skin.taxel_forces(data, contacts)
+        if self._errors is not None:
+            force = self._errors.felt(force, float(data.time))
+        sample: NDArray[np.float64] = self._sample.of(force)
         return sample
 
 

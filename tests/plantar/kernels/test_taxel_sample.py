@@ -7,10 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plantar.kernels import noise_rows, pressed_sole, python_form, taxel_sample
+from plantar import hex_layout
+from plantar.kernels import noise_rows, python_form, taxel_sample
+from plantar.kernels.contacts_in_sole import ContactsInSole
+from plantar.kernels.foot_contacts import FootContacts
+from sim.sensing.sole_pressure import SolePressure
 
-PYTHON = tuple(map(python_form, ("noise_rows", "pressed_sole", "taxel_sample")))
-FORMS = ((noise_rows, pressed_sole, taxel_sample), PYTHON)
+LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
+PYTHON = tuple(map(python_form, ("noise_rows", "taxel_sample")))
+FORMS = ((noise_rows, taxel_sample), PYTHON)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -22,12 +27,31 @@ def test_it_is_what_numpy_makes_of_them(seed):
     dead = np.flatnonzero(rng.random(n) < 0.2)
     wanted = np.minimum(np.maximum(force + noise, 2.0), 20.0)
     wanted[:, dead] = np.nan
-    for rows, soles, samples in FORMS:
+    for rows, samples in FORMS:
         sample = samples.TaxelSample(rows.NoiseRows(lambda: noise), n, 2.0, 20.0, dead)
-        sole = soles.PressedSole(np.ones(n), 1e-4, 4, None, None)
-        np.asarray(sole.forces)[:] = force[1]
-        told = [sample.of(force[0]), sample.of_sole(sole), sample.of(force[2])]
+        told = [sample.of(row) for row in force]
         assert np.array_equal(told, wanted, equal_nan=True)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_contacts_are_sampled_as_the_forces_that_they_press_with(seed):
+    rng = np.random.default_rng(seed)
+    positions = np.column_stack([rng.uniform([-0.1, -0.05], [0.1, 0.05], (4, 2)), np.zeros(4)])
+    vectors = np.zeros((12, 3))
+    vectors[::3], vectors[1::3, 2] = positions, rng.uniform(10.0, 90.0, 4)
+    ids, gaps, carries = np.zeros((4, 2), dtype=np.int32), np.zeros(4), np.ones(4, dtype=np.uint8)
+    foot, seen = FootContacts(np.zeros(1, dtype=np.uint8)), ContactsInSole(np.zeros(3), np.eye(3))
+    springs = SolePressure(LAYOUT).springs
+    rows = rng.normal(size=(2, len(LAYOUT)))
+    one, other = (
+        taxel_sample.TaxelSample(noise_rows.NoiseRows(lambda: rows), len(LAYOUT), 0.0, 785.0, np.array([1, 2]))
+        for _ in range(2)
+    )
+    for count in (4, 0):
+        foot.take(ids[:count], vectors[: 3 * count], gaps[:count], carries[:count])
+        read = one.of_contacts(springs, foot, seen, 5e-4)
+        assert np.array_equal(read, other.of(np.array(springs.forces)), equal_nan=True)
+        assert (np.nansum(springs.forces) > 1.0) == (count > 0)
 
 
 @pytest.mark.parametrize("rows", [noise_rows, PYTHON[0]], ids=["compiled", "python"])
