@@ -12,7 +12,7 @@ from plantar.errors import InputError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon
+from sim.sensing.contact_patch import Patches, patch_polygon
 
 __all__ = ["BlindRim"]
 
@@ -67,7 +67,7 @@ class BlindRim:
     def _make_share(self, points: NDArray[np.float64]) -> float:
         if self.stiffness == 0.0:
             return 1.0
-        polygon = patch_polygon(points, self._rubber)
-        taxels = float(self._cutter.cut(half_planes_of(polygon))[0][:, 0].sum())
+        polygon, lines = patch_polygon(points, self._rubber)
+        taxels = float(self._cutter.cut(lines)[0][:, 0].sum())
         beside = self.stiffness * max(0.0, polygon_area(polygon) - taxels)
         return taxels / (taxels + beside) if taxels > 0.0 else 0.0

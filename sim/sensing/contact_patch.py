@@ -49,7 +49,7 @@ class Patches(Generic[T]):
         return self._made[key]
 
 
-def patch_polygon(points: NDArray[np.float64], half_width: float) -> NDArray[np.float64]:
+def patch_polygon(points: NDArray[np.float64], half_width: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Hull of contact points, or, where it is thinner than a line presses wide, the rectangle around it.
 
     Args:
@@ -57,7 +57,7 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> NDArray[np.
         half_width: Half the width in m that a line or a point presses on.
 
     Returns:
-        Convex polygon (m, 2) in m, counter-clockwise.
+        Convex polygon (m, 2) in m, counter-clockwise, and its half-planes (m, 3), as of `half_planes_of`.
     """
     polygon = np.array(small_hull([(x, y) for x, y in points.tolist()]))
     axis = np.array([1.0, 0.0])
@@ -66,14 +66,15 @@ def patch_polygon(points: NDArray[np.float64], half_width: float) -> NDArray[np.
         depth = (lines[:, 2] - polygon @ lines[:, :2].T).max(axis=0)
         thinnest = int(np.argmin(depth))
         if len(polygon) > 2 and depth[thinnest] >= 2.0 * half_width:
-            return polygon
+            return polygon, lines
         axis = np.array([-lines[thinnest, 1], lines[thinnest, 0]])
     across = np.array([-axis[1], axis[0]])
     along, side = polygon @ axis, polygon @ across
     low, high = along.min() - half_width, along.max() + half_width
     middle = 0.5 * (side.min() + side.max())
     corners = np.array([[low, -1.0], [high, -1.0], [high, 1.0], [low, 1.0]])
-    return np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)
+    rectangle = np.asarray(corners[:, :1] * axis + (middle + corners[:, 1:] * half_width) * across)
+    return rectangle, half_planes_of(rectangle)
 
 
 def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -89,7 +90,7 @@ def half_planes_of(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
     length = np.hypot(edge[:, 0], edge[:, 1])
     lines = np.empty((len(polygon), 3))
     lines[:, 0], lines[:, 1] = edge[:, 1] / length, -edge[:, 0] / length
-    lines[:, 2] = (lines[:, :2] * polygon).sum(axis=1)
+    lines[:, 2] = lines[:, 0] * polygon[:, 0] + lines[:, 1] * polygon[:, 1]
     return lines
 
 

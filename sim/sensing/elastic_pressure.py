@@ -25,7 +25,7 @@ from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import closest_point, convex_hull
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import Patches, half_planes_of, patch_polygon, reach_of
+from sim.sensing.contact_patch import Patches, patch_polygon, reach_of
 from sim.sensing.elastic_layer import LayerContact, influence
 from sim.sensing.sole_pressure import SolePressure
 
@@ -197,8 +197,8 @@ class ElasticPressure:
     def _make_patch(self, points: NDArray[np.float64]) -> _Patch | None:
         """The squares that a patch covers; None where it lies on the bare rim."""
         squares = self._squares
-        polygon = patch_polygon(points, self.rubber)
-        measure = squares.cutter.cut(half_planes_of(polygon))[0]
+        polygon, lines = patch_polygon(points, self.rubber)
+        measure = squares.cutter.cut(lines)[0]
         count = len(squares.centers)
         covered = np.column_stack([np.bincount(squares.square, column, count) for column in measure.T])
         if covered[:, 0].sum() <= 0.5 * polygon_area(polygon):

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +32,7 @@ from plantar.kernels.foot_contacts import FootContacts
 from plantar.kernels.pressed_patch import PressedPatch
 from plantar.kernels.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
-from sim.sensing.contact_patch import half_planes_of, patch_polygon, reach_of
+from sim.sensing.contact_patch import patch_polygon, reach_of
 
 __all__ = ["SolePressure"]
 
@@ -77,6 +78,8 @@ class SolePressure:
         self._area = shapely.area(self._cells)
         # Cells that do not touch each other, such as round ones, cover a part of what lies between them only.
         self._hull = None if any(layout.neighbours) else shapely.MultiPoint(layout.vertices[:, :2]).convex_hull
+        self._least = _LEAST_SHARE * self._area
+        self._tree: Any = None  # of the cells, for patches on the bare rim
         self._cutter = CellCutter(layout)
         self._gain = None if (facing == 1.0).all() else 1.0 / facing
         gains = np.ones(len(layout)) if self._gain is None else self._gain
@@ -126,31 +129,21 @@ class SolePressure:
         return force if self._gain is None else np.asarray(force * self._gain)
 
     def _make_patch(self, points: NDArray[np.float64]) -> PressedPatch:
-        import shapely
-
-        polygon = patch_polygon(points, self.rubber)
-        measure = self._cutter.cut(half_planes_of(polygon))[0]
+        polygon, lines = patch_polygon(points, self.rubber)
+        measure = self._cutter.cut(lines)[0]
         area = measure[:, 0]
-        if self._hull is None:
-            full = polygon_area(polygon)
-        else:
-            within = shapely.Polygon(polygon).intersection(self._hull).area
-            full = within * float(self._area.sum()) / self._hull.area
-        if area.sum() > 0.5 * full:
-            cells = np.flatnonzero(area > _LEAST_SHARE * self._area)
+        if area.sum() > 0.5 * self._within_cells(polygon):
+            cells = np.flatnonzero(area > self._least)
             area = area[cells]
             points = measure[cells, 1:] / area[:, None]
-        else:  # on the bare rim beside the cells: the cells nearest to the patch's edge carry it
-            rim = shapely.get_coordinates(shapely.segmentize(shapely.Polygon(polygon), 0.5 * self.rubber))
-            nearest = shapely.STRtree(self._cells).nearest(shapely.points(rim))
-            count = np.bincount(nearest)
-            cells = np.flatnonzero(count)
-            area = count[cells].astype(np.float64)
-            points = np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / area[:, None]
+        else:  # on the bare rim beside the cells
+            cells, area, points = self._nearest_cells(polygon)
         area = np.asarray(area / area.sum(), dtype=np.float64)
         centre = area @ points
-        scale = max(float(np.abs(points - centre).max()), 1e-3)
-        u = np.column_stack([np.ones(len(points)), (points - centre) / scale])
+        off = points - centre
+        scale = max(float(np.abs(off).max()), 1e-3)
+        u = np.empty((len(points), 3))
+        u[:, 0], u[:, 1:] = 1.0, off / scale
         return PressedPatch(
             cells,
             (float(centre[0]), float(centre[1])),
@@ -161,6 +154,30 @@ class SolePressure:
             _pseudo_inverse((area * u.T) @ u, 1e-9),
             np.ascontiguousarray(reach_of(convex_hull(u[:, 1:]))),
         )
+
+    def _within_cells(self, polygon: NDArray[np.float64]) -> float:
+        """Area in m^2 of a patch that the cells cover together, wherever it is."""
+        if self._hull is None:
+            return polygon_area(polygon)
+        import shapely
+
+        within = shapely.Polygon(polygon).intersection(self._hull).area
+        return float(within * float(self._area.sum()) / self._hull.area)
+
+    def _nearest_cells(
+        self, polygon: NDArray[np.float64]
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+        """The cells (m,) nearest to a patch's edge, how many of its points each has (m,), and their means (m, 2)."""
+        import shapely
+
+        rim = shapely.get_coordinates(shapely.segmentize(shapely.Polygon(polygon), 0.5 * self.rubber))
+        if self._tree is None:
+            self._tree = shapely.STRtree(self._cells)
+        nearest = self._tree.nearest(shapely.points(rim))
+        count = np.bincount(nearest)
+        cells = np.flatnonzero(count)
+        share = count[cells].astype(np.float64)
+        return cells, share, np.column_stack([np.bincount(nearest, v)[cells] for v in rim.T]) / share[:, None]
 
 
 def _spread_slowly(shape: PressedPatch, force: float, out: NDArray[np.float64]) -> None:
@@ -224,7 +241,8 @@ def _pseudo_inverse(matrix: NDArray[np.float64], least: float) -> NDArray[np.flo
     eigenvalues below a share of the largest one count as zero."""
     values, vectors = np.linalg.eigh(matrix)
     values, vectors = values[::-1], np.ascontiguousarray(vectors[:, ::-1])
-    inverse = np.divide(1.0, values, out=np.zeros(len(values)), where=values > least * values[0])
+    limit = least * values[0]
+    inverse = np.array([1.0 / value if value > limit else 0.0 for value in values.tolist()])
     return np.asarray(vectors @ (inverse[:, None] * vectors.T))
 
 
