@@ -5,6 +5,8 @@ Plain Python that also compiles ahead of time (`leg_targets.pxd` gives the C typ
 
 from __future__ import annotations
 
+from . import memory
+
 __all__ = ["LegTargets"]
 
 
@@ -24,10 +26,14 @@ class LegTargets:
         self.right, self.right_turn = right
 
     def take(self, com, torso, left, left_turn, right, right_turn):
-        """Copy the targets, in the order of the arguments above."""
-        # Buffers rather than views: nobody keeps them, and they take half the time.
-        c, t, p, q, r, s = com, torso, left, left_turn, right, right_turn
+        """Copy the targets, in the order of the arguments above.
+
+        Raises:
+            ValueError: If one of them is no contiguous array of float64.
+        """
+        a, b, c = memory.values(com), memory.values(left), memory.values(right)
+        d, e, f = memory.values(torso), memory.values(left_turn), memory.values(right_turn)
         for i in range(3):
-            self.com[i], self.left[i], self.right[i] = c[i], p[i], r[i]
+            self.com[i], self.left[i], self.right[i] = a[i], b[i], c[i]
             for j in range(3):
-                self.torso[i, j], self.left_turn[i, j], self.right_turn[i, j] = t[i, j], q[i, j], s[i, j]
+                self.torso[i, j], self.left_turn[i, j], self.right_turn[i, j] = d[3 * i + j], e[3 * i + j], f[3 * i + j]

@@ -1,6 +1,8 @@
 # C types of setpoints.py. Without a compiler this file is not read.
 cimport cython
 
+from . cimport pointers as memory
+
 
 @cython.final
 cdef class Setpoints:
@@ -30,8 +32,8 @@ cdef class Setpoints:
     @cython.locals(i=Py_ssize_t, torque=double, lead=double)
     cpdef void load(self, const double[:] friction=*) noexcept
 
-    @cython.locals(i=Py_ssize_t)
-    cpdef void offset(self, const double[:] offsets) noexcept
+    @cython.locals(i=Py_ssize_t, angles=cython.p_double)
+    cpdef void offset(self, offsets) except *
 
     @cython.locals(i=Py_ssize_t)
     cpdef void write(self) noexcept

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from . import memory
+
 __all__ = ["Setpoints"]
 
 _NONE = float("nan")
@@ -96,10 +98,11 @@ class Setpoints:
         """Add to the set-points.
 
         Args:
-            offsets: Angles (k,) in rad.
+            offsets: Angles (k,) in rad; a contiguous array of float64.
         """
+        angles = memory.values(offsets)
         for i in range(self.servos.shape[0]):
-            self.setpoint[i] = self.setpoint[i] + offsets[i]
+            self.setpoint[i] = self.setpoint[i] + angles[i]
 
     def write(self):
         """Hand the set-points to the simulator."""

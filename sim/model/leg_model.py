@@ -76,6 +76,7 @@ class LegModel:
             *(self._com.target, self._torso.target),
             *((sole.position, sole.rotation) for sole in self._soles.values()),
         )
+        self._yielding: Collection[Side] = ()
         self._reference = PostureTask(model, self._data, ids)
         self.joints, self.torques, self._load = np.zeros(len(ids)), np.zeros(len(ids)), np.zeros(model.nv)
         self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
@@ -184,11 +185,15 @@ class LegModel:
         largest_step: float = 0.5,
     ) -> float:
         """What `solve` does, for a caller who reads `joints` at once; returns the largest task error."""
-        self._targets.take(
-            *(com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"])
-        )
-        for side, sole in self._soles.items():
-            sole.level = 1 if side in yielding else 0
+        targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
+        try:
+            self._targets.take(*targets)
+        except ValueError:  # one is of other strides or numbers than the kernel takes
+            self._targets.take(*(np.ascontiguousarray(target, dtype=np.float64) for target in targets))
+        if yielding != self._yielding:
+            self._yielding = tuple(yielding)
+            for side, sole in self._soles.items():
+                sole.level = 1 if side in yielding else 0
         missed = self.inverse.solve(iterations, largest_step)
         self._angle_entries.take()
         return missed

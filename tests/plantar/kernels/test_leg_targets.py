@@ -12,10 +12,12 @@ from plantar.kernels import leg_targets, python_form
 def test_each_target_comes_to_its_array(module):
     rng = np.random.default_rng(0)
     given = [rng.normal(size=shape) for shape in 3 * [3, (3, 3)]]
-    given[3] = given[3].T  # any strides will do
     given[5].flags.writeable = False
     com, torso, left, left_turn, right, right_turn = received = [np.zeros(a.shape) for a in given]
-    module.LegTargets(com, torso, (left, left_turn), (right, right_turn)).take(*given)
+    kernel = module.LegTargets(com, torso, (left, left_turn), (right, right_turn))
+    kernel.take(*given)
     for a, b in zip(received, given, strict=True):
         assert np.array_equal(a, b)
         assert not np.shares_memory(a, b)
+    with pytest.raises(ValueError, match="contiguous"):
+        kernel.take(*given[:3], given[3].T, *given[4:])

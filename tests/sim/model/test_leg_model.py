@@ -81,6 +81,19 @@ def test_a_live_posture_is_the_same_in_arrays_that_stay(legs: LegModel) -> None:
         assert all(np.array_equal(a, b) for a, b in pairs)
 
 
+def test_targets_may_have_any_strides_and_results_stay(legs: LegModel) -> None:
+    com, torso, positions, rotations = random_targets(0)
+    joints, _ = legs.solve(com, torso, positions, rotations, iterations=20)
+    torques = legs.static_torques(dict.fromkeys(SIDES, np.array([0.0, 0.0, 250.0])), positions)
+    kept, held = joints.copy(), torques.copy()
+    legs.solve(com, np.asfortranarray(torso), positions, {s: np.asfortranarray(r) for s, r in rotations.items()})
+    assert legs.joints == pytest.approx(kept, abs=1e-9)
+    legs.solve(com + 0.01, torso, positions, rotations)
+    legs.static_torques(dict.fromkeys(SIDES, np.zeros(3)), positions)
+    assert np.array_equal(joints, kept)
+    assert np.array_equal(torques, held)
+
+
 def test_agrees_with_mink(h1: Robot, legs: LegModel) -> None:
     mink = pytest.importorskip("mink")
     model = robot_spec(h1).compile()
