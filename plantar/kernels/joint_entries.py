@@ -5,8 +5,6 @@ Plain Python that also compiles ahead of time (`joint_entries.pxd` gives the C t
 
 from __future__ import annotations
 
-from . import memory
-
 __all__ = ["JointEntries"]
 
 
@@ -21,12 +19,6 @@ class JointEntries:
 
     def __init__(self, vector, places, entries):
         self.vector, self.places, self.entries = vector, places, entries
-
-    def less(self, share):
-        """Subtract another vector (n,), a contiguous array of float64, from the vector."""
-        numbers = memory.values(share)
-        for i in range(self.vector.shape[0]):
-            self.vector[i] -= numbers[i]
 
     def take(self):
         """Copy the entries as they are now."""

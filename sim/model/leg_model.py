@@ -12,6 +12,7 @@ from gait.estimate.estimator import Posture
 from plantar.arrays import read_only
 from plantar.kernels.joint_entries import JointEntries
 from plantar.kernels.leg_targets import LegTargets
+from plantar.kernels.static_load import StaticLoad
 from plantar.kernels.task_rows import PointRows
 from plantar.sides import SIDES, Side
 from sim.model.inverse_kinematics import InverseKinematics
@@ -78,9 +79,14 @@ class LegModel:
         )
         self._yielding: Collection[Side] = ()
         self._reference = PostureTask(model, self._data, ids)
-        self.joints, self.torques, self._load = np.zeros(len(ids)), np.zeros(len(ids)), np.zeros(model.nv)
+        self.joints, self.torques = np.zeros(len(ids)), np.zeros(len(ids))
         self._angle_entries = JointEntries(self._data.qpos, self._qpos.astype(np.intp), self.joints)
-        self._torque_entries = JointEntries(self._load, self._dof.astype(np.intp), self.torques)
+        weightless = bool(model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_GRAVITY))
+        self._load = StaticLoad(
+            *(model.body_parentid.astype(np.intp), model.dof_bodyid.astype(np.intp)),
+            *(self._data.cinert, self._data.cdof, np.zeros(3) if weightless else model.opt.gravity),
+            *(self._dof.astype(np.intp), self.torques),
+        )
         self._levers = [(s, *_lever(model, self._data, int(model.site_bodyid[i]))) for s, i in self._sites.items()]
         self.inverse = InverseKinematics(
             model,
@@ -216,15 +222,16 @@ class LegModel:
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
         """What `static_torques` does, for a caller who reads `torques` at once."""
         self.inverse.place()
-        mujoco.mj_rne(self.model, self._data, 0, self._load)
+        load = self._load
+        load.weigh()
         for side, lever, jacobian in self._levers:
             force = forces[side]
             if force.item(2) <= 0.0:
                 continue
             x, y, z = points[side]
             lever.write(x, y, z)
-            self._torque_entries.less(force.dot(jacobian))
-        self._torque_entries.take()
+            load.less(force.dot(jacobian))
+        load.take()
 
 
 def _lever(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> tuple[PointRows, NDArray[np.float64]]:

@@ -1,0 +1,33 @@
+"""The kernel of static loads against numpy's cross products over each velocity's bodies, in both forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from plantar.kernels import python_form, static_load
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_velocity_holds_the_weight_of_all_that_it_moves(seed):
+    rng = np.random.default_rng(seed)
+    parents = np.array([0, 0, 1, 2, 1, 0, 5])  # two trees; the world is body 0
+    bodies, places = np.array([1, 1, 2, 3, 4, 4, 6]), np.array([5, 2, 6])
+    inertias, motions = rng.normal(size=(7, 10)), rng.normal(size=(7, 6))
+    gravity, share, torques = rng.normal(size=3), rng.normal(size=7), np.zeros(3)
+    found = []
+    for module in (static_load, python_form("static_load")):
+        kernel = module.StaticLoad(parents, bodies, inertias, motions, gravity, places, torques)
+        for _ in range(2):
+            kernel.weigh()
+        weights = np.array(kernel.load)
+        kernel.less(share)
+        kernel.take()
+        assert np.array_equal(torques, (weights - share)[places])
+        found.append(weights)
+    assert np.array_equal(*found)
+    moved = {1: (1, 2, 3, 4), 2: (2, 3), 3: (3,), 4: (4,), 6: (6,)}
+    for v, body in enumerate(bodies.tolist()):
+        force = -gravity * inertias[list(moved[body]), 9].sum()
+        moment = np.cross(inertias[list(moved[body]), 6:9].sum(axis=0), -gravity)
+        assert found[0][v] == pytest.approx(motions[v] @ [*moment, *force], abs=1e-12)
