@@ -138,8 +138,18 @@ class InverseKinematics:
         Returns:
             The largest task error before the last step (units of length or rad); not a number if a target is not.
         """
+        kernel = self._step_kernel
         for _ in range(iterations):
-            self._step(largest_step)
+            if not self._placed:
+                self.place()
+            for task, error, jacobian in self._asked:
+                task.error(error)
+                task.jacobian(jacobian)
+            if kernel.step(largest_step):
+                self.plain += 1
+            else:
+                self._step_with_care(largest_step)
+            self._placed = False
         worst: float = self._newton.worst()
         return worst
 
@@ -155,28 +165,19 @@ class InverseKinematics:
         """Say that the configuration has been changed from outside."""
         self._placed = False
 
-    def _step(self, largest: float) -> None:
-        self.place()
-        for task, error, jacobian in self._asked:
-            task.error(error)
-            task.jacobian(jacobian)
-        kernel = self._step_kernel
-        if kernel.step(largest) or (not kernel.near and self._step_from_afar(largest)):
+    def _step_with_care(self, largest: float) -> None:
+        """A step that the kernel did not take: it could not write all errors, or the plain step may not stay."""
+        kernel, plain = self._step_kernel, False
+        if not kernel.near:
+            for task, error in self._with_rows:
+                task.error(error)
+            plain = self._newton.solve(largest)
+        if plain:
             self.plain += 1
         else:
             self._newton_step[:] = self._careful(self._newton_jacobian, largest)
-            kernel.move()
             self.careful += 1
-        self._placed = False
-
-    def _step_from_afar(self, largest: float) -> bool:
-        """Whether a plain step was taken where a kernel could not write all errors."""
-        for task, error in self._with_rows:
-            task.error(error)
-        if not self._newton.solve(largest):
-            return False
-        self._step_kernel.move()
-        return True
+        kernel.move()
 
     def _careful(self, jacobian: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
         """Step (n,) by levels, damped, scaled and within the limits; none if a target is not a number."""

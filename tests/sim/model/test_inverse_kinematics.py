@@ -92,6 +92,38 @@ def test_no_target_makes_a_step_too_large_or_leaves_a_limit(  # type: ignore[no-
         assert (data.qpos[places] <= high).all()
 
 
+class AskedPose(PoseTask):
+    """A pose whose error and Jacobian a solver asks for, as of a task without a kernel."""
+
+    def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> None:
+        """None."""
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("floating", [False, True])
+def test_a_kernel_takes_the_step_of_what_a_task_says(random_robot, floating: bool, seed: int) -> None:  # type: ignore[no-untyped-def]
+    """Of all turns, also of more than a quarter, whose error the task writes itself."""
+    ways, counts = [], []
+    for kind in (PoseTask, AskedPose):
+        model, data = random_robot(seed, joints=6, floating=floating, limited=False)
+        task = kind(model, data, model.site("a_end").id)
+        inverse = solver((model, data), [task])
+        way = []
+        for k, angle in enumerate(np.linspace(0.1, 3.0, 20)):
+            data.qpos[-6:] += 0.1 * np.sin(np.arange(6) + k)
+            inverse.move()
+            inverse.place()
+            here = Rotation.from_matrix(data.site("a_end").xmat.reshape(3, 3))
+            task.rotation = (Rotation.from_rotvec([0.0, angle, 0.0]) * here).as_matrix()
+            inverse.solve(1, 10.0)
+            way.append(data.qpos.copy())
+        ways.append(np.array(way))
+        counts.append((inverse.plain, inverse.careful))
+    assert counts[0] == counts[1]
+    assert floating or counts[0][0] > 0  # that a free base leaves directions open is a matter of care
+    np.testing.assert_allclose(ways[0], ways[1], rtol=1e-9, atol=1e-9)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_it_goes_where_mink_goes(random_robot, seed: int) -> None:  # type: ignore[no-untyped-def]
     mink = pytest.importorskip("mink")
