@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["flags", "is_mask", "new_mask", "new_matrix", "new_vector", "room", "rows", "size", "values"]
+__all__ = ["close", "flags", "is_mask", "new_mask", "new_matrix", "new_vector", "room", "rows", "size", "values"]
 
 
 def values(array):
@@ -64,6 +64,11 @@ def is_mask(array, size):
 def flags(array):
     """The truth values of an array that `is_mask`, in place."""
     return array
+
+
+def close(array):
+    """Close an array to writing."""
+    array.setflags(write=False)
 
 
 def new_mask(size):

@@ -12,9 +12,9 @@ import math
 
 import numpy as np
 
-__all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
+from . import memory
 
-_SHORT = 256  # points of an outline for which there is a view at hand
+__all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
 
 def area_and_centroid(points, starts):
@@ -126,9 +126,7 @@ class EdgeTable:
         self.path = np.empty(len(self.cell), dtype=np.intp)
         self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
         self.leaving = bytearray(len(vertices) // 2)
-        self.room = np.empty((len(self.cell), 2))
-        self.points = self.room
-        self.copies = [self.room[:k].copy for k in range(min(len(self.cell), _SHORT) + 1)]  # the cheapest new arrays
+        self.points = np.empty((len(self.cell), 2))
 
     def __reduce__(self):
         """Rebuild from the arguments, so that a layout crosses to another process."""
@@ -166,7 +164,7 @@ class EdgeTable:
         starts = [0]
         areas = []
         found.points = self._trace(active, starts, areas)
-        found.points.setflags(False)  # by name it takes twice as long
+        memory.close(found.points)
         found.starts = tuple(starts)
         found.ring_areas = tuple(areas)
         found.apart = True
@@ -240,9 +238,11 @@ class EdgeTable:
                     leaving[self.origin[h]] = 0
         if not self.reuse:
             return room[:used]
-        if used <= _SHORT:
-            return self.copies[used]()
-        return self.room[:used].copy()
+        made = memory.new_matrix(used, 2)
+        out = memory.room(made)
+        for i in range(used):
+            out[2 * i], out[2 * i + 1] = points[i, 0], points[i, 1]
+        return made
 
     def _keep(self, path, low, high, points, used, starts, areas):
         """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""

@@ -50,6 +50,10 @@ cdef inline unsigned char* flags(object array) noexcept:
     return <unsigned char*> cnp.PyArray_DATA(<cnp.ndarray> array)
 
 
+cdef inline void close(object array) noexcept:
+    cnp.PyArray_CLEARFLAGS(<cnp.ndarray> array, cnp.NPY_ARRAY_WRITEABLE)
+
+
 cdef inline object new_mask(Py_ssize_t size):
     cdef cnp.npy_intp shape = size
     if PyArray_API == NULL:

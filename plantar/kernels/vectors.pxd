@@ -3,6 +3,9 @@ cimport cython
 
 from . cimport pointers as memory
 
+@cython.locals(size=Py_ssize_t, given=cython.p_double, out=cython.p_double, i=Py_ssize_t)
+cpdef object kept(array)
+
 @cython.locals(out=cython.p_double)
 cpdef object vector2(double x, double y)
 

@@ -10,7 +10,27 @@ from numpy.typing import NDArray
 
 from . import memory
 
-__all__ = ["matrix", "vector", "vector2"]
+__all__ = ["kept", "matrix", "vector", "vector2"]
+
+
+def kept(array):
+    """A copy of a vector that is closed to writing.
+
+    Args:
+        array: Anything.
+
+    Returns:
+        The copy of a contiguous array (n,) of float64; None of anything else.
+    """
+    size = memory.size(array)
+    if size < 0:
+        return None
+    given, made = memory.values(array), memory.new_vector(size)
+    out = memory.room(made)
+    for i in range(size):
+        out[i] = given[i]
+    memory.close(made)
+    return made
 
 
 def vector2(x: float, y: float) -> NDArray[np.float64]:

@@ -67,8 +67,10 @@ class Percept(ShapeMembers, VirtualMembers):
         stuck: ArrayLike | None = None,
         options: PerceptOptions = _USUAL,
     ) -> None:
-        instance(layout, SoleLayout, "layout")
-        instance(reading, Reading, "reading")
+        if type(layout) is not SoleLayout:
+            instance(layout, SoleLayout, "layout")
+        if type(reading) is not Reading:
+            instance(reading, Reading, "reading")
         if reading.force.shape[0] != len(layout.corners):
             raise ReadingError(f"reading has {reading.force.shape[0]} taxels; layout '{layout.name}' has {len(layout)}")
         self.layout = layout

@@ -28,6 +28,17 @@ def test_new_arrays_hold_the_numbers_and_nothing_else(form):
     assert [v[0] for v in many] == list(range(1000))
 
 
+@pytest.mark.parametrize("form", [vectors, python_form("vectors")], ids=["as installed", "interpreted"])
+def test_a_kept_copy_is_nobody_elses_and_closed(form):
+    for given in (np.array(NUMBERS), np.zeros(0), np.arange(102.0)):
+        copy = form.kept(given)
+        assert copy.tobytes() == given.tobytes()
+        assert copy.flags.owndata
+        assert not copy.flags.writeable
+    for other in (np.arange(6.0)[::2], np.arange(3), np.eye(2), [1.0, 2.0], None, np.float64(3.0)):
+        assert form.kept(other) is None
+
+
 @pytest.mark.parametrize(
     "wrong",
     [
