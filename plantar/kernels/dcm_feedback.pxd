@@ -37,8 +37,6 @@ cdef class DcmFeedback:
     cdef bint after
     cdef double integral_x
     cdef double integral_y
-    cdef object region_of
-    cdef const double[:, :] region
 
     @cython.locals(x=double, y=double)
     cpdef object desired(self, vrp, planned, dcm, region)

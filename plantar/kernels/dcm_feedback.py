@@ -92,7 +92,6 @@ class DcmFeedback:
         self.yields = yields
         self.after = after
         self.integral_x = self.integral_y = 0.0
-        self.region_of = None
 
     def desired(self, vrp, planned, dcm, region):
         """Desired ZMP p_d = p_r + (1 + k_xi / w) (xi - xi_r) (T 4.28), with the integral, kept in a region
@@ -151,14 +150,10 @@ class DcmFeedback:
         ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
         x = vrp[0] + self.factor * ex + self.integral_x
         y = vrp[1] + self.factor * ey + self.integral_y
-        # The region stays the same for many ticks: as a buffer it is taken once.
-        if region is not self.region_of:
-            self.region = region
-            self.region_of = region
-        if self.region.shape[0] == 0:
+        if not len(region):
             return x, y
         # No foot can press beside its contact: what is wanted there is cut to what the ground can give.
-        px, py = convex.nearest(self.region, x, y)
+        px, py = convex.nearest(region, x, y)
         # The integral stands still while the region holds the desired ZMP back.
         if integrates and self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:
             self.integral_x = self._integrated(self.integral_x, ex)
