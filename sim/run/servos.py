@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -46,7 +44,6 @@ class LegServos:
         plant: In what the true drives differ from what these servos are taken to be; None for nothing.
 
     Attributes:
-        drive: Writes the set-points of one physics step, and lets them move on.
         out_of_reach_since: Time in s at which something was first asked for that the legs do not reach; None if never.
     """
 
@@ -68,8 +65,6 @@ class LegServos:
             *(legs.joints, legs.torques),
         )
         self._drives = None if plant is None else TrueDrives(plant, world.stiffness, world.damping)
-        # At each physics step: the kernel's own method, where nothing stands between it and the servos.
-        self.drive: Callable[[], None] = self._setpoints.drive if plant is None else self._drive_truly
         self._velocity = np.asarray(self._setpoints.velocity)  # views of what the kernel writes
         self._reference = np.asarray(self._setpoints.reference)
         self.out_of_reach_since: float | None = None
@@ -112,9 +107,13 @@ class LegServos:
             setpoints.offset(command.joint_offsets)
         return self._reference.copy()
 
-    def _drive_truly(self) -> None:
-        self._write()
-        self._setpoints.advance()
+    def drive(self) -> None:
+        """Write the set-points of one physics step."""
+        if self._drives is None:
+            self._setpoints.drive()
+        else:
+            self._write()
+            self._setpoints.advance()
 
     def _write(self) -> None:
         """Hand the set-points to the servos, as far as these get them."""
