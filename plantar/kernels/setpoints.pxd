@@ -29,11 +29,8 @@ cdef class Setpoints:
     )
     cpdef void go_to(self) noexcept
 
-    @cython.locals(i=Py_ssize_t, torque=double, lead=double)
-    cpdef void load(self, const double[:] friction=*) noexcept
-
-    @cython.locals(i=Py_ssize_t, angles=cython.p_double)
-    cpdef void offset(self, offsets) except *
+    @cython.locals(i=Py_ssize_t, torque=double, lead=double, angles=cython.p_double)
+    cpdef void load(self, const double[:] friction=*, offsets=*) except *
 
     @cython.locals(i=Py_ssize_t)
     cpdef void write(self) noexcept

@@ -81,11 +81,12 @@ class Setpoints:
             self.reference[i] = goal
             self.rate[i] = self.velocity[i] * self.step
 
-    def load(self, friction=None):
+    def load(self, friction=None, offsets=None):
         """Set what the servos are told for the reference: they follow it without lag, and hold a load without error.
 
         Args:
             friction: Torques (k,) in N m that the joints take besides; None for none.
+            offsets: Angles (k,) in rad that are added to the set-points, a contiguous array of float64; None for none.
         """
         for i in range(self.servos.shape[0]):
             torque = self.torques[i]
@@ -93,16 +94,10 @@ class Setpoints:
                 torque += friction[i]
             lead = self.damping[i] * self.velocity[i] + torque
             self.setpoint[i] = self.reference[i] + lead / self.stiffness[i]
-
-    def offset(self, offsets):
-        """Add to the set-points.
-
-        Args:
-            offsets: Angles (k,) in rad; a contiguous array of float64.
-        """
-        angles = memory.values(offsets)
-        for i in range(self.servos.shape[0]):
-            self.setpoint[i] = self.setpoint[i] + angles[i]
+        if offsets is not None:
+            angles = memory.values(offsets)
+            for i in range(self.servos.shape[0]):
+                self.setpoint[i] = self.setpoint[i] + angles[i]
 
     def write(self):
         """Hand the set-points to the simulator."""

@@ -102,9 +102,8 @@ class LegServos:
         setpoints = self._setpoints
         setpoints.go_to()
         # Turns with the velocity gradually: at rest, where its sign is noise, a jump would make the joint chatter.
-        setpoints.load(self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None)
-        if command.joint_offsets is not None:
-            setpoints.offset(command.joint_offsets)
+        friction = self._friction * np.tanh(self._velocity / self._slow) if self._rubs else None
+        setpoints.load(friction, command.joint_offsets)
         return self._reference.copy()
 
     def drive(self) -> None:
