@@ -31,4 +31,9 @@ def white_noise(rng: np.random.Generator, mean: float, std: float | NDArray[np.f
         >>> all(bool((next(samples) == rng.normal(0.0, 2.0, 3)).all()) for _ in range(200))
         True
     """
-    return NoiseRows(lambda: rng.normal(mean, std, (_TOGETHER, count)))
+
+    def drawn() -> NDArray[np.float64]:
+        # `rng.normal` takes three times as long where numbers have standard deviations of their own.
+        return np.asarray(mean + std * rng.standard_normal((_TOGETHER, count)))
+
+    return NoiseRows(drawn)
