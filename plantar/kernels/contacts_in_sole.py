@@ -12,19 +12,29 @@ _dot = np.dot
 class ContactsInSole:
     """Turns a foot's contacts into the frame of its sole, again and again in the same arrays.
 
-    Args:
-        origin: The sole's origin (3,) in the world in m, where the simulator writes it.
-        rotation: Rotation (3, 3) from the sole to the world, likewise.
-
     Attributes:
         vectors: Position in m, force in N and torque in N m of each contact in turn (3 room, 3), of those turned last.
+        pressed: How often there were contacts to turn.
+        in_air: How often there were none.
     """
 
-    def __init__(self, origin, rotation):
-        self.origin = origin
-        self.rotation = rotation
+    def __init__(self):
+        self.origin = np.zeros(3)
+        self.rotation = np.eye(3)
+        self.pressed = 0
+        self.in_air = 0
         self.room = 0
         self._make_room(8)
+
+    def look_from(self, origin, rotation):
+        """Say where the sole is; at first it is where the world is.
+
+        Args:
+            origin: The sole's origin (3,) in the world in m, where the simulator writes it.
+            rotation: Rotation (3, 3) from the sole to the world, likewise.
+        """
+        self.origin = origin
+        self.rotation = rotation
 
     def _make_room(self, room):
         """Room for so many contacts; those that are there are forgotten."""
@@ -42,12 +52,16 @@ class ContactsInSole:
             contacts: The foot's `FootContacts`.
         """
         count = contacts.size
+        if count == 0:
+            self.in_air += 1
+            return
+        self.pressed += 1
         if count > self.room:
             self._make_room(2 * count)
         contacts.from_origin(self.origin, self.shifted)
         if count == 1:  # BLAS adds up in another order for a single contact than for several
             for shifted, turned in self.rows:
                 _dot(shifted, self.rotation, turned)
-        elif count > 1:
+        else:
             shifted, turned = self.heads[count]
             _dot(shifted, self.rotation, turned)

@@ -55,8 +55,6 @@ class SoleSkin:
 
     Attributes:
         springs: What contacts press on where each cell is a spring of its own that carries all; else None.
-        pressed: How often forces were spread over its taxels.
-        in_air: How often there was nothing to spread.
     """
 
     def __init__(
@@ -88,11 +86,20 @@ class SoleSkin:
             self.springs = self.pressure.springs
         self._reach = reach
         self._data: Any = None  # in which contacts are seen from the sole
-        self._in_sole = ContactsInSole(np.zeros(3), np.eye(3))
-        self.pressed = self.in_air = 0
+        self._in_sole = ContactsInSole()
 
     def __len__(self) -> int:
         return len(self.layout)
+
+    @property
+    def pressed(self) -> int:
+        """How often forces were spread over its taxels."""
+        return int(self._in_sole.pressed)
+
+    @property
+    def in_air(self) -> int:
+        """How often there was nothing to spread."""
+        return int(self._in_sole.in_air)
 
     def contacts(self, data: Any) -> ContactSet:
         """The sole's contacts with the world, see `foot_contacts`."""
@@ -108,17 +115,19 @@ class SoleSkin:
         Returns:
             Forces (n,) in N, none negative; zeros for a sole in the air.
         """
-        contacts = self._counted(data, contacts)
+        if data is not self._data:
+            self._look_in(data)
+        if contacts is None:
+            contacts = self.contacts(data).gathered()
         if self.springs is not None:
             self.springs.stand(contacts, self._in_sole, self._reach)
             return np.array(self.springs.forces)
         out = np.zeros(len(self.layout))
-        if contacts.size:
-            self._in_sole.turn(contacts)
-            for fz, tx, ty, patch in contacts.pair_loads(self._in_sole.vectors, self._reach):
-                if fz > 0.0:
-                    part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
-                    out += part if self._rim is None else part * self._rim.share(patch)
+        self._in_sole.turn(contacts)
+        for fz, tx, ty, patch in contacts.pair_loads(self._in_sole.vectors, self._reach):
+            if fz > 0.0:
+                part = self.pressure.spread(patch, fz, (-ty / fz, tx / fz))
+                out += part if self._rim is None else part * self._rim.share(patch)
         return out
 
     def sampled(self, data: Any, contacts: FootContacts | None, sample: TaxelSample) -> NDArray[np.float64]:
@@ -132,23 +141,17 @@ class SoleSkin:
         Returns:
             Readings (n,) in N.
         """
-        contacts = self._counted(data, contacts)
+        if data is not self._data:
+            self._look_in(data)
+        if contacts is None:
+            contacts = self.contacts(data).gathered()
         read: NDArray[np.float64] = sample.of_contacts(self.springs, contacts, self._in_sole, self._reach)
         return read
 
-    def _counted(self, data: Any, contacts: FootContacts | None) -> FootContacts:
-        """The sole's contacts, which are counted, and are seen from where it is in the data."""
-        if data is not self._data:
-            self._data = data
-            rotation = data.site_xmat[self.site_id].reshape(3, 3)
-            self._in_sole = ContactsInSole(data.site_xpos[self.site_id], rotation)
-        if contacts is None:
-            contacts = foot_contacts(self.model, data, self.geom_ids).gathered()
-        if contacts.size:
-            self.pressed += 1
-        else:
-            self.in_air += 1
-        return contacts
+    def _look_in(self, data: Any) -> None:
+        """See contacts from where the sole is in the data."""
+        self._data = data
+        self._in_sole.look_from(data.site_xpos[self.site_id], data.site_xmat[self.site_id].reshape(3, 3))
 
 
 @dataclass(frozen=True)
@@ -257,20 +260,24 @@ class SkinSensor:
             # Count on from now: steps longer than the period skip samples, they do not pile up.
             self._taken = int((now - self._start) / self.period + 1e-6) + 1
             distance = None if self.proximity is None else self.proximity.read(data, near, everything)
-            force = self._forces(data, contacts)
-            if self._errors is not None:
-                self._errors.silence(now, force, distance)
+            if self._direct:
+                force = self.skin.sampled(data, contacts, self._sample)
+            else:
+                force = self._told(now, data, contacts, distance)
             self._queue.append(Reading.taken_over(now, force, distance))
         return self._queue[0]
 
-    def _forces(self, data: Any, contacts: FootContacts | None) -> NDArray[np.float64]:
-        """Force (n,) on each taxel in N as it is sampled."""
-        if self._direct:
-            return self.skin.sampled(data, contacts, self._sample)
+    def _told(
+        self, now: float, data: Any, contacts: FootContacts | None, distance: NDArray[np.float64] | None
+    ) -> NDArray[np.float64]:
+        """Force (n,) on each taxel in N as it is sampled with the taxels' errors; what they silence of the distances
+        becomes NaN, too."""
         force = self.skin.taxel_forces(data, contacts)
         if self._errors is not None:
-            force = self._errors.felt(force, float(data.time))
+            force = self._errors.felt(force, now)
         sample: NDArray[np.float64] = self._sample.of(force)
+        if self._errors is not None:
+            self._errors.silence(now, sample, distance)
         return sample
 
 

@@ -17,7 +17,9 @@ FORMS = (
 def test_contacts_are_seen_from_the_sole_wherever_it_is(seed):
     rng = np.random.default_rng(seed)
     origin, rotation = np.zeros(3), np.eye(3)
-    seen = [forms[0].ContactsInSole(origin, rotation) for forms in FORMS]
+    seen = [forms[0].ContactsInSole() for forms in FORMS]
+    for one in seen:
+        one.look_from(origin, rotation)
     for k in (4, 1, 0, 3, 30, 2, 1):
         origin[:], rotation[:] = rng.normal(size=3), np.linalg.qr(rng.normal(size=(3, 3)))[0]
         vectors = rng.normal(size=(3 * k, 3))
@@ -33,3 +35,4 @@ def test_contacts_are_seen_from_the_sole_wherever_it_is(seed):
         assert found[0] == pytest.approx(shifted @ rotation, abs=1e-14)
         if k == 1:
             assert np.array_equal(found[0], np.vstack([row[None] @ rotation for row in shifted]))
+    assert [(one.pressed, one.in_air) for one in seen] == [(6, 1)] * 2

@@ -75,7 +75,8 @@ def test_the_two_forms_agree_to_the_last_bit(seed):
 def test_contacts_in_the_world_press_where_the_sole_sees_them(seed):
     rng = np.random.default_rng(seed)
     pressure, rotation = SolePressure(LAYOUT), np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    seen = ContactsInSole(rng.normal(size=3), rotation)
+    seen = ContactsInSole()
+    seen.look_from(rng.normal(size=3), rotation)
     for ids, vectors, gaps, carries in contacts(seed):
         foot = foot_of(ids, vectors @ rotation.T, gaps, carries)
         pressure.springs.stand(foot, seen, REACH)

@@ -40,7 +40,7 @@ def test_contacts_are_sampled_as_the_forces_that_they_press_with(seed):
     vectors = np.zeros((12, 3))
     vectors[::3], vectors[1::3, 2] = positions, rng.uniform(10.0, 90.0, 4)
     ids, gaps, carries = np.zeros((4, 2), dtype=np.int32), np.zeros(4), np.ones(4, dtype=np.uint8)
-    foot, seen = FootContacts(np.zeros(1, dtype=np.uint8)), ContactsInSole(np.zeros(3), np.eye(3))
+    foot, seen = FootContacts(np.zeros(1, dtype=np.uint8)), ContactsInSole()
     springs = SolePressure(LAYOUT).springs
     rows = rng.normal(size=(2, len(LAYOUT)))
     one, other = (
