@@ -55,6 +55,6 @@ cdef class WrenchProgram:
 
     @cython.locals(
         jacobian="double[:, ::1]", wanted="double[::1]", unit="const double[::1]", solution=cython.p_double,
-        out=cython.p_double, wrenches=list, i=Py_ssize_t, j=Py_ssize_t, off=double, largest=double
+        out=cython.p_double, wrenches=dict, i=Py_ssize_t, j=Py_ssize_t, off=double, largest=double
     )
-    cpdef tuple finish(self, unknowns)
+    cpdef tuple finish(self, unknowns, names)

@@ -160,18 +160,19 @@ class WrenchProgram:
         for i in range(self.gradient.shape[0]):
             self.gradient[i] *= -self.net
 
-    def finish(self, unknowns):
+    def finish(self, unknowns, names):
         """What a solution means.
 
         Args:
             unknowns: The solution (6 n,).
+            names: Name of each contact.
 
         Returns:
             The largest error in the program's units, NaN if some error is none; the net wrench (6,) less the wanted one
-            in N and N m; and the wrench (6,) of each contact. All are new arrays.
+            in N and N m; and the wrench (6,) of each contact by its name. All are new arrays.
         """
         jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
-        solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), []
+        solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), {}
         out = memory.room(error)
         for j in range(6):
             off = 0.0
@@ -181,10 +182,9 @@ class WrenchProgram:
             out[j] = off * unit[j]
             if not abs(off) <= largest and largest == largest:
                 largest = abs(off)
-        for i in range(self.wished.shape[0]):
-            wrench = memory.new_vector(6)
-            out = memory.room(wrench)
+        for i, name in enumerate(names):
+            wrenches[name] = memory.new_vector(6)
+            out = memory.room(wrenches[name])
             for j in range(6):
                 out[j] = solution[6 * i + j] * unit[6 * i + j]
-            wrenches.append(wrench)
         return largest, error, wrenches

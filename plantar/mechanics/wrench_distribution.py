@@ -220,13 +220,13 @@ class WrenchDistribution:
             scaled = self._least_violating(work)
             state = DistributionState.INFEASIBLE
             violation = self.weight * float((work.constraints @ scaled - work.upper).max())
-        largest, error, parts = work.program.finish(scaled)
+        largest, error, wrenches = work.program.finish(scaled, contacts)
         if not math.isfinite(largest):
             work.forget()
             return self._rest(contacts, wished)
         if largest > _TRACKED and flag >= 1:
             state = DistributionState.SATURATED
-        return WrenchShare(state, dict(zip(contacts, parts, strict=True)), error, violation)
+        return WrenchShare(state, wrenches, error, violation)
 
     def _workspace(self, count: int) -> _Workspace:
         """The workspace for a number of contacts, made at its first use."""

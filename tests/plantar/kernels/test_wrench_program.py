@@ -56,8 +56,9 @@ def test_it_fills_the_program_that_numpy_would(seed, count):
         assert not form.kernel.weigh(False)
         form.kernel.aim()
         form.kernel.finish_gradient()
-        largest, error, wrenches = form.kernel.finish(unknowns)
-        solved.append((largest, np.array(wrenches), error))
+        largest, error, wrenches = form.kernel.finish(unknowns, "abcd"[:count])
+        assert list(wrenches) == list("abcd"[:count])
+        solved.append((largest, np.array(list(wrenches.values())), error))
     form, (largest, wrenches, error) = forms[0], solved[0]
     middle = np.mean([position for position, _ in contacts], axis=0)
     wanted = np.concatenate([wrench[:3], wrench[3:] + np.cross(point - middle, wrench[:3])])
@@ -99,4 +100,4 @@ def test_numbers_that_are_not_finite_are_told(module):
     for place in range(6):
         unknowns = rng.normal(size=12)
         unknowns[place] = np.nan
-        assert np.isnan(form.kernel.finish(unknowns)[0])
+        assert np.isnan(form.kernel.finish(unknowns, "ab")[0])
