@@ -11,6 +11,8 @@ cdef class StepWatch:
     cdef const double[::1] per_speed
     cdef double least
     cdef Py_ssize_t airborne
+    cdef const int[:] warnings
+    cdef const Py_ssize_t[::1] divergence
     cdef readonly Py_ssize_t now
     cdef public bint awake
     cdef Py_ssize_t left

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["AWAKE", "FAST", "LEGS", "StepWatch"]
+__all__ = ["AWAKE", "DIVERGED", "FAST", "LEGS", "StepWatch"]
 
 LEGS = 4
 """What `StepWatch.step` adds where the legs touch each other; 1 and 2 stand for a left and a right foot that lands."""
@@ -12,6 +12,9 @@ FAST = 8
 
 AWAKE = 16
 """What it adds while it is told to stay awake."""
+
+DIVERGED = 32
+"""What it adds where the simulator warned that its state diverged."""
 
 
 class StepWatch:
@@ -25,13 +28,15 @@ class StepWatch:
         per_speed: One over each limit (k,) in s/rad.
         least: Force in N from which on a foot touches the ground.
         airborne: Steps without the ground after which a touch is a landing.
+        warnings: How often the simulator warned of what, where it counts.
+        divergence: Which of these warnings say that its state diverged.
 
     Attributes:
         now: Number of steps so far.
         awake: Whether the next steps are to be looked at in any case.
     """
 
-    def __init__(self, ground, legs, speeds, places, per_speed, least, airborne):
+    def __init__(self, ground, legs, speeds, places, per_speed, least, airborne, warnings, divergence):
         self.ground = ground
         self.legs = legs
         self.speeds = speeds
@@ -39,6 +44,8 @@ class StepWatch:
         self.per_speed = per_speed
         self.least = least
         self.airborne = airborne
+        self.warnings = warnings
+        self.divergence = divergence
         self.now = 0
         self.awake = False
         self.left = 0
@@ -48,7 +55,8 @@ class StepWatch:
         """After each physics step.
 
         Returns:
-            What is to be looked at, 0 for nothing: 1 a left foot that lands, 2 a right one, `LEGS`, `FAST`, `AWAKE`.
+            What is to be looked at, 0 for nothing: 1 a left foot that lands, 2 a right one, `LEGS`, `FAST`, `AWAKE`,
+            `DIVERGED`.
         """
         self.now += 1
         seen = 16 if self.awake else 0
@@ -65,5 +73,9 @@ class StepWatch:
         for i in range(self.places.shape[0]):
             if not -1.0 <= self.speeds[self.places[i]] * self.per_speed[i] <= 1.0:
                 seen += 8
+                break
+        for i in range(self.divergence.shape[0]):
+            if self.warnings[self.divergence[i]] > 0:
+                seen += 32
                 break
         return seen

@@ -26,7 +26,7 @@ from sim.model.contact_truth import (
     GroundTruth,
     foot_contacts,
 )
-from sim.model.world import World
+from sim.model.world import DIVERGED, World
 
 __all__ = ["Judge", "Landing"]
 
@@ -69,6 +69,7 @@ class Judge:
         world: The world.
         standing_height: CoM height above the ground at the start in m.
         goal: Where the feet have to be put down.
+        watch: Looks after each physics step whether there is something for `look`.
     """
 
     world: World
@@ -93,7 +94,7 @@ class Judge:
         self.legs = LegContact(self.world)
         self.joints = JointLimits(self.world)
         leg = self.world.leg_contact
-        self._step_watch = StepWatch(
+        self.watch = StepWatch(
             self._touched,
             data.sensordata[leg : leg + 1],
             self.joints.speeds,
@@ -101,6 +102,8 @@ class Judge:
             self.joints.per_speed,
             self._touch,
             round(_AIRBORNE * body.beat / self.world.period),
+            data.warning.number,
+            np.array(DIVERGED, dtype=np.intp),
         )
         self._reaction = GroundReaction(math.nan, _LEAST * body.weight, self.world.reach)
         self._tick_watch = TickWatch(
@@ -147,14 +150,13 @@ class Judge:
         """Whether the robot fell."""
         return self.fall is not None
 
-    def update_physics(self) -> None:
-        """After each physics step: landings and their impacts, legs that touch, joints that are too fast."""
-        seen = self._step_watch.step()
-        if seen:
-            self._look(seen)
+    def look(self, seen: int) -> None:
+        """After a physics step in which something happened, or lately did: landings and their impacts, legs that touch,
+        joints that are too fast.
 
-    def _look(self, seen: int) -> None:
-        """After a physics step in which something happened, or lately did."""
+        Args:
+            seen: What `watch.step`, which is called after each physics step, gave: above 0.
+        """
         if seen & LEGS:
             self.legs.step()
         if seen & FAST or self.joints.was_fast:
@@ -164,7 +166,7 @@ class Judge:
                 self._land(side)
         if self._fresh:
             self._follow_impacts(dict(zip(SIDES, self._touched.tolist(), strict=True)))
-        self._step_watch.awake = bool(self._fresh) or self.joints.was_fast
+        self.watch.awake = bool(self._fresh) or self.joints.was_fast
 
     def _land(self, side: Side) -> None:
         """A foot touches the ground after it was in the air."""

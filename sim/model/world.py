@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from operator import itemgetter
 from typing import Any, Protocol
 
 import mujoco
@@ -27,7 +26,16 @@ from sim.robots.model_file import spec_from_file
 from sim.robots.robot import Robot
 from sim.terrain import GROUND_GROUP, Ground, Solid
 
-__all__ = ["PHYSICS_PERIOD", "Visitor", "World", "build_leg_model", "build_world", "check_stable", "robot_spec"]
+__all__ = [
+    "DIVERGED",
+    "PHYSICS_PERIOD",
+    "Visitor",
+    "World",
+    "build_leg_model",
+    "build_world",
+    "check_stable",
+    "robot_spec",
+]
 
 PHYSICS_PERIOD = 0.001
 """Time step of the physics in s, where a scene does not say."""
@@ -37,12 +45,13 @@ _SOFT = 1 / 600  # leg: penetration over which a contact becomes as stiff as it 
 
 _LEG_CONTACT = "truth_leg_contact"
 _LEGS = tuple(contype for contype, _ in COLLIDES.values())
-_of_divergence = itemgetter(
+DIVERGED = (
     int(mujoco.mjtWarning.mjWARN_BADQPOS),
     int(mujoco.mjtWarning.mjWARN_BADQVEL),
     int(mujoco.mjtWarning.mjWARN_BADQACC),
     int(mujoco.mjtWarning.mjWARN_BADCTRL),
 )
+"""MuJoCo's warnings that its state diverged."""
 
 
 def robot_spec(robot: Robot) -> Any:
@@ -83,7 +92,7 @@ def check_stable(warnings: NDArray[np.int32]) -> None:
     Raises:
         SceneError: If positions, velocities, accelerations or controls were not finite or too large.
     """
-    if any(_of_divergence(warnings.tolist())):
+    if warnings[list(DIVERGED)].any():
         raise SceneError(
             "the simulated physics became unstable: forces too large for its time step (control.physics_period); "
             "lower that, the robot's [servo] stiffness and damping, or what pushes it"

@@ -277,7 +277,8 @@ class Simulation:
         longest = _LONGEST * last
         tick_every = round(self.settings.period / world.period)
         frame_every = max(1, round(1.0 / (FRAME_RATE * world.period)))
-        skin_every, step_physics, update_physics = sensors.skin_every, self.step_physics, judge.update_physics
+        skin_every, step_physics = sensors.skin_every, self.step_physics
+        watch_step: Callable[[], int] = judge.watch.step
         drive, moving_ground = servos.drive, bool(world.moving_ground)
         while k < last and k < longest:
             feet = None
@@ -286,7 +287,6 @@ class Simulation:
                 if log is not None:
                     log.skin(sensors.readings)
             if k % tick_every == 0:
-                check_stable(warnings)
                 reading = sensors.read_body()
                 if self.arm is not None:
                     self.arm.step(reading.skin)
@@ -335,7 +335,10 @@ class Simulation:
             if moving_ground:
                 world.move_ground()
             step_physics()
-            update_physics()
+            seen = watch_step()
+            if seen:
+                check_stable(warnings)
+                judge.look(seen)
             k += 1
         if sensors.proximity:
             skipped["proximity_rays"] = sum(s.skipped for s in sensors.proximity.values())

@@ -14,7 +14,8 @@ def test_each_step_says_who_lands_who_touches_and_who_is_fast(module, seed):
     rng = np.random.default_rng(seed)
     ground, legs, speeds = np.zeros(2), np.zeros(1), np.zeros(5)
     places, limits = np.array([4, 0, 2]), np.array([3.0, 2.0, np.inf])
-    watch = module.StepWatch(ground, legs, speeds, places, 1.0 / limits, 20.0, 30)
+    warnings = np.zeros((8, 2), dtype=np.int32)[:, 1]
+    watch = module.StepWatch(ground, legs, speeds, places, 1.0 / limits, 20.0, 30, warnings, np.array([5, 6]))
     last, landings = [0, 0], 0
     for now in range(1, 2000):
         if rng.random() < 0.03:
@@ -33,7 +34,11 @@ def test_each_step_says_who_lands_who_touches_and_who_is_fast(module, seed):
     legs[:], speeds[:], watch.awake = 0.0, 0.0, True
     assert watch.step() == module.AWAKE
     watch.awake = False
+    warnings[4] = 3  # of something else
     assert watch.step() == 0
+    warnings[6] = 1
+    assert watch.step() == module.DIVERGED
+    warnings[6] = 0
     speeds[:] = 1.0, np.nan, 100.0, np.nan, 2.0
     assert not watch.step() & module.FAST  # joints without a limit, or that are not asked for
     speeds[2] = np.nan
