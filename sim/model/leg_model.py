@@ -190,7 +190,20 @@ class LegModel:
         yielding: Collection[Side] = (),
         largest_step: float = 0.5,
     ) -> float:
-        """What `solve` does, for a caller who reads `joints` at once; returns the largest task error."""
+        """What `solve` does, for a caller who reads `joints` at once.
+
+        Args:
+            com: As of `solve`; likewise all others.
+            rotation_torso: Likewise.
+            positions: Likewise.
+            rotations: Likewise.
+            iterations: Likewise.
+            yielding: Likewise.
+            largest_step: Likewise.
+
+        Returns:
+            The largest task error before the last step, as of `solve`.
+        """
         targets = com, rotation_torso, positions["left"], rotations["left"], positions["right"], rotations["right"]
         try:
             self._targets.take(*targets)
@@ -220,7 +233,12 @@ class LegModel:
         return self.torques.copy()
 
     def carry(self, forces: Mapping[Side, NDArray[np.float64]], points: Mapping[Side, Iterable[float]]) -> None:
-        """What `static_torques` does, for a caller who reads `torques` at once."""
+        """What `static_torques` does, for a caller who reads `torques` at once.
+
+        Args:
+            forces: As of `static_torques`.
+            points: Likewise.
+        """
         self.inverse.place()
         load = self._load
         load.weigh()

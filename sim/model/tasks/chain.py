@@ -10,7 +10,15 @@ __all__ = ["chain"]
 
 
 def chain(model: mujoco.MjModel, body: int) -> NDArray[np.intp]:
-    """Velocities (c,) of a model that move a body, from the body to the root; none for one that stands still."""
+    """Velocities of a model that move a body.
+
+    Args:
+        model: The model.
+        body: Number of the body.
+
+    Returns:
+        Their numbers (c,), from the body to the root; none for one that stands still.
+    """
     while body and not model.body_dofnum[body]:  # fixed to its parent
         body = int(model.body_parentid[body])
     moving: list[int] = []

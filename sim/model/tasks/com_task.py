@@ -43,7 +43,15 @@ class ComTask(Task):
         mujoco.mj_jacSubtreeCom(self._model, self._data, out, self._body)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """See `Task.rows_for`."""
+        """A kernel that writes both at once (see `Task.rows_for`).
+
+        Args:
+            error: Receives the error (rows,).
+            jacobian: Receives the Jacobian (rows, nv).
+
+        Returns:
+            The kernel.
+        """
         model, data, first = self._model, self._data, self._body
         last = first + 1  # the bodies of a tree follow each other
         while last < model.nbody and model.body_parentid[last] >= first:

@@ -45,7 +45,15 @@ class OrientationTask(Task):
         mujoco.mj_jacBody(self._model, self._data, None, out, self._body)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """See `Task.rows_for`."""
+        """A kernel that writes both at once (see `Task.rows_for`).
+
+        Args:
+            error: Receives the error (rows,).
+            jacobian: Receives the Jacobian (rows, nv).
+
+        Returns:
+            The kernel.
+        """
         return TurnRows(
             *(chain(self._model, self._body), self._data.cdof, self.target, self._rotation, error, jacobian)
         )

@@ -48,7 +48,15 @@ class PoseTask(Task):
         mujoco.mj_jacSite(self._model, self._data, out[:3], out[3:], self._site)
 
     def rows_for(self, error: NDArray[np.float64], jacobian: NDArray[np.float64]) -> Rows | None:
-        """See `Task.rows_for`."""
+        """A kernel that writes both at once (see `Task.rows_for`).
+
+        Args:
+            error: Receives the error (rows,).
+            jacobian: Receives the Jacobian (rows, nv).
+
+        Returns:
+            The kernel.
+        """
         model, data = self._model, self._data
         body = int(model.site_bodyid[self._site])
         return PoseRows(

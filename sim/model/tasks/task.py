@@ -62,5 +62,8 @@ class Task(ABC):
         Args:
             error: Receives the error (rows,), but for a turn of more than a quarter: then `error` is asked as well.
             jacobian: Receives the Jacobian (rows, nv); an array of zeros that nobody else writes to.
+
+        Returns:
+            The kernel, or None.
         """
         return None
