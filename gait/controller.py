@@ -59,6 +59,7 @@ from gait.propose.step_adjustment import StepAdjustment
 from gait.propose.step_timing import StepTiming
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
+from plantar.kernels import lean_correction
 from plantar.kernels.sole_targets import risen, turned
 from plantar.kernels.vectors import matrix, vector, vector2
 from plantar.layouts.layout import SoleLayout
@@ -66,7 +67,7 @@ from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.external_wrench import external_acceleration
 from plantar.mechanics.lip import GRAVITY, pendulum_frequency
-from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector
+from plantar.mechanics.rotation import heading, level_rotation
 from plantar.mechanics.wrench_cone import Rectangle
 from plantar.percepts.percept import Percept
 from plantar.record import Record
@@ -161,6 +162,8 @@ class WalkingController:
         self._hearing = BodySensors(period, _BRIDGED * settings.body.beat)
         self._last: Command | None = None
         self._lost = False
+        adjustment = settings.step_adjustment
+        self._least_lean = max(settings.trunk_lean, 0.0 if adjustment is None else adjustment.lean)
         self._push = WrenchFilter(settings.push_expected, self.omega, period)
         gains, loads = settings.compliance, settings.touchdown
         compliance = None
@@ -307,8 +310,9 @@ class WalkingController:
 
     def _is_lost(self, command: Command) -> bool:
         """Whether the CoM is to be farther beside the feet than it is high: no leg holds that."""
-        (x, y, _), feet = command.com.tolist(), [foot.position.tolist() for foot in command.feet.values()]
-        away = math.hypot(x - 0.5 * (feet[0][0] + feet[1][0]), y - 0.5 * (feet[0][1] + feet[1][1]))
+        left, right = command.feet["left"].position, command.feet["right"].position
+        (x, y, _), (lx, ly, _), (rx, ry, _) = command.com.tolist(), left.tolist(), right.tolist()
+        away = math.hypot(x - 0.5 * (lx + rx), y - 0.5 * (ly + ry))
         return away > self.settings.com_height
 
     def _stepped(self, sensors: Sensors) -> Command:
@@ -326,10 +330,7 @@ class WalkingController:
         feet, inward = self._swing(sensed, state)
         (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
         xi = vector2(x + vx / self.omega, y + vy / self.omega)  # T 4.27, of an omega that is known to be sound
-        tick = self._perceive(sensed, state, feet, inward, feedback)
-        region = self._zmp_region(tick.phase, feet)
-        if feedback and (self.settings.step_timing is not None or self.settings.step_adjustment is not None):
-            tick = tick.changed(pendulum=self._pendulum(tick.phase, time, xi, region))
+        tick, region = self._perceive(sensed, state, feet, inward, xi if feedback else None)
         change = decide(self._proposers, tick)
         applied = None
         if change is not None:
@@ -433,8 +434,10 @@ class WalkingController:
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
         heights = {s: state.positions_sole[s].item(2) for s in SIDES}
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press(), heights)
-        self._stand_beside(state)
         feet, slope = self.motion.view, self.settings.slope
+        if feet.touchdown and self.settings.step_adjustment is not None:
+            self._stand_beside(feet, state)
+            feet = self.motion.view
         if feet.lift_off and feet.side is not None:
             self._compensation.start()
             self.contacts.lift_off(feet.side, phase.step)
@@ -447,13 +450,10 @@ class WalkingController:
                 self.contacts.bear_inside(feet.side, inward)
         return feet, inward
 
-    def _stand_beside(self, state: BaseState) -> None:
+    def _stand_beside(self, feet: FeetView, state: BaseState) -> None:
         """Command a foot that has landed beside its place to where it stands, where steps move for balance."""
         rules = self.settings.step_adjustment
-        if rules is None:
-            return
-        feet = self.motion.view
-        if not feet.touchdown or feet.side is None:
+        if rules is None or feet.side is None:
             return
         if state.loads[feet.side] <= self.settings.landing.contact_force:  # only the plan has it down
             return
@@ -476,12 +476,20 @@ class WalkingController:
             return self.guard.press
         return None if self.conformity is None or not self.settings.feedback else self.conformity.gains.press
 
-    def _perceive(self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, feedback: bool) -> Tick:
-        """What the feet stand on, and all else that who proposes gets to know."""
-        time, phase, percepts = sensed.time, sensed.phase, sensed.percepts
-        looks = feedback and self.settings.footholds != "off"
+    def _perceive(
+        self, sensed: _Sensed, state: BaseState, feet: FeetView, inward: float, dcm: NDArray[np.float64] | None
+    ) -> tuple[Tick, NDArray[np.float64]]:
+        """What the feet stand on, and all else that who proposes gets to know, by the DCM (2,) where balance is fed
+        back; and where the desired ZMP may lie."""
+        time, phase, percepts, settings = sensed.time, sensed.phase, sensed.percepts, self.settings
+        looks = dcm is not None and settings.footholds != "off"
         self._damp(phase, sensed, state, feet, looks)
-        return Tick(
+        found = self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else ()
+        seen = self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None
+        region, pendulum = self._zmp_region(phase, feet), None
+        if dcm is not None and (settings.step_timing is not None or settings.step_adjustment is not None):
+            pendulum = self._pendulum(phase, time, dcm, region)
+        tick = Tick(
             time=time,
             phase=phase,
             plan=self.plan.view,
@@ -490,10 +498,12 @@ class WalkingController:
             readings={side: percept.reading for side, percept in percepts.items()},
             loads=state.loads,
             moments={side: ankle.wrench_in_sole[3:5] for side, ankle in sensed.ankles.items()},
-            found=self.contacts.find(phase, time, feet, state, percepts, self._slope) if looks else (),
-            seen=self.contacts.find_ahead(phase, time, feet, state, percepts) if looks else None,
+            found=found,
+            seen=seen,
             inward=inward,
+            pendulum=pendulum,
         )
+        return tick, region
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         """The pendulum now, with what a push is expected to do until the phase ends."""
@@ -615,7 +625,6 @@ class WalkingController:
             return
         foot = feet[side]
         (x, y, z), (cx, cy, _) = self._frame.to_world(foot.position).tolist(), state.com.tolist()
-        back = level_rotation(torso - heading(state.rotation_base_to_world))
         # The world's heading differs from the command frame's by the alignment; only the lean is corrected here.
         c, s = math.cos(self._frame.turn), math.sin(self._frame.turn)
         aligned = vector(cx + c * (x - cx) + s * (y - cy), cy - s * (x - cx) + c * (y - cy), z)
@@ -626,9 +635,9 @@ class WalkingController:
             com,
             state.com,
             posture,
-            back.dot(state.rotation_base_to_world),
+            lean_correction.headed(state.rotation_base_to_world, torso),
         )
-        rotation = rotation_from_vector(turn).dot(foot.rotation)
+        rotation = lean_correction.turned(turn, foot.rotation)
         feet[side] = FootTarget(foot.position + shift, rotation, foot.force, foot.center_of_pressure)
 
     def _posture(self, com: NDArray[np.float64], torso: float) -> NDArray[np.float64]:
@@ -638,16 +647,13 @@ class WalkingController:
         lean brings hip and CoM together, as people do whose hip abductors are weak.
         """
         s = self.settings
-        (lx, ly, _), (rx, ry, _) = (self.motion.footholds[side][0].tolist() for side in SIDES)
+        footholds = self.motion.footholds
+        (lx, ly, _), (rx, ry, _) = footholds["left"][0].tolist(), footholds["right"][0].tolist()
         x, y, _ = com.tolist()
         c, d = math.cos(torso), math.sin(torso)
         dx, dy = x - 0.5 * (lx + rx), y - 0.5 * (ly + ry)
         left = -d * dx + c * dy
-        lean = max(
-            s.trunk_lean,
-            0.0 if self.body is None else self.body.lean,
-            0.0 if s.step_adjustment is None else s.step_adjustment.lean,
-        )
+        lean = self._least_lean if self.body is None else max(self._least_lean, self.body.lean)
         roll = -lean * min(s.lean_reach, max(-s.lean_reach, left))
         e, f = math.cos(roll), math.sin(roll)
         return matrix(c, -d * e, d * f, d, c * e, -c * f, 0.0, f, e)

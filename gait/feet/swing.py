@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from plantar.kernels.vectors import vector
 from plantar.mechanics.easing import minimum_jerk
 
 __all__ = ["SwingTrajectory"]
@@ -88,13 +89,13 @@ class SwingTrajectory:
             first = _FIRST_SHARE * self.duration if self.rises_first else 0.0
             share = max(0.0, (time - first) / (self.arrived - first)) ** _SKEW
         blend, _ = minimum_jerk(share)
-        position = self.start + blend * (self.end - self.start)
-        position[2] = self._height(time)
+        (x, y, _), (to_x, to_y, _) = self.start.tolist(), self.end.tolist()
+        position = vector(x + blend * (to_x - x), y + blend * (to_y - y), self._height(time))
         turn = math.remainder(self.yaw_end - self.yaw_start, 2.0 * math.pi)
         return position, self.yaw_start + blend * turn
 
     def _height(self, time: float) -> float:
-        start, end = float(self.start[2]), float(self.end[2])
+        start, end = self.start.item(2), self.end.item(2)
         top = max(start, end) + self.height
         lifted = self.lifted
         if time < lifted:

@@ -1,7 +1,21 @@
 # C types of lean_correction.py. Without a compiler this file is not read.
 cimport cython
 from libc cimport math
+from . cimport fused_in_c as fused
 from . cimport pointers as memory
+from . cimport rotations
+
+@cython.locals(
+    r=cython.p_double, out=cython.p_double, j=Py_ssize_t, angle=double, c=double, s=double, x=double, y=double,
+    z=double
+)
+cpdef object headed(rotation, double yaw)
+
+@cython.locals(
+    t=cython.p_double, r=cython.p_double, out=cython.p_double, j=Py_ssize_t, xx=double, xy=double, xz=double,
+    yx=double, yy=double, yz=double, zx=double, zy=double, zz=double, x=double, y=double, z=double
+)
+cpdef object turned(turn, rotation)
 
 @cython.locals(
     p=cython.p_double, q=cython.p_double, c=cython.p_double, e=cython.p_double, k=cython.p_double, by=cython.p_double,

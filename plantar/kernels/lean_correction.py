@@ -8,9 +8,52 @@ from __future__ import annotations
 
 import math
 
-from . import memory
+from . import fused, memory, rotations
 
-__all__ = ["correct"]
+__all__ = ["correct", "headed", "turned"]
+
+
+def headed(rotation, yaw):
+    """A rotation with another heading: turned about the vertical until its x axis points there, seen from above.
+
+    Args:
+        rotation: Rotation (3, 3) to the world.
+        yaw: The heading in rad.
+
+    Returns:
+        A new rotation (3, 3), its product with the turn summed as BLAS does (`fused`).
+    """
+    r, made = memory.values(rotation), memory.new_matrix(3, 3)
+    out = memory.room(made)
+    angle = yaw - math.atan2(r[3], r[0])
+    c, s = math.cos(angle), math.sin(angle)
+    for j in range(3):
+        x, y, z = r[j], r[3 + j], r[6 + j]
+        out[j] = fused.multiply_add(0.0, z, fused.multiply_add(-s, y, c * x))
+        out[3 + j] = fused.multiply_add(0.0, z, fused.multiply_add(c, y, s * x))
+        out[6 + j] = fused.multiply_add(1.0, z, fused.multiply_add(0.0, y, 0.0 * x))
+    return made
+
+
+def turned(turn, rotation):
+    """A rotation after a turn.
+
+    Args:
+        turn: Rotation vector (3,) in rad.
+        rotation: Rotation (3, 3) to the frame of the turn.
+
+    Returns:
+        A new rotation (3, 3), summed likewise.
+    """
+    t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
+    out = memory.room(made)
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])
+    for j in range(3):
+        x, y, z = r[j], r[3 + j], r[6 + j]
+        out[j] = fused.multiply_add(xz, z, fused.multiply_add(xy, y, xx * x))
+        out[3 + j] = fused.multiply_add(yz, z, fused.multiply_add(yy, y, yx * x))
+        out[6 + j] = fused.multiply_add(zz, z, fused.multiply_add(zy, y, zx * x))
+    return made
 
 
 def correct(

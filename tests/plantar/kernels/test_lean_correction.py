@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from plantar import kernels
 from plantar.kernels import lean_correction
-from plantar.mechanics.rotation import sine_vector
+from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector, sine_vector
 
 SHARE, SHIFT, TURN = 0.15, 0.06, 0.12
 
@@ -34,3 +34,20 @@ def test_a_tick_is_that_of_the_equation(seed, size):
     moved, turned = found[0]
     np.testing.assert_allclose(moved, shift + SHARE * (weight * (way + kept) - shift), rtol=1e-13, atol=1e-15)
     np.testing.assert_allclose(turned, turn + SHARE * (weight * sine - turn), rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "form", [lean_correction, kernels.python_form("lean_correction")], ids=["as installed", "interpreted"]
+)
+def test_turns_are_products_of_rotations(form):
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        rotation, turn = rotation_from_vector(rng.normal(size=3)), rng.normal(0.0, 0.3, 3)
+        assert form.turned(turn, rotation) == pytest.approx(rotation_from_vector(turn) @ rotation, abs=1e-15)
+        yaw = float(rng.uniform(-3.0, 3.0))
+        headed = form.headed(rotation, yaw)
+        assert headed == pytest.approx(level_rotation(yaw - heading(rotation)) @ rotation, abs=1e-15)
+        assert heading(headed) == pytest.approx(yaw, abs=1e-14)
+        assert headed[2] == pytest.approx(rotation[2], abs=0.0)
+        assert np.array_equal(headed, lean_correction.headed(rotation, yaw))
+        assert np.array_equal(form.turned(turn, rotation), lean_correction.turned(turn, rotation))
