@@ -57,6 +57,7 @@ from gait.propose.slope_inside import SlopeInside, inward_distance
 from gait.propose.ssp_opt import touching_distance
 from gait.propose.step_adjustment import StepAdjustment
 from gait.propose.step_timing import StepTiming
+from plantar.arrays import read_only
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
 from plantar.kernels import lean_correction
@@ -77,6 +78,7 @@ from plantar.sides import SIDES, Side, other_side
 __all__ = ["Command", "FootTarget", "Sensors", "Start", "WalkingController"]
 
 _CONTACT_OFFSET = 0.0433  # sole that a foot's centre of pressure keeps from the edge of its contact: 10 mm in T 4.4.4
+_NOWHERE = read_only(np.zeros(2))  # no push
 _ANYWHERE = np.empty((0, 2))  # a region that leaves the desired ZMP free
 _PROBING = 0.0237  # weight on a foot that probes the ground from which its centre of pressure turns it
 _NO_GROUND = 0.8  # of the taxels' sensing range: a sole that stands sees this far only where it stands on nothing
@@ -162,6 +164,7 @@ class WalkingController:
         self._hearing = BodySensors(period, _BRIDGED * settings.body.beat)
         self._last: Command | None = None
         self._lost = False
+        self._fine = 6000.0 / settings.body.leg
         adjustment = settings.step_adjustment
         self._least_lean = max(settings.trunk_lean, 0.0 if adjustment is None else adjustment.lean)
         self._push = WrenchFilter(settings.push_expected, self.omega, period)
@@ -432,7 +435,9 @@ class WalkingController:
         if self.settings.compliance is not None:
             senses = {s: SoleSense(percepts[s], state.positions_sole[s], state.rotations_sole[s]) for s in SIDES}
         target = None if phase.swing is None else self.plan.view.foothold(phase.step)
-        heights = {s: state.positions_sole[s].item(2) for s in SIDES}
+        heights = None
+        if phase.kind == PhaseKind.STANDING:  # feet relax then
+            heights = {s: state.positions_sole[s].item(2) for s in SIDES}
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press(), heights)
         feet, slope = self.motion.view, self.settings.slope
         if feet.touchdown and self.settings.step_adjustment is not None:
@@ -507,7 +512,7 @@ class WalkingController:
 
     def _pendulum(self, phase: Phase, time: float, dcm: NDArray[np.float64], region: NDArray[np.float64]) -> Pendulum:
         """The pendulum now, with what a push is expected to do until the phase ends."""
-        offset = pushed = np.zeros(2)
+        offset = pushed = _NOWHERE
         if self.settings.push is not None and self.settings.step_adjustment is not None:
             expected = self._push.update(self.estimator.push_acceleration / self.omega**2)
             if self._push.acts and phase.swing:
@@ -669,7 +674,7 @@ class WalkingController:
 
     def _crept(self) -> tuple[int, ...]:
         """How far the command frame has crept, in 1/6000 of the leg (0.1 mm for H1) and 0.1 mrad."""
-        frame, fine = self._frame, 6000.0 / self.settings.body.leg
+        frame, fine = self._frame, self._fine
         x, y, z = frame.offset
         return round(x * fine), round(y * fine), round(z * fine), round(frame.turn * 1e4)
 

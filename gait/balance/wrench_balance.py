@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Any, Self, cast
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,7 +199,7 @@ class WrenchBalance:
         wrench = (self.mass * ax, self.mass * ay, self.mass * GRAVITY, 0.0, 0.0, 0.0)
         found = self.distribution.solve(contacts, wrench, (x, y, ground), shares)
         self.states[str(found.state)] += 1
-        return cast("Mapping[Side, NDArray[np.float64]]", found.wrenches)
+        return found.wrenches  # type: ignore[return-value]  # of the same names as the contacts
 
 
 def _action(wrench: NDArray[np.float64], foot: FootState, correction: SoleAdmittance) -> FootAction:

@@ -18,8 +18,7 @@ from gait.feet.swing_flight import LEAST_TIME, SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, PhaseKind
-from plantar.arrays import read_only
-from plantar.kernels.vectors import vector, vector2
+from plantar.kernels.vectors import close, vector, vector2
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME
@@ -164,10 +163,11 @@ class FootMotion:
     @property
     def view(self) -> FeetView:
         """The feet at this tick, as a value."""
-        for position, _ in self.footholds.values():
-            read_only(position)
+        footholds = self.footholds
+        close(footholds["left"][0])
+        close(footholds["right"][0])
         return FeetView(
-            dict(self.footholds),
+            footholds.copy(),
             self.last_side,
             self.landed,
             self._lift_off,

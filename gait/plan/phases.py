@@ -110,7 +110,7 @@ class WalkSchedule:
         """Time in s at which the last double support ends."""
         return self.phases[-1].start
 
-    @property
+    @cached_property
     def end(self) -> float:
         """Time in s at which the robot has walked and settled."""
         return self.walking_end + self.timing.settle

@@ -3,6 +3,8 @@ cimport cython
 
 from . cimport pointers as memory
 
+cpdef close(array)
+
 @cython.locals(size=Py_ssize_t, given=cython.p_double, out=cython.p_double, i=Py_ssize_t)
 cpdef object kept(array)
 

@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 
 from . import memory
 
-__all__ = ["kept", "matrix", "vector", "vector2"]
+__all__ = ["close", "kept", "matrix", "vector", "vector2"]
+
+
+def close(array):
+    """Close an array to writing; a third of the time of its `setflags`."""
+    memory.close(array)
 
 
 def kept(array):

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import instance, number
 from plantar.arrays import read_only
 from plantar.errors import ReadingError
+from plantar.kernels.vectors import close
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
@@ -95,7 +96,7 @@ class Percept(ShapeMembers, VirtualMembers):
                 else holds; closed to writing.
 
         Returns:
-            The percept, with vertical force and centre of pressure computed.
+            The percept, with vertical force, centre of pressure and wrench computed.
 
         Example:
             >>> from plantar import hex_layout
@@ -105,7 +106,7 @@ class Percept(ShapeMembers, VirtualMembers):
             >>> Percept.summed(layout, reading, loads).vertical_force == Percept(layout, reading).vertical_force
             True
         """
-        loads.setflags(False)  # type: ignore[call-arg]  # by name it takes twice as long
+        close(loads)
         vertical = loads.item(2)
         percept = object.__new__(cls)
         percept.__dict__ = {
@@ -118,6 +119,7 @@ class Percept(ShapeMembers, VirtualMembers):
             "_compared": True,
             "_loads_summed": loads,
             "vertical_force": vertical,
+            "wrench_in_sole": loads[:6],
             "position_cop_in_sole": loads[7:] if 0.0 < vertical < math.inf else None,
         }
         return percept
