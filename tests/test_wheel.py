@@ -114,7 +114,8 @@ def extensions_in(wheel: Path) -> set[str]:
 def kernels_that_compile() -> set[str]:
     """All kernels, by path without ending, where there are Cython and a compiler; else none."""
     compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
-    sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in (ROOT / "plantar" / "kernels").glob("*.pxd")}
+    pairs = (p for p in (ROOT / "plantar" / "kernels").glob("*.pxd") if p.with_suffix(".py").exists())
+    sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in pairs}
     return sources if compiles else set()
 
 
