@@ -126,7 +126,7 @@ class WalkSchedule:
 
     def at(self, time: float) -> Phase:
         """The phase at a time in s."""
-        return self.phases[max(0, bisect_right(self._starts, time) - 1)]
+        return self.phases[self.index(time)]
 
     def index(self, time: float) -> int:
         """Index in `phases` of the phase at a time in s; of the first one that is kept before that."""

@@ -39,7 +39,6 @@ cdef class OffsetRoom:
     cdef double[:, :, ::1] rings
     cdef double[:, ::1] result
 
-    @cython.locals(out=cython.p_double, i=Py_ssize_t)
     cdef copied(self, Py_ssize_t size)
 
 @cython.locals(qx=double, qy=double)

@@ -234,11 +234,7 @@ class OffsetRoom:
 
     def copied(self, size):
         """The polygon of `size` vertices that `offset` left in `result`, as an array of its own."""
-        made = memory.new_matrix(size, 2)
-        out = memory.room(made)
-        for i in range(size):
-            out[2 * i], out[2 * i + 1] = self.result[i, 0], self.result[i, 1]
-        return made
+        return vectors.points_of(self.result, size)
 
 
 _FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no call has borrowed

@@ -1,6 +1,7 @@
 # C types of outline.py. Without a compiler this file is not read.
 cimport cython
 from . cimport pointers as memory
+from . cimport vectors
 
 @cython.locals(
     x0=double, y0=double, twice=double, sx=double, sy=double, ax=double, ay=double, bx=double, by=double, cross=double,
@@ -38,8 +39,7 @@ cdef class EdgeTable:
     @cython.locals(
         n=Py_ssize_t, edges=Py_ssize_t, places=Py_ssize_t, count=Py_ssize_t, pinched=bint, i=Py_ssize_t, h=Py_ssize_t,
         t=Py_ssize_t, v=Py_ssize_t, first=Py_ssize_t, size=Py_ssize_t, low=Py_ssize_t, k=Py_ssize_t, used=Py_ssize_t,
-        mark=cython.uchar[::1], leaving=cython.uchar[::1], path=Py_ssize_t[::1], place=Py_ssize_t[::1], points=double[:, ::1],
-        out=cython.p_double
+        mark=cython.uchar[::1], leaving=cython.uchar[::1], path=Py_ssize_t[::1], place=Py_ssize_t[::1], points=double[:, ::1]
     )
     cdef object _trace(self, bytes active, list starts, list areas)
 

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from . import memory
+from . import memory, vectors
 
 __all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
 
@@ -238,11 +238,7 @@ class EdgeTable:
                     leaving[self.origin[h]] = 0
         if not self.reuse:
             return room[:used]
-        made = memory.new_matrix(used, 2)
-        out = memory.room(made)
-        for i in range(used):
-            out[2 * i], out[2 * i + 1] = points[i, 0], points[i, 1]
-        return made
+        return vectors.points_of(points, used)
 
     def _keep(self, path, low, high, points, used, starts, areas):
         """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""

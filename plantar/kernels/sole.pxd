@@ -26,7 +26,6 @@ cdef class SoleScratch:
     @cython.locals(out=cython.p_double, i=Py_ssize_t)
     cdef summed(self, Py_ssize_t first, Py_ssize_t count)
 
-    @cython.locals(out=cython.p_double, i=Py_ssize_t)
     cdef hull(self, Py_ssize_t size)
 
     @cython.locals(i=Py_ssize_t)

@@ -56,11 +56,7 @@ class SoleScratch:
 
     def hull(self, size):
         """The hull (size, 2) in m that `SoleKernel.find_hull` left in `polygon`, as a new array."""
-        made = memory.new_matrix(size, 2)
-        out = memory.room(made)
-        for i in range(size):
-            out[2 * i], out[2 * i + 1] = self.polygon[i, 0], self.polygon[i, 1]
-        return made
+        return vectors.points_of(self.polygon, size)
 
     def copy_hull(self, size, out):
         """Copy the hull that `SoleKernel.find_hull` left in `polygon`.

@@ -8,6 +8,9 @@ cpdef close(array)
 @cython.locals(size=Py_ssize_t, given=cython.p_double, out=cython.p_double, i=Py_ssize_t)
 cpdef object kept(array)
 
+@cython.locals(out=cython.p_double, i=Py_ssize_t)
+cpdef object points_of(const double[:, ::1] room, Py_ssize_t size)
+
 @cython.locals(out=cython.p_double)
 cpdef object vector2(double x, double y)
 

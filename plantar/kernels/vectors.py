@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import memory
 
-__all__ = ["close", "kept", "matrix", "vector", "vector2"]
+__all__ = ["close", "kept", "matrix", "points_of", "vector", "vector2"]
 
 
 def close(array):
@@ -35,6 +35,15 @@ def kept(array):
     for i in range(size):
         out[i] = given[i]
     memory.close(made)
+    return made
+
+
+def points_of(room, size):
+    """A new array (size, 2) of the first points of a work array (n, 2)."""
+    made = memory.new_matrix(size, 2)
+    out = memory.room(made)
+    for i in range(size):
+        out[2 * i], out[2 * i + 1] = room[i, 0], room[i, 1]
     return made
 
 
