@@ -330,7 +330,7 @@ class WalkingController:
         feedback = self.settings.feedback and not stands
         if feedback:
             self._align(state)
-        feet, inward = self._swing(sensed, state)
+        feet, inward = self._swing(sensed, state, feedback)
         (x, y, _), (vx, vy, _) = state.com.tolist(), state.com_velocity.tolist()
         xi = vector2(x + vx / self.omega, y + vy / self.omega)  # T 4.27, of an omega that is known to be sound
         tick, region = self._perceive(sensed, state, feet, inward, xi if feedback else None)
@@ -427,7 +427,7 @@ class WalkingController:
         felt = net_wrench(s.skin, sensors.skin, poses, state.com, s.push_felt)
         return external_acceleration(felt.wrench, s.mass, self.omega) if len(felt.taxels) else None
 
-    def _swing(self, sensed: _Sensed, state: BaseState) -> tuple[FeetView, float]:
+    def _swing(self, sensed: _Sensed, state: BaseState, feedback: bool) -> tuple[FeetView, float]:
         """Advance the swing foot; where the feet are then, and by how much in m one that has just landed shall carry
         further inside."""
         phase, percepts = sensed.phase, sensed.percepts
@@ -440,7 +440,7 @@ class WalkingController:
             heights = {s: state.positions_sole[s].item(2) for s in SIDES}
         self.motion.update(phase, sensed.time, target, state.loads, self._frame, senses, self._press(), heights)
         feet, slope = self.motion.view, self.settings.slope
-        if feet.touchdown and self.settings.step_adjustment is not None:
+        if feet.touchdown and feedback and self.settings.step_adjustment is not None:
             self._stand_beside(feet, state)
             feet = self.motion.view
         if feet.lift_off and feet.side is not None:

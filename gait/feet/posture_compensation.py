@@ -70,13 +70,14 @@ class PostureCompensation:
         """Keep what a foot that stands beside its place was commanded farther: it goes out with the correction.
 
         A leg that leans stands there with the joints of another place. Commanded to where it stands at once, as the leg
-        of a body that does not lean, it would pull the foot away from there before that carries.
+        of a body that does not lean, it would pull the foot away from there before that carries. All of it is kept,
+        however much of the correction counts yet: the low pass takes it to that, and the foot's target does not jump.
 
         Args:
             shift: Where it was commanded less where it is from now on (3,) in m, command frame.
         """
         self._kept = shift
-        self.shift = self.shift + self._weight * shift
+        self.shift = self.shift + shift
 
     def update(
         self,

@@ -76,3 +76,19 @@ def test_a_foot_that_stands_beside_its_place_is_not_pulled_there_at_once() -> No
     assert targets[-1] == pytest.approx(stands, abs=1e-6)
     compensation.start()
     assert compensation.update(True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)[0] == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+@pytest.mark.parametrize("ticks", [0, 1, 20, 41])
+def test_a_foot_that_lands_before_the_correction_counts_is_not_commanded_away_at_once(ticks: int) -> None:
+    compensation, beside = PostureCompensation(0.005), np.array([0.0, 0.06, 0.02])
+    shift = np.zeros(3)
+    for _ in range(ticks):
+        shift, _ = compensation.update(True, FOOT, FOOT, COM, COM, LEVEL, LEVEL)
+    commanded, stands = FOOT + shift, FOOT - beside
+    compensation.keep(beside)
+    targets = [commanded]
+    for _ in range(200):
+        targets.append(stands + compensation.update(False, stands, stands, COM, COM, LEVEL, LEVEL)[0])
+    # What does not count yet goes out with the low pass, which takes a sixth a tick; a jump would be all of it.
+    assert np.abs(np.diff(targets, axis=0)).max() < 0.2 * beside.max()
+    assert targets[-1] == pytest.approx(stands, abs=1e-6)
