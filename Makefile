@@ -12,7 +12,7 @@ BENCH_OPTIONS ?=
 PYTEST_OPTIONS ?= -n logical --dist loadfile --no-loadscope-reorder
 
 .DEFAULT_GOAL := help
-KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*.pxd)
+KERNELS := $(wildcard plantar/kernels/*.py plantar/kernels/*/*.py plantar/kernels/*/*.pxd)
 BUILT := $(VENV)/.kernels
 
 .PHONY: help setup demo test test-all bench docs lint format clean
@@ -60,7 +60,7 @@ format: $(INSTALLED)
 	$(PYTHON_IN_VENV) -m ruff format .
 
 clean:
-	rm -rf $(VENV) $(OUT) build dist plantar/kernels/*.so plantar/kernels/*.pyd *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(OUT) build dist plantar/kernels/*/*.so plantar/kernels/*/*.pyd *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # Made anew when the dependencies change; the stamp is written last, so a stopped installation is taken up again.

@@ -14,7 +14,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 KERNEL_FOLDER = Path("plantar/kernels")
-KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*.pxd") if p.with_suffix(".py").exists())
+KERNELS = sorted(p for p in KERNEL_FOLDER.glob("*/*.pxd") if p.with_suffix(".py").exists())
 BUILD = "build/cython"
 # Neither -ffast-math nor contraction to fused multiply-adds: error-free sums and NaN must mean what the source says.
 # What a builder asks for in CFLAGS comes last and counts.
@@ -33,9 +33,9 @@ def extensions() -> list[Extension]:
         return []
     modules = [
         Extension(
-            f"plantar.kernels.{p.stem}",
+            ".".join(p.with_suffix("").parts),
             [str(p.with_suffix(".py"))],
-            include_dirs=[numpy.get_include()],  # an array's memory, `pointers.pxd`
+            include_dirs=[numpy.get_include()],  # an array's memory, `base/pointers.pxd`
             define_macros=[("NPY_NO_DEPRECATED_API", "NPY_1_7_API_VERSION")],
             extra_compile_args=FLAGS,
             optional=True,
@@ -62,17 +62,20 @@ def types_of(kernel: Path) -> set[Path]:
     while left:
         pxd = left.pop()
         found.add(pxd)
-        for module, names in re.findall(r"^from \.(\w*) cimport (.+)$", pxd.read_text(encoding="utf-8"), re.MULTILINE):
-            used = [module] if module else [name.split()[0] for name in names.split(",")]
-            left |= {pxd.with_name(f"{name}.pxd") for name in used} - found
+        text = pxd.read_text(encoding="utf-8")
+        for dots, module, names in re.findall(r"^from (\.+)([\w.]*) cimport (.+)$", text, re.MULTILINE):
+            room = pxd.parents[len(dots) - 1].joinpath(*module.split("."))  # a room, or one of its files
+            named = [name.split()[0] for name in names.split(",")]
+            used = [room / f"{name}.pxd" for name in named] if room.is_dir() else [room.with_suffix(".pxd")]
+            left |= set(used) - found
     return found
 
 
 def remove_extensions_without_source(folder: Path) -> None:
     """Remove the extension modules of kernels that are there no more: Python would load them, a wheel hold them."""
-    names = {p.stem for p in KERNELS}
-    for path in [p for suffix in EXTENSION_SUFFIXES for p in folder.glob(f"*{suffix}")]:
-        if path.name.split(".")[0] not in names:
+    sources = {p.relative_to(KERNEL_FOLDER).with_suffix("") for p in KERNELS}
+    for path in [p for suffix in EXTENSION_SUFFIXES for p in folder.rglob(f"*{suffix}")]:
+        if path.relative_to(folder).with_name(path.name.split(".")[0]) not in sources:
             path.unlink(missing_ok=True)
 
 

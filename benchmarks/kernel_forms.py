@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from plantar import kernels
-from plantar.kernels import convex
+from plantar.kernels.geometry import convex
 
 ANGLE = np.arange(20) * (2.0 * np.pi / 20)
 POLYGON = np.column_stack([np.cos(ANGLE), np.sin(ANGLE)])
@@ -63,7 +63,7 @@ def rows():
         "interpreted",
         microseconds(lambda: source.area(POLYGON)),
         microseconds(lambda: source.closest_point(POLYGON, 3.0, 1.0)),
-        import_milliseconds("from plantar.kernels import convex", python),
+        import_milliseconds("from plantar.kernels.geometry import convex", python),
         1e3 * first,
         megabytes(source.__file__),
     )
@@ -75,7 +75,7 @@ def rows():
             "Cython, ahead of time",
             microseconds(lambda: convex.area(POLYGON)),
             microseconds(lambda: convex.closest_point(POLYGON, 3.0, 1.0)),
-            import_milliseconds("from plantar.kernels import convex", f"{after}; import plantar.kernels"),
+            import_milliseconds("from plantar.kernels.geometry import convex", f"{after}; import plantar.kernels"),
             1e3 * first,
             megabytes(convex.__file__),
         )

@@ -60,9 +60,9 @@ from gait.propose.step_timing import StepTiming
 from plantar.arrays import read_only
 from plantar.errors import InputError
 from plantar.geometry.contact_rectangle import safe_rectangle
-from plantar.kernels import lean_correction
-from plantar.kernels.sole_targets import risen, turned
-from plantar.kernels.vectors import matrix, vector, vector2
+from plantar.kernels.base.vectors import matrix, vector, vector2
+from plantar.kernels.gait import lean_correction
+from plantar.kernels.gait.sole_targets import risen, turned
 from plantar.layouts.layout import SoleLayout
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.contact import Contact

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from plantar.arguments import LARGEST, does
 from plantar.errors import InputError, PlantarError
-from plantar.kernels.limits import points_within, values_within
+from plantar.kernels.base.limits import points_within, values_within
 
 __all__ = [
     "array",

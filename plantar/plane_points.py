@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from plantar.arguments import LARGEST, does
 from plantar.arrays import not_finite, numbers
 from plantar.errors import InputError
-from plantar.kernels.limits import are_plane_points, pair_of, points_within
+from plantar.kernels.base.limits import are_plane_points, pair_of, points_within
 
 __all__ = ["plane_point", "plane_points"]
 

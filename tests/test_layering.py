@@ -37,6 +37,9 @@ ROOMS: dict[str, tuple[str, ...]] = {
         *("mirrored_feet", "parameters", "pages", "analyse", "compare", "custom", "exports", "study"),
     ),
     "wholebody": ("dynamics", "tasks", "fusion", "stack", "behaviours", "torque_resolver"),
+    "plantar.kernels": (
+        *("base", "geometry", "mechanics", "skin", "gait", "joints", "contacts", "sensors", "judging", "formats"),
+    ),
     "sim": (
         *(
             "libraries",

@@ -44,10 +44,10 @@ def copied_source(folder: Path, *, generated: bool, compiled: bool) -> Path:
     kernels = Path("plantar") / "kernels"
     places = {path: path for path in tracked()}
     if generated:
-        places |= {c.relative_to(ROOT): c.relative_to(ROOT) for c in (ROOT / "build/cython" / kernels).glob("*.c")}
+        places |= {c.relative_to(ROOT): c.relative_to(ROOT) for c in (ROOT / "build/cython" / kernels).glob("*/*.c")}
     if compiled:
-        extensions = [p for p in (ROOT / kernels).iterdir() if ends(p) & set(EXTENSION_SUFFIXES)]
-        places |= {p.relative_to(ROOT): library / kernels / p.name for p in extensions}
+        extensions = [p for p in (ROOT / kernels).glob("*/*") if ends(p) & set(EXTENSION_SUFFIXES)]
+        places |= {p.relative_to(ROOT): library / p.relative_to(ROOT) for p in extensions}
     for path, place in places.items():
         (source / place).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(ROOT / path, source / place)  # with its time, by which a build tells what is stale
@@ -114,7 +114,7 @@ def extensions_in(wheel: Path) -> set[str]:
 def kernels_that_compile() -> set[str]:
     """All kernels, by path without ending, where there are Cython and a compiler; else none."""
     compiles = importlib.util.find_spec("Cython") is not None and shutil.which("cc") is not None
-    pairs = (p for p in (ROOT / "plantar" / "kernels").glob("*.pxd") if p.with_suffix(".py").exists())
+    pairs = (p for p in (ROOT / "plantar" / "kernels").glob("*/*.pxd") if p.with_suffix(".py").exists())
     sources = {p.relative_to(ROOT).with_suffix("").as_posix() for p in pairs}
     return sources if compiles else set()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plantar.kernels.dcm_feedback import ComAdmittance
+from plantar.kernels.gait.dcm_feedback import ComAdmittance
 
 __all__ = ["LARGEST_OFFSET", "ComAdmittance"]
 

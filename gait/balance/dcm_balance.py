@@ -12,7 +12,7 @@ from gait.balance.com_admittance import LARGEST_OFFSET, ComAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction
 from gait.balance.load_transfer import transferred
 from gait.plan.vrp_plan import LipReference
-from plantar.kernels.dcm_feedback import DcmFeedback
+from plantar.kernels.gait.dcm_feedback import DcmFeedback
 from plantar.settings.schema import Settings, share
 from plantar.sides import Side
 

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.sole_admittance import SoleAdmittance
+from plantar.kernels.gait.sole_admittance import SoleAdmittance
 from plantar.settings.schema import Settings, number, share
 from plantar.sides import SIDES, Side
 

@@ -20,9 +20,9 @@ from gait.balance.foot_admittance import AdmittanceGains, FootAdmittance
 from gait.balance.law import BalanceState, Feet, FootAction, FootState
 from gait.plan.vrp_plan import LipReference
 from plantar.errors import InputError, PlantarError
-from plantar.kernels.dcm_feedback import DcmFeedback
-from plantar.kernels.sole_admittance import SoleAdmittance
-from plantar.kernels.sole_targets import pressed
+from plantar.kernels.gait.dcm_feedback import DcmFeedback
+from plantar.kernels.gait.sole_admittance import SoleAdmittance
+from plantar.kernels.gait.sole_targets import pressed
 from plantar.layouts.layout import Side
 from plantar.mechanics.contact import Contact
 from plantar.mechanics.lip import GRAVITY

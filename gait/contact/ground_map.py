@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.highest_ground import highest_plane
+from plantar.kernels.gait.highest_ground import highest_plane
 from plantar.layouts.layout import SoleLayout
 from plantar.percepts.percept import Percept
 from plantar.percepts.percept_options import PROXIMITY_GAIN

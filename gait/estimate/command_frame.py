@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.vectors import vector, vector2
+from plantar.kernels.base.vectors import vector, vector2
 
 __all__ = ["CommandFrame"]
 

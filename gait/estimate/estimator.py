@@ -28,7 +28,7 @@ from gait.estimate.gyro_bias import GyroBias
 from gait.estimate.push_estimate import PushEstimate
 from gait.estimate.steady_load import SteadyLoad
 from plantar.errors import InputError
-from plantar.kernels.floating_base import FloatingBase
+from plantar.kernels.gait.floating_base import FloatingBase
 from plantar.layouts.layout import Side
 from plantar.mechanics.base_state import BaseState
 from plantar.mechanics.lip import GRAVITY

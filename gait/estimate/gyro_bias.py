@@ -17,7 +17,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.gyro_bias import GyroBias as _Kernel
+from plantar.kernels.gait.gyro_bias import GyroBias as _Kernel
 from plantar.sides import Side
 
 __all__ = ["GyroBias"]
@@ -87,7 +87,7 @@ class GyroBias:
         Args:
             gyro: Angular velocity (3,) of the base in its own frame in rad/s, as measured.
             turn: Angle (3,) in the base frame in rad by which feet that stand still say the base has turned in the tick
-                (`plantar.kernels.floating_base.FloatingBase.stand_still`); None where no foot stands still.
+                (`plantar.kernels.gait.floating_base.FloatingBase.stand_still`); None where no foot stands still.
             weights: How much each foot carries, in any unit; 0 for one that does not stand still.
 
         Returns:

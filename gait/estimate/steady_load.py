@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from plantar.kernels.gyro_bias import SteadyLoad as _Kernel
+from plantar.kernels.gait.gyro_bias import SteadyLoad as _Kernel
 from plantar.sides import Side
 
 __all__ = ["SteadyLoad"]

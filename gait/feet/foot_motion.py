@@ -18,7 +18,7 @@ from gait.feet.swing_flight import LEAST_TIME, SwingFlight
 from gait.plan.feet_view import FeetView
 from gait.plan.footsteps import Footstep
 from gait.plan.phases import Phase, PhaseKind
-from plantar.kernels.vectors import close, vector, vector2
+from plantar.kernels.base.vectors import close, vector, vector2
 from plantar.mechanics.easing import minimum_jerk
 from plantar.mechanics.rotation import level_rotation, rotation_from_vector, vector_from_rotation
 from plantar.mechanics.same_time import SAME_TIME

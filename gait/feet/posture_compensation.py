@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.lean_correction import correct
+from plantar.kernels.gait.lean_correction import correct
 from plantar.settings.body_scale import REFERENCE_BODY, BodyScale
 
 __all__ = ["PostureCompensation"]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.vectors import vector
+from plantar.kernels.base.vectors import vector
 from plantar.mechanics.easing import minimum_jerk
 
 __all__ = ["SwingTrajectory"]

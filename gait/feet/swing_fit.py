@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number as checked_number
 from plantar.arrays import array
 from plantar.errors import InputError
-from plantar.kernels.swing_fit import fit
+from plantar.kernels.gait.swing_fit import fit
 from plantar.record import Record
 from plantar.settings.schema import Settings, number, share, whole
 

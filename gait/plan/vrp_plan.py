@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
-from plantar.kernels.pendulum import on_segment
+from plantar.kernels.mechanics.pendulum import on_segment
 from plantar.record import Record
 
 __all__ = ["LipReference", "VrpPlan"]

@@ -25,7 +25,7 @@ from gait.plan.plan_change import PlanChange
 from gait.plan.vrp_plan import LipReference
 from gait.plan.walk_plan import PlanView
 from plantar.arrays import read_only
-from plantar.kernels.convex import closest_point
+from plantar.kernels.geometry.convex import closest_point
 from plantar.record import Record
 from plantar.sensing.reading import Reading
 from plantar.sides import Side

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels import decimals, is_compiled
+from plantar.kernels import is_compiled
+from plantar.kernels.formats import decimals
 
 __all__ = ["number_rows"]
 

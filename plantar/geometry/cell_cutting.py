@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arrays import array
-from plantar.kernels.cut_cells import cut_cells
+from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.layouts.layout import SoleLayout
 
 __all__ = ["CellCutter", "half_planes"]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.kernels import is_compiled
-from plantar.kernels.shapes import ConvexShapes
+from plantar.kernels.geometry.shapes import ConvexShapes
 from plantar.plane_points import plane_points
 
 __all__ = ["convex_shapes", "points_of"]

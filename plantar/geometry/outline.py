@@ -13,8 +13,8 @@ from plantar.arguments import instance, items
 from plantar.arrays import array, integers, own, read_only
 from plantar.errors import InputError
 from plantar.geometry.enclosing import bounding_box
-from plantar.kernels.outline import Rings, area_and_centroid
-from plantar.kernels.outline import ring_areas as areas_of_rings
+from plantar.kernels.geometry.outline import Rings, area_and_centroid
+from plantar.kernels.geometry.outline import ring_areas as areas_of_rings
 from plantar.layouts.cell_edges import EdgeTable, edge_table
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask

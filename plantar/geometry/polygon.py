@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import number
-from plantar.kernels import convex as _kernel
-from plantar.kernels import hull as _hull
-from plantar.kernels.clean import clean_ring, extent, turning
+from plantar.kernels.geometry import convex as _kernel
+from plantar.kernels.geometry import hull as _hull
+from plantar.kernels.geometry.clean import clean_ring, extent, turning
 from plantar.plane_points import plane_point, plane_points
 
 __all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "part_inside", "signed_margin"]

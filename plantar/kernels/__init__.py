@@ -1,8 +1,12 @@
 """Hot functions, one plain-Python source each, compiled ahead of time where the installation found a compiler.
 
-`convex.py` is a module of plain Python; `convex.pxd` beside it gives the C types with which Cython compiles the very
-same file to an extension module, which Python prefers when both are there. Nothing is compiled at run time. Without a
-compiler the source runs as it is, slower, with the same results to the last bit: it is the compiled form's oracle.
+A room for what each serves: `base`, `mechanics`, `geometry` and `skin`, `gait`, then what simulates (`joints`,
+`contacts`, `sensors`, `judging`), and `formats`.
+
+`geometry/convex.py` is a module of plain Python; `convex.pxd` beside it gives the C types with which Cython compiles
+the very same file to an extension module, which Python prefers when both are there. Nothing is compiled at run time.
+Without a compiler the source runs as it is, slower, with the same results to the last bit: it is the compiled form's
+oracle.
 
 The environment variable PLANTAR_KERNELS=python runs the sources even where extensions are there.
 """
@@ -12,22 +16,19 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from contextlib import nullcontext
 from importlib import import_module
 from importlib.machinery import EXTENSION_SUFFIXES, FileFinder, ModuleSpec, SourceFileLoader
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 
-__all__ = ["KERNELS", "compiled", "is_compiled", "python_form", "without_cython"]
+__all__ = ["KERNELS", "compiled", "is_compiled", "python_form"]
 
 _FOLDER = Path(__file__).resolve().parent
 
-KERNELS: tuple[str, ...] = tuple(sorted(p.stem for p in _FOLDER.glob("*.py") if p.stem != "__init__"))
-"""Names of the kernel modules."""
+_ROOM = {p.stem: p.parent.name for p in sorted(_FOLDER.glob("*/*.py")) if p.stem != "__init__"}
 
-without_cython = SimpleNamespace(nogil=nullcontext(), gil=nullcontext())
-"""What interpreted kernels find of the module `cython` where it is not installed: a lock is neither released nor taken
-again."""
+KERNELS: tuple[str, ...] = tuple(f"{room}.{name}" for name, room in _ROOM.items())
+"""Names of the kernel modules, each after its room's: `geometry.convex`."""
 
 
 class _SourceFinder:
@@ -35,19 +36,20 @@ class _SourceFinder:
 
     def __init__(self, package: str) -> None:
         self.prefix = f"{package}."
-        self.finder = FileFinder(str(_FOLDER), (SourceFileLoader, [".py"]))
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        return self.finder.find_spec(name) if name.startswith(self.prefix) else None
+        if not name.startswith(self.prefix) or not path:
+            return None
+        return FileFinder(path[0], (SourceFileLoader, [".py"])).find_spec(name)
 
 
 def python_form(name: str) -> ModuleType:
     """The interpreted form of a kernel, whichever form runs: to compare the two.
 
     Args:
-        name: One of KERNELS.
+        name: One of KERNELS, or its last part, which no two share.
 
     Returns:
         The module, loaded from its source under another name; what it imports of the kernels is interpreted too.
@@ -55,21 +57,27 @@ def python_form(name: str) -> ModuleType:
     package = f"{__name__}_in_python"
     if package not in sys.modules:
         sys.modules[package] = parent = ModuleType(package)
-        parent.__path__ = []
+        parent.__path__ = [str(_FOLDER)]
         sys.meta_path.insert(0, _SourceFinder(package))
-    return import_module(f"{package}.{name}")
+    return import_module(f"{package}.{_full(name)}")
+
+
+def _full(name: str) -> str:
+    """A kernel's name after its room's."""
+    return name if "." in name else f"{_ROOM[name]}.{name}"
 
 
 def is_compiled(name: str) -> bool:
     """Whether a kernel runs compiled.
 
     Args:
-        name: One of KERNELS.
+        name: One of KERNELS, or its last part.
 
     Returns:
         False where no extension is there, or PLANTAR_KERNELS=python.
     """
-    return not _PYTHON and any((_FOLDER / f"{name}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
+    room, kernel = _full(name).split(".")
+    return not _PYTHON and any((_FOLDER / room / f"{kernel}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES)
 
 
 _PYTHON = os.environ.get("PLANTAR_KERNELS", "") == "python"

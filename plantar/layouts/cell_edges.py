@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from plantar.errors import InputError
 from plantar.kernels import is_compiled
-from plantar.kernels.outline import EdgeTable
+from plantar.kernels.geometry.outline import EdgeTable
 from plantar.plane_points import plane_points
 
 __all__ = ["WELD", "EdgeTable", "cells_overlap", "edge_table"]

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from plantar.arguments import instance, integer, items, number
 from plantar.arrays import array, integers, numbers, own_array, read_only
 from plantar.errors import LayoutError
-from plantar.kernels.sole import SoleKernel
+from plantar.kernels.skin.sole import SoleKernel
 from plantar.mechanics.lip import GRAVITY
 from plantar.sides import SIDES, Side, other_side
 

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels import rotations
-from plantar.kernels.vectors import matrix, vector
+from plantar.kernels.base.vectors import matrix, vector
+from plantar.kernels.mechanics import rotations
 
 __all__ = [
     "heading",

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError
-from plantar.kernels.wrench_program import WrenchProgram
+from plantar.kernels.mechanics.wrench_program import WrenchProgram
 from plantar.mechanics.contact import Contact, Contacts
 from plantar.mechanics.wrench_cone import Rectangle, cone_rows
 from plantar.mechanics.zmp import zmp_of_wrench

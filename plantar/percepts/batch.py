@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import integer
 from plantar.arrays import held_numbers
 from plantar.errors import ReadingError
-from plantar.kernels import frames as _kernel
+from plantar.kernels.skin import frames as _kernel
 from plantar.layouts.layout import SoleLayout
 from plantar.lazy import lazy
 from plantar.sensing.ground_plane import checked_range, ground_fit

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import instance, number
 from plantar.arrays import read_only
 from plantar.errors import ReadingError
-from plantar.kernels.vectors import close
+from plantar.kernels.base.vectors import close
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import items
 from plantar.arrays import array
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels import convex as _kernel
+from plantar.kernels.geometry import convex as _kernel
 from plantar.plane_points import plane_points
 
 __all__ = ["feet_support_polygon", "polygon_in_world"]

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from plantar.arguments import number
 from plantar.arrays import array, read_only
 from plantar.errors import InputError
-from plantar.kernels.ground import GroundFit
+from plantar.kernels.skin.ground import GroundFit
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_frames, taxel_values
 

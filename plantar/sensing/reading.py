@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from plantar.arguments import LARGEST, number
 from plantar.arrays import numbers, own
 from plantar.errors import ReadingError
-from plantar.kernels import vectors
+from plantar.kernels.base import vectors
 
 __all__ = ["Reading"]
 

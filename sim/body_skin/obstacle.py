@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import SceneError
-from plantar.kernels.ground_rays import cast_rays
+from plantar.kernels.sensors.ground_rays import cast_rays
 
 __all__ = ["Obstacle"]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.joint_extremes import JointExtremes
+from plantar.kernels.judging.joint_extremes import JointExtremes
 from sim.model.world import World
 
 __all__ = ["JointLimits"]

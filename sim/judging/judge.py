@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.plan.plan_change import MovedStep
-from plantar.kernels.ground_reaction import GroundReaction
-from plantar.kernels.step_watch import FAST, LEGS, StepWatch
-from plantar.kernels.tick_watch import TickWatch
+from plantar.kernels.contacts.ground_reaction import GroundReaction
+from plantar.kernels.judging.step_watch import FAST, LEGS, StepWatch
+from plantar.kernels.judging.tick_watch import TickWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from sim.judging.joint_limits import JointLimits

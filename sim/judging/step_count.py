@@ -10,7 +10,7 @@ from itertools import groupby
 import numpy as np
 
 from gait.plan.footsteps import Footstep
-from plantar.kernels.stand_watch import StandWatch
+from plantar.kernels.judging.stand_watch import StandWatch
 from plantar.layouts.layout import Side
 from plantar.sides import SIDES
 from sim.judging.walk_goal import NEAR_YAW, WalkGoal

@@ -16,9 +16,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.few_points import small_hull
-from plantar.kernels.foot_contacts import ContactList, FootContacts, gather_feet
-from plantar.kernels.ground_reaction import GroundReaction
+from plantar.kernels.contacts.foot_contacts import ContactList, FootContacts, gather_feet
+from plantar.kernels.contacts.ground_reaction import GroundReaction
+from plantar.kernels.geometry.few_points import small_hull
 
 __all__ = [
     "REACH",

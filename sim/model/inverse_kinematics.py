@@ -41,9 +41,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.configuration import Configuration
-from plantar.kernels.newton_step import NewtonStep
-from plantar.kernels.task_step import TaskStep
+from plantar.kernels.joints.configuration import Configuration
+from plantar.kernels.joints.newton_step import NewtonStep
+from plantar.kernels.joints.task_step import TaskStep
 from sim.model.tasks.posture_task import PostureTask
 from sim.model.tasks.task import Task
 

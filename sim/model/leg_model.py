@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gait.estimate.estimator import Posture
 from plantar.arrays import read_only
-from plantar.kernels.joint_entries import JointEntries
-from plantar.kernels.leg_targets import LegTargets
-from plantar.kernels.static_load import StaticLoad
-from plantar.kernels.task_rows import PointRows
+from plantar.kernels.joints.joint_entries import JointEntries
+from plantar.kernels.joints.leg_targets import LegTargets
+from plantar.kernels.joints.static_load import StaticLoad
+from plantar.kernels.joints.task_rows import PointRows
 from plantar.sides import SIDES, Side
 from sim.model.inverse_kinematics import InverseKinematics
 from sim.model.tasks.chain import chain

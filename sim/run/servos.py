@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gait.controller import Command
-from plantar.kernels.setpoints import Setpoints
+from plantar.kernels.joints.setpoints import Setpoints
 from plantar.sides import Side
 from sim.model.leg_model import LegModel
 from sim.model.world import World

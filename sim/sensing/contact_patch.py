@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.geometry.polygon import inner_offset
-from plantar.kernels.few_points import small_hull
-from plantar.kernels.pressed_patch import patch_key
+from plantar.kernels.contacts.pressed_patch import patch_key
+from plantar.kernels.geometry.few_points import small_hull
 
 __all__ = ["Patches", "half_planes_of", "patch_polygon", "reach_of"]
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.sole_rays import SoleRays
+from plantar.kernels.sensors.sole_rays import SoleRays
 from plantar.layouts.layout import SoleLayout
 from sim.plant.colours import GroundColours
 from sim.sensing.white_noise import white_noise

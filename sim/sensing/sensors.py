@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gait.controller import Sensors
 from gait.estimate.ankle_sensor import AnkleSensor
-from plantar.kernels.sensed_body import SensedBody
+from plantar.kernels.sensors.sensed_body import SensedBody
 from plantar.sensing.link_skin import SkinReading
 from plantar.sensing.reading import Reading
 from plantar.sides import SIDES, Side

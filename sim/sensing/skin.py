@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.errors import InputError, RobotError
-from plantar.kernels.contacts_in_sole import ContactsInSole
-from plantar.kernels.noise_rows import NoiseRows
-from plantar.kernels.pressed_sole import PressedSole
-from plantar.kernels.taxel_sample import TaxelSample
+from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.pressed_sole import PressedSole
+from plantar.kernels.sensors.noise_rows import NoiseRows
+from plantar.kernels.sensors.taxel_sample import TaxelSample
 from plantar.layouts.layout import DEFAULT_RANGES, SoleLayout
 from plantar.mechanics.lip import GRAVITY
 from plantar.mechanics.same_time import SAME_TIME

@@ -28,9 +28,9 @@ from plantar.errors import InputError, LayoutError
 from plantar.geometry.cell_cutting import CellCutter
 from plantar.geometry.polygon import area as polygon_area
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels.foot_contacts import FootContacts
-from plantar.kernels.pressed_patch import PressedPatch
-from plantar.kernels.pressed_sole import PressedSole
+from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.pressed_patch import PressedPatch
+from plantar.kernels.contacts.pressed_sole import PressedSole
 from plantar.layouts.layout import SoleLayout
 from sim.sensing.contact_patch import patch_polygon, reach_of
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.noise_rows import NoiseRows
+from plantar.kernels.sensors.noise_rows import NoiseRows
 
 __all__ = ["white_noise"]
 

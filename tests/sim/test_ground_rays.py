@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from plantar import hex_layout, kernels
-from plantar.kernels import ground_rays
+from plantar.kernels.sensors import ground_rays
 from sim.sensing.proximity import SoleProximity
 from sim.terrain import GROUND_GROUP
 

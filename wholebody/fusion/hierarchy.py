@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from plantar.errors import InputError
-from plantar.kernels.task_space import TaskSpace
+from plantar.kernels.joints.task_space import TaskSpace
 from wholebody.dynamics import RobotDynamics
 from wholebody.tasks.task import Demand
 

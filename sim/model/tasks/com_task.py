@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.task_rows import ComRows, Rows
+from plantar.kernels.joints.task_rows import ComRows, Rows
 from sim.model.tasks.chain import chain
 from sim.model.tasks.task import Target, Task
 

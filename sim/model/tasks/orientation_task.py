@@ -6,8 +6,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.rotations import missing_turn
-from plantar.kernels.task_rows import Rows, TurnRows
+from plantar.kernels.joints.task_rows import Rows, TurnRows
+from plantar.kernels.mechanics.rotations import missing_turn
 from plantar.mechanics.rotation import rotation_error
 from sim.model.tasks.chain import chain
 from sim.model.tasks.task import Target, Task

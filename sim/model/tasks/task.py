@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.kernels.task_rows import Rows
+from plantar.kernels.joints.task_rows import Rows
 
 __all__ = ["Target", "Task"]
 

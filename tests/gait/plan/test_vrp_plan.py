@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from gait.plan.vrp_plan import VrpPlan
 from plantar import kernels
 from plantar.errors import InputError
-from plantar.kernels import pendulum
+from plantar.kernels.mechanics import pendulum
 
 OMEGA = 3.5
 

@@ -32,7 +32,7 @@ from plantar.bench import references as exact
 from plantar.bench.dirty_rings import ExactRing, chamfered_rectangle, dirty_ring, vanishing_depths
 from plantar.bench.soles import sole_of
 from plantar.geometry.polygon import area, centroid, closest_point, convex_hull, inner_offset, signed_margin
-from plantar.kernels.clean import turning
+from plantar.kernels.geometry.clean import turning
 from plantar.sensing.partial_contact import PartialContact
 
 COUNT = 600

@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from plantar import InputError, Outline, concave_outline, rectangle_in_outline, rectangle_in_outline_any_angle
 from plantar.bench.dirty_rings import dirty_ring
 from plantar.geometry.polygon import area
-from plantar.kernels import concave, corridors, is_compiled, node_heap
+from plantar.kernels import is_compiled
+from plantar.kernels.geometry import concave, corridors, node_heap
 from plantar.layouts.tiling import grid_layout, hex_layout
 
 pytestmark = pytest.mark.skipif(not is_compiled("outline_search"), reason="too slow for the interpreted form")

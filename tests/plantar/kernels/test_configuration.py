@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from plantar.kernels import configuration, python_form
+from plantar.kernels import python_form
+from plantar.kernels.joints import configuration
 
 FORMS = (configuration, python_form("configuration"))
 WAYS, SPEEDS, TURNS, RATES = (np.array(a) for a in ([0, 1, 2, 7, 12], [0, 1, 2, 6, 10], [3, 8], [3, 7]))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import contacts_in_sole, foot_contacts, python_form
+from plantar.kernels import python_form
+from plantar.kernels.contacts import contacts_in_sole, foot_contacts
 
 FORMS = (
     (contacts_in_sole, foot_contacts),

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.geometry.polygon import closest_point
-from plantar.kernels import dcm_feedback, python_form
+from plantar.kernels import python_form
+from plantar.kernels.gait import dcm_feedback
 
 FORMS = (dcm_feedback, python_form("dcm_feedback"))
 OMEGA, GAIN, PERIOD, FILTER = 3.4, 2.0, 0.005, 0.02

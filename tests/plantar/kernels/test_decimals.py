@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import kernels
-from plantar.kernels import decimals
+from plantar.kernels.formats import decimals
 
 FORMS = [decimals, kernels.python_form("decimals")]
 

@@ -7,7 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from plantar import InputError, kernels
-from plantar.kernels import floating_base, gyro_bias, rotations
+from plantar.kernels.gait import floating_base, gyro_bias
+from plantar.kernels.mechanics import rotations
 from plantar.mechanics.rotation import (
     heading,
     orthonormalised,

@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import convex, few_points, foot_contacts, ground_reaction, is_compiled, python_form
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.contacts import foot_contacts, ground_reaction
+from plantar.kernels.geometry import convex, few_points
 
 REACH = 5e-4
 OWN = np.array([1, 0, 1, 0, 0], dtype=np.uint8)  # geoms 0 and 2 are the foot's

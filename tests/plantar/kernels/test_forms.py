@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
 from plantar.bench.dirty_rings import dirty_ring
-from plantar.kernels import clean, convex, frames, hull, sole
+from plantar.kernels.geometry import clean, convex, hull
+from plantar.kernels.skin import frames, sole
 
 ROOT = Path(__file__).resolve().parents[3]
 CLEAN, CONVEX, FRAMES, HULL, SOLE = map(kernels.python_form, ("clean", "convex", "frames", "hull", "sole"))
@@ -135,9 +136,9 @@ def test_the_interpreted_form_divides_by_nothing():
 
 
 def test_an_environment_variable_runs_the_sources():
-    code = "from plantar import kernels, polygon\nfrom plantar.kernels import convex\n"
+    code = "from plantar import kernels, polygon\nfrom plantar.kernels.geometry import convex\n"
     code += "print(kernels.compiled, convex.__file__, polygon.area([[0, 0], [2, 0], [2, 1]]))"
-    built = any(Path(kernels.__file__).parent.glob("convex.*.so"))  # whatever form this test itself runs in
+    built = any(Path(kernels.__file__).parent.glob("geometry/convex.*.so"))  # whatever form this test itself runs in
     for wanted, form in (("python", False), ("", built)):
         environment = {**os.environ, "PLANTAR_KERNELS": wanted}
         done = subprocess.run(
@@ -153,6 +154,6 @@ def test_an_environment_variable_runs_the_sources():
 def test_no_extension_is_older_than_its_source():
     old = []
     for name in kernels.KERNELS:
-        source = Path(kernels.__file__).parent / f"{name}.py"
-        old += [p.name for p in source.parent.glob(f"{name}.*.so") if p.stat().st_mtime < source.stat().st_mtime]
+        source = Path(kernels.__file__).parent.joinpath(*name.split(".")).with_suffix(".py")
+        old += [p.name for p in source.parent.glob(f"{source.stem}.*.so") if p.stat().st_mtime < source.stat().st_mtime]
     assert old == [], "compile them again: make setup"

@@ -8,7 +8,8 @@ import scipy.optimize
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import foundation, is_compiled, python_form
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.contacts import foundation
 
 seeds = st.integers(0, 2**32 - 1)
 

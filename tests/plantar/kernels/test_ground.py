@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.kernels import ground, is_compiled, python_form
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.skin import ground
 
 SOLE = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])
 seeds = st.integers(0, 2**32 - 1)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plantar import kernels
-from plantar.kernels import gyro_bias
+from plantar.kernels.gait import gyro_bias
 
 PERIOD, LEAST, LARGEST, TICKS, SLIP, ONE_FOOT, KNOWN = PARAMETERS = (0.005, 0.0125, 0.05, 4, 2e-5, 0.1, 8)
 SHARE, FOLLOW, BAND = STEADY = (0.8, 0.02, 40.0)

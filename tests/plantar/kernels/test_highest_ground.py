@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout, kernels
-from plantar.kernels import highest_ground
+from plantar.kernels.gait import highest_ground
 
 LAYOUT = hex_layout([[-0.1, -0.07], [0.1, -0.07], [0.1, 0.07], [-0.1, 0.07]])
 X, Y = LAYOUT.positions[:, 0].copy(), LAYOUT.positions[:, 1].copy()

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import joint_entries, python_form
+from plantar.kernels import python_form
+from plantar.kernels.joints import joint_entries
 
 
 @pytest.mark.parametrize("module", [joint_entries, python_form("joint_entries")])

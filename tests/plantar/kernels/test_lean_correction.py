@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from plantar import kernels
-from plantar.kernels import lean_correction
+from plantar.kernels.gait import lean_correction
 from plantar.mechanics.rotation import heading, level_rotation, rotation_from_vector, sine_vector
 
 SHARE, SHIFT, TURN = 0.15, 0.06, 0.12

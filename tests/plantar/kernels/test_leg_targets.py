@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import leg_targets, python_form
+from plantar.kernels import python_form
+from plantar.kernels.joints import leg_targets
 
 
 @pytest.mark.parametrize("module", [leg_targets, python_form("leg_targets")])

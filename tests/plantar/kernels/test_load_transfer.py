@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar.kernels import load_transfer, python_form
+from plantar.kernels import python_form
+from plantar.kernels.gait import load_transfer
 
 FORMS = (load_transfer, python_form("load_transfer"))
 MASS, GRAVITY = 60.0, 9.81

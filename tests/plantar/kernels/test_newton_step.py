@@ -5,7 +5,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from plantar import kernels
-from plantar.kernels import newton_step, rotations
+from plantar.kernels.joints import newton_step
+from plantar.kernels.mechanics import rotations
 from plantar.mechanics.rotation import rotation_error
 
 ROUNDING, LEAST = 1e-8, 0.04

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar.geometry.polygon import convex_hull, inner_offset
-from plantar.kernels import is_compiled, pressed_patch, python_form
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.contacts import pressed_patch
 
 seeds = st.integers(0, 2**32 - 1)
 FORMS = (pressed_patch, python_form("pressed_patch"))

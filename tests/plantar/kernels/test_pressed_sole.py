@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.kernels import is_compiled, python_form
-from plantar.kernels.contacts_in_sole import ContactsInSole
-from plantar.kernels.foot_contacts import FootContacts
-from plantar.kernels.pressed_sole import PressedSole
+from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.contacts.pressed_sole import PressedSole
 from sim.sensing import sole_pressure
 from sim.sensing.sole_pressure import SolePressure
 

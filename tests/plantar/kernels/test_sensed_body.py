@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import noise_rows, python_form, sensed_body
+from plantar.kernels import python_form
+from plantar.kernels.sensors import noise_rows, sensed_body
 
 FORMS = (noise_rows, sensed_body), tuple(map(python_form, ("noise_rows", "sensed_body")))
 

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import python_form, setpoints
+from plantar.kernels import python_form
+from plantar.kernels.joints import setpoints
 
 PERIOD, STEP = 0.005, 0.001
 FORMS = (setpoints, python_form("setpoints"))

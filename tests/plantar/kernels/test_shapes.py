@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from plantar import hex_layout
 from plantar.geometry.polygon import convex_hull
-from plantar.kernels import is_compiled, outline, python_form, shapes
+from plantar.kernels import is_compiled, python_form
+from plantar.kernels.geometry import outline, shapes
 from plantar.layouts.cell_edges import edge_table
 
 pytestmark = pytest.mark.skipif(not is_compiled("shapes"), reason="without a compiler there is one form only")
@@ -45,7 +46,7 @@ def same(a, b):
 def test_shapes_of_convex_polygons_agree_to_the_last_bit(seed):
     polygon = np.ascontiguousarray(polygons(seed))
     ours, oracle = shapes.ConvexShapes(False), python_form("shapes").ConvexShapes(True)
-    assert type(ours).__module__ == "plantar.kernels.shapes"
+    assert type(ours).__module__ == "plantar.kernels.geometry.shapes"
     for name in METHODS:
         a, b = getattr(ours, name)(polygon), getattr(oracle, name)(polygon)
         assert same(a[0], b[0]) if isinstance(a, tuple) else same(a, b), name

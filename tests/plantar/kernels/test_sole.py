@@ -12,7 +12,7 @@ from plantar import HexLattice, ReadingError, hex_layout
 from plantar.bench.references import hull_area_exact
 from plantar.geometry.polygon import area, centroid, convex_hull
 from plantar.kernels import python_form
-from plantar.kernels.sole import SoleKernel
+from plantar.kernels.skin.sole import SoleKernel
 from plantar.sensing.health import dead_taxels, saturated_taxels
 
 OUTLINE = [[-0.12, -0.05], [0.12, -0.04], [0.12, 0.04], [-0.12, 0.05]]

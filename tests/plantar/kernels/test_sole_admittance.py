@@ -6,7 +6,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plantar.kernels import python_form, sole_admittance
+from plantar.kernels import python_form
+from plantar.kernels.gait import sole_admittance
 
 FORMS = (sole_admittance, python_form("sole_admittance"))
 PERIOD, SHARE, GAIN, BACK, RELEASE = 0.005, 0.2, 1e-3, 1.0, 8.0

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import ground_rays, noise_rows, python_form, sole_rays
+from plantar.kernels import python_form
+from plantar.kernels.sensors import ground_rays, noise_rows, sole_rays
 
 FORMS = (noise_rows, sole_rays), tuple(map(python_form, ("noise_rows", "sole_rays")))
 LIFT, MOST = 0.02, 0.05

@@ -11,7 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar.kernels import fused, python_form, sole_targets
+from plantar.kernels import python_form
+from plantar.kernels.base import fused
+from plantar.kernels.gait import sole_targets
 
 FORMS = (sole_targets, python_form("sole_targets"))
 numbers = st.floats(-1e200, 1e200) | st.floats(-2.0, 2.0) | st.floats(-1e-160, 1e-160)

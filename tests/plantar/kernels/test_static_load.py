@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import python_form, static_load
+from plantar.kernels import python_form
+from plantar.kernels.joints import static_load
 
 
 @pytest.mark.parametrize("seed", range(6))

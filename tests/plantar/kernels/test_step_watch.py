@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import joint_extremes, python_form, step_watch
+from plantar.kernels import python_form
+from plantar.kernels.judging import joint_extremes, step_watch
 
 
 @pytest.mark.parametrize("module", [step_watch, python_form("step_watch")], ids=["compiled", "python"])

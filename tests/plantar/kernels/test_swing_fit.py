@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plantar import kernels
-from plantar.kernels import swing_fit
+from plantar.kernels.gait import swing_fit
 
 INTERPRETED = kernels.python_form("swing_fit")
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from plantar.kernels import python_form, task_rows
+from plantar.kernels import python_form
+from plantar.kernels.joints import task_rows
 
 FORMS = (task_rows, python_form("task_rows"))
 NV = 11

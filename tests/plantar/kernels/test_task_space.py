@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from plantar import kernels
-from plantar.kernels import task_space
+from plantar.kernels.joints import task_space
 
 INTERPRETED = kernels.python_form("task_space")
 

@@ -10,7 +10,7 @@ import pytest
 from plantar import kernels
 from plantar.kernels import python_form
 
-COMPILED = {name: importlib.import_module(f"plantar.kernels.{name}") for name in kernels.KERNELS}
+COMPILED = {n.rpartition(".")[2]: importlib.import_module(f"plantar.kernels.{n}") for n in kernels.KERNELS}
 
 
 @pytest.mark.parametrize("form", [COMPILED.__getitem__, python_form])

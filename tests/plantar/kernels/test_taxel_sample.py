@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plantar import hex_layout
-from plantar.kernels import noise_rows, python_form, taxel_sample
-from plantar.kernels.contacts_in_sole import ContactsInSole
-from plantar.kernels.foot_contacts import FootContacts
+from plantar.kernels import python_form
+from plantar.kernels.contacts.contacts_in_sole import ContactsInSole
+from plantar.kernels.contacts.foot_contacts import FootContacts
+from plantar.kernels.sensors import noise_rows, taxel_sample
 from sim.sensing.sole_pressure import SolePressure
 
 LAYOUT = hex_layout([[-0.1, -0.05], [0.1, -0.05], [0.1, 0.05], [-0.1, 0.05]])

@@ -7,7 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from plantar.kernels import foot_contacts, ground_reaction, python_form, stand_watch, tick_watch
+from plantar.kernels import python_form
+from plantar.kernels.contacts import foot_contacts, ground_reaction
+from plantar.kernels.judging import stand_watch, tick_watch
 
 PYTHON = tuple(map(python_form, ("foot_contacts", "ground_reaction", "stand_watch", "tick_watch")))
 FORMS = pytest.mark.parametrize(

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plantar.kernels import python_form, rotations, vectors
+from plantar.kernels import python_form
+from plantar.kernels.base import vectors
+from plantar.kernels.mechanics import rotations
 
 NUMBERS = [1.5, -0.0, np.nan, np.inf, 5e-324, -1e300, 0.1, 2.0, 3.0]
 

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from plantar.kernels import python_form, wrench_program
+from plantar.kernels import python_form
+from plantar.kernels.mechanics import wrench_program
 
 FORMS = (wrench_program, python_form("wrench_program"))
 WEIGHT, LENGTH, NET, PRESSURE = 600.0, 0.1, 1e4, 0.3

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from plantar import hex_layout
 from plantar.errors import ReadingError
 from plantar.kernels import python_form
-from plantar.kernels.cut_cells import cut_cells
+from plantar.kernels.geometry.cut_cells import cut_cells
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
 

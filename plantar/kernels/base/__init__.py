@@ -1,0 +1,12 @@
+"""What every kernel may use: the memory of arrays, small vectors, work arrays, fused products, checks of numbers."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext
+from types import SimpleNamespace
+
+__all__ = ["without_cython"]
+
+without_cython = SimpleNamespace(nogil=nullcontext(), gil=nullcontext())
+"""What interpreted kernels find of the module `cython` where it is not installed: a lock is neither released nor taken
+again."""

@@ -1,0 +1,1 @@
+"""Contacts of the simulation, as forces on a sole and its taxels."""

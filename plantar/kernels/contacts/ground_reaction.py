@@ -1,0 +1,102 @@
+"""Kernel of what the ground does to all feet together: wrench, zero moment point, support, and its margin."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..geometry import few_points
+
+__all__ = ["GroundReaction"]
+
+_NONE = float("nan")
+
+
+class GroundReaction:
+    """Sums up the contacts of all feet, again and again.
+
+    Args:
+        height: Height in m of the plane of the ZMP; NaN takes the mean height of the contacts weighted by force.
+        least: Vertical force in N below which there is no ZMP.
+        reach: Largest gap in m of a contact that could carry.
+
+    Attributes:
+        found: Whether there is a ZMP.
+        x: The ZMP in m; NaN where there is none.
+        y: The same.
+        margin: Signed distance in m of the ZMP to the edge of the support, positive inside; NaN likewise.
+    """
+
+    def __init__(self, height, least, reach):
+        self.height = height
+        self.least = least
+        self.reach = reach
+        self.sums = np.zeros(7)
+        self.support = few_points.FewPoints()
+        self.ends = [0]
+        self.found = False
+        self.x = self.y = self.margin = _NONE
+
+    def update(self, feet):
+        """Sum up the contacts as they are now.
+
+        Args:
+            feet: The `FootContacts` of each foot.
+        """
+        for i in range(7):
+            self.sums[i] = 0.0
+        self.support.clear()
+        self.ends = [0]
+        for foot in feet:
+            foot.add_to_ground(self.reach, self.sums, self.support)
+            self.ends.append(self.support.count)
+        self.support.hull(0, self.support.count)
+        self._find_zmp()
+
+    def _find_zmp(self):
+        """The ZMP and its margin, from the sums: force, torque, and the contacts' height times vertical force."""
+        force = self.sums[2]
+        self.found = force >= self.least
+        if not self.found:
+            self.x = self.y = self.margin = _NONE
+            return
+        height = self.height
+        if height != height:
+            height = self.sums[6] / force
+        self.x = (height * self.sums[0] - self.sums[4]) / force
+        self.y = (height * self.sums[1] + self.sums[3]) / force
+        self.margin = self.support.margin(self.x, self.y)
+
+    def area(self, foot):
+        """Area in m^2 of the convex hull of one foot's points of support.
+
+        Args:
+            foot: Number of the foot.
+
+        Returns:
+            The area; 0 of fewer than three points.
+        """
+        first, end, count = self.ends[foot], self.ends[foot + 1], self.support.count
+        if end - first < 3:
+            return 0.0
+        if end - first == count:
+            return self.support.area()
+        self.support.hull(first, end)
+        area = self.support.area()
+        self.support.hull(0, count)
+        return area
+
+    def told(self):
+        """What was found, to keep.
+
+        Returns:
+            Wrench (6,) about the world's origin; the ZMP (x, y) in m or None; the convex hull of the points of support
+            as a list, counter-clockwise; the ZMP's margin in m or None; and the points of support of each foot.
+        """
+        wrench = np.array(self.sums[:6])
+        points = []
+        for foot in range(len(self.ends) - 1):
+            points.append(self.support.points_of(self.ends[foot], self.ends[foot + 1]))
+        ring = self.support.corners_of()
+        if not self.found:
+            return wrench, None, ring, None, tuple(points)
+        return wrench, np.array((self.x, self.y)), ring, self.margin, tuple(points)

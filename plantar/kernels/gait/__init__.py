@@ -1,0 +1,1 @@
+"""A control tick of walking: estimate, balance, feet."""

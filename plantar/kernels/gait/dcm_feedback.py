@@ -1,0 +1,167 @@
+"""Kernel of the DCM feedback: where the desired ZMP lies, and how the CoM reference yields to the ZMP's error.
+
+Plain Python that also compiles ahead of time (`dcm_feedback.pxd` gives the C types). `gait.balance` says where each
+equation comes from, and which law has which part.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..base import memory, vectors
+from ..geometry import convex
+
+__all__ = ["ComAdmittance", "DcmFeedback"]
+
+_SAME = 1e-9  # m: a desired ZMP that its region moves by less is not held back
+
+
+class ComAdmittance:
+    """Offset of the CoM reference from the plan (T 4.29).
+
+    Args:
+        zmp_gain: k_f in 1/s: how fast the CoM reference yields to a ZMP error.
+        com_gain: k_x in 1/s: how fast it returns to the plan.
+        zmp_filter: Time constant in s of the low-pass on the measured ZMP error.
+        period: Control period in s.
+        largest: Length in m that the offset does not exceed, however large gains and errors are.
+
+    Attributes:
+        x: Offset of the CoM reference from the plan along x in m.
+        y: The same along y.
+        rate_x: Its rate along x in m/s.
+        rate_y: The same along y.
+    """
+
+    def __init__(self, zmp_gain, com_gain, zmp_filter, period, largest=math.inf):
+        self.x = self.y = self.rate_x = self.rate_y = 0.0
+        self.error_x = self.error_y = 0.0  # filtered
+        self.zmp_gain = zmp_gain
+        self.com_gain = com_gain
+        self.share = period / (zmp_filter + period)
+        self.period = period
+        self.largest = largest
+
+    @property
+    def offset(self):
+        """Offset (2,) of the CoM reference from the plan in m."""
+        return vectors.vector2(self.x, self.y)
+
+    def update(self, error):
+        """One control tick.
+
+        Args:
+            error: Measured less desired ZMP (2,) in m; zeros where no foot carries load.
+        """
+        self.follow(error[0], error[1])
+
+    def follow(self, x, y):
+        """The same with plain numbers."""
+        # Keeps the noise of the taxels out of the CoM's reference.
+        self.error_x += self.share * (x - self.error_x)
+        self.error_y += self.share * (y - self.error_y)
+        # The second term brings the CoM back onto the plan; without it a bias of the ZMP would add up to a drift.
+        self.rate_x = self.zmp_gain * self.error_x - self.com_gain * self.x
+        self.rate_y = self.zmp_gain * self.error_y - self.com_gain * self.y
+        self.x += self.period * self.rate_x
+        self.y += self.period * self.rate_y
+        size = math.sqrt(self.x * self.x + self.y * self.y)
+        if size > self.largest:
+            self.x, self.y = self.x * (self.largest / size), self.y * (self.largest / size)
+
+
+class DcmFeedback:
+    """Decides on ZMP and CoM at each tick.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        gain: k_xi of T 4.28 in 1/s.
+        integral: Gain in 1/s of the integral of the DCM error, rate in 1/s at which it forgets, and its largest part in
+            m in the desired ZMP.
+        period: Control period in s.
+        admittance: Offset of the CoM reference.
+        yields: Whether the offset follows the ZMP's error.
+        after: Whether the CoM is to be accelerated from where the offset has it after this tick, or before.
+    """
+
+    def __init__(self, omega, gain, integral, period, admittance, yields, after):
+        self.stiffness = omega**2
+        self.factor = 1.0 + gain / omega
+        self.integral_gain, self.forgetting, self.largest = integral
+        self.period = period
+        self.admittance = admittance
+        self.yields = yields
+        self.after = after
+        self.integral_x = self.integral_y = 0.0
+
+    def desired(self, vrp, planned, dcm, region):
+        """Desired ZMP p_d = p_r + (1 + k_xi / w) (xi - xi_r) (T 4.28), with the integral, kept in a region
+        (T Algorithm 1).
+
+        Args:
+            vrp: Planned VRP p_r (2,) in m.
+            planned: Planned DCM xi_r (2,) in m.
+            dcm: Measured DCM xi (2,) in m.
+            region: Convex polygon (k, 2) in m; empty leaves it free.
+
+        Returns:
+            The desired ZMP (2,) in m.
+        """
+        x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, False)
+        return vectors.vector2(x, y)
+
+    def decide(self, vrp, planned, com, com_velocity, dcm, zmp, region):
+        """One control tick.
+
+        Args:
+            vrp: Planned VRP (2,) in m.
+            planned: Planned DCM (2,) in m.
+            com: Planned CoM (2,) in m.
+            com_velocity: Planned velocity (2,) of the CoM in m/s.
+            dcm: Measured DCM (2,) in m.
+            zmp: Measured ZMP (2,) in m; None where no foot carries load.
+            region: Where the desired ZMP has to lie, as of `desired`.
+
+        Returns:
+            Desired ZMP (2,) in m; reference of the CoM (2,) in m, its velocity in m/s; and the acceleration in m/s^2
+            that the desired ZMP asks for.
+        """
+        offset, at, velocity = self.admittance, memory.values(com), memory.values(com_velocity)
+        x, y = self._desired(memory.values(vrp), memory.values(planned), memory.values(dcm), region, True)
+        cx, cy = at[0] + offset.x, at[1] + offset.y
+        if self.yields:
+            if zmp is None:
+                offset.follow(0.0, 0.0)
+            else:
+                now = memory.values(zmp)
+                offset.follow(now[0] - x, now[1] - y)
+        px, py = at[0] + offset.x, at[1] + offset.y
+        if self.after:
+            cx, cy = px, py
+        # The linear inverted pendulum, w^2 (c - p): what the feet shall give, not the derivative of the offset.
+        return (
+            vectors.vector2(x, y),
+            vectors.vector2(px, py),
+            vectors.vector2(velocity[0] + offset.rate_x, velocity[1] + offset.rate_y),
+            vectors.vector2(self.stiffness * (cx - x), self.stiffness * (cy - y)),
+        )
+
+    def _desired(self, vrp, planned, dcm, region, integrates):
+        """The two numbers of `desired`, and the integral after this tick."""
+        ex, ey = dcm[0] - planned[0], dcm[1] - planned[1]
+        x = vrp[0] + self.factor * ex + self.integral_x
+        y = vrp[1] + self.factor * ey + self.integral_y
+        if not len(region):
+            return x, y
+        # No foot can press beside its contact: what is wanted there is cut to what the ground can give.
+        px, py = convex.nearest(region, x, y)
+        # The integral stands still while the region holds the desired ZMP back.
+        if integrates and self.integral_gain > 0.0 and (px - x) * (px - x) + (py - y) * (py - y) < _SAME * _SAME:
+            self.integral_x = self._integrated(self.integral_x, ex)
+            self.integral_y = self._integrated(self.integral_y, ey)
+        return px, py
+
+    def _integrated(self, integral, error):
+        """One coordinate of the integral after a tick with an error of the DCM in m; it forgets, and is limited."""
+        moved = integral + self.period * (self.integral_gain * error - self.forgetting * integral)
+        return min(max(moved, -self.largest), self.largest)

@@ -1,0 +1,387 @@
+"""The kernel of a floating base that is estimated from leg kinematics, IMU and what the soles carry.
+
+Plain Python that also compiles ahead of time (`floating_base.pxd` gives the C types). `gait.estimate.estimator` is the
+public face: it says where each equation comes from. Feet are numbered in the order of `plantar.sides.SIDES`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from plantar.errors import InputError
+
+from ..base import vectors
+from ..mechanics import rotations
+
+__all__ = ["FloatingBase"]
+
+_NONE = float("nan")
+
+
+class FloatingBase:
+    """A base that turns with the gyro, moves as the feet that carry say, and the velocity of its CoM.
+
+    The arrays of its state belong to the caller, who reads them after each tick; this object keeps them and writes
+    them.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        period: Control period in s.
+        gravity: Acceleration of gravity in m/s^2.
+        gains: Averaging in s, correction of tilt and of heading in 1/s, bandwidth of the observer in rad/s, and least
+            load in N, as of `EstimatorGains`.
+        state: Arrays that receive the rotation (3, 3) from the base frame to the world, the base position (3,) in m,
+            the CoM (3,) in m, its velocity (3,) in m/s, the origin of each sole frame (2, 3) in the world in m, the
+            rotation (2, 3, 3) from each sole frame to the world, the composite ZMP (2,) in m, NaN without load, and
+            the angle (3,) in the base frame in rad by which soles that stand still say the base has turned.
+        bias: `gyro_bias.GyroBias` that identifies the gyro's bias; None takes the gyro at its word.
+        steady: `SteadyLoad` that tells which feet stand still for that; None takes all that are loaded.
+    """
+
+    def __init__(self, omega, period, gravity, gains, state, bias=None, steady=None):
+        self.omega, self.period, self.gravity = omega, period, gravity
+        self.averaging, self.tilt_rate, self.yaw_rate, self.bandwidth, self.minimum_load = gains
+        self.rotation, self.position, self.com, self.velocity = state[:4]
+        self.places, self.turns, self.zmp, self.stood = state[4:]
+        self.bias, self.steady = bias, steady
+        self.samples = 0
+        self.astray = 0.0
+        self.headings = np.full(2, _NONE)
+        self.com_in_base = np.zeros(3)
+        self.places_in_base, self.turns_in_base = np.zeros((2, 2, 3)), np.zeros((2, 2, 3, 3))  # now, a tick ago
+        self.loads, self.pressed, self.cops = np.zeros(2), np.zeros(2, dtype=np.uint8), np.zeros((2, 2))
+        self.before, self.matrix, self.work = np.eye(3), np.zeros((3, 3)), np.zeros((3, 3))
+        self.vector, self.other = np.zeros(3), np.zeros(3)
+        self.rate, self.specific, self.planned = np.zeros(3), np.zeros(3), np.zeros(2)
+        self.watch(*np.zeros((3, 3)), *np.zeros((2, 3, 3)))
+
+    def watch(self, com, left, right, turn_left, turn_right):
+        """Keep the arrays of a posture: `take` reads them at each tick, whoever writes them.
+
+        Args:
+            com: CoM (3,) in the base frame in m.
+            left: Origin of the left sole frame (3,) in the base frame in m.
+            right: The same of the right one.
+            turn_left: Rotation (3, 3) from the left sole frame to the base frame.
+            turn_right: The same of the right one.
+        """
+        self.com_now, self.left_now, self.right_now = com, left, right
+        self.turn_left_now, self.turn_right_now = turn_left, turn_right
+
+    def take(self):
+        """Take in the posture of this tick; that of the tick before is kept beside it."""
+        com, left, right = self.com_now, self.left_now, self.right_now
+        turn_left, turn_right = self.turn_left_now, self.turn_right_now
+        places, turns = self.places_in_base, self.turns_in_base
+        for i in range(3):
+            self.com_in_base[i] = com[i]
+            for side in range(2):
+                places[1, side, i] = places[0, side, i]
+            places[0, 0, i], places[0, 1, i] = left[i], right[i]
+            for j in range(3):
+                for side in range(2):
+                    turns[1, side, i, j] = turns[0, side, i, j]
+                turns[0, 0, i, j], turns[0, 1, i, j] = turn_left[i, j], turn_right[i, j]
+
+    def stand(self, rotation, position, heading_left, heading_right):
+        """Stand somewhere with the posture that was taken in last.
+
+        Args:
+            rotation: Rotation (3, 3) from the base frame to the world.
+            position: Base position (3,) in m.
+            heading_left: Heading of the left foot in rad.
+            heading_right: The same of the right one.
+        """
+        for i in range(3):
+            self.position[i] = position[i]
+            for j in range(3):
+                self.rotation[i, j] = self.before[i, j] = rotation[i, j]
+        rotations.turn(self.rotation, self.com_in_base, self.vector)
+        for i in range(3):
+            self.com[i] = self.position[i] + self.vector[i]
+        self.headings[0], self.headings[1] = heading_left, heading_right
+
+    def rest(self):
+        """The robot has not moved: its velocity is nothing, and its heading is right."""
+        self.velocity[0] = self.velocity[1] = self.velocity[2] = 0.0
+        self.astray = 0.0
+
+    def carry(self, side, load, pressed, x, y):
+        """Take in what a foot carries at this tick, which all that follows goes by.
+
+        Args:
+            side: The foot.
+            load: Vertical force on it in N.
+            pressed: Whether it has a centre of pressure.
+            x: That in the sole frame in m.
+            y: The same.
+        """
+        self.loads[side], self.pressed[side] = load, pressed
+        self.cops[side, 0], self.cops[side, 1] = x, y
+
+    def follow(self, gyro_x, gyro_y, gyro_z, specific_x, specific_y, specific_z, planned_x, planned_y):
+        """Take in the posture of this tick, and turn and move the base by the tick.
+
+        Args:
+            gyro_x: Angular velocity about the base's x in rad/s, as measured.
+            gyro_y: The same about y.
+            gyro_z: The same about z.
+            specific_x: Specific force along the base's x in m/s^2.
+            specific_y: The same along y.
+            specific_z: The same along z.
+            planned_x: Acceleration of the CoM along the world's x in m/s^2 that the plan asks for.
+            planned_y: The same along y.
+
+        Returns:
+            The ZMP, as `place`.
+        """
+        self.take()
+        rate, bias = self.rate, self.bias
+        rate[0], rate[1], rate[2] = gyro_x, gyro_y, gyro_z
+        self.specific[0], self.specific[1], self.specific[2] = specific_x, specific_y, specific_z
+        self.planned[0], self.planned[1] = planned_x, planned_y
+        if bias is None:
+            self.turn(rate, self.specific, self.planned, False, None)
+        else:
+            self._identify(gyro_x, gyro_y, gyro_z)
+            for i in range(3):
+                rate[i] -= bias.value[i]
+            self.turn(rate, self.specific, self.planned, True, bias.missed if bias.concluded else None)
+        self.move()
+        return self.place()
+
+    def _identify(self, gyro_x, gyro_y, gyro_z):
+        """Hold the gyro against the feet that stand still."""
+        left = max(0.0, self.loads[0] - self.minimum_load)
+        right = max(0.0, self.loads[1] - self.minimum_load)
+        steady, stood = self.steady, self.stood
+        if steady is not None:
+            steady.update(left, right)
+            left, right = steady.left, steady.right
+        stands = self.stand_still(left, right)
+        both = left > 0.0 and right > 0.0
+        self.bias.update(gyro_x, gyro_y, gyro_z, stands, stood[0], stood[1], stood[2], both)
+
+    def stand_still(self, weight_left, weight_right):
+        """How soles that stand still say the base has turned in this tick: sin a of R_s(k-1) R_s(k)^T, weighted.
+
+        Args:
+            weight_left: Weight of the left foot; 0 or less for one that does not stand still.
+            weight_right: The same of the right one.
+
+        Returns:
+            Whether one does; the angle is zero where none does.
+        """
+        turns, stood = self.turns_in_base, self.stood
+        total = sx = sy = sz = 0.0
+        for side in range(2):
+            weight = weight_left if side == 0 else weight_right
+            if not weight > 0.0:
+                continue
+            x = y = z = 0.0
+            for k in range(3):
+                x += turns[1, side, 2, k] * turns[0, side, 1, k] - turns[1, side, 1, k] * turns[0, side, 2, k]
+                y += turns[1, side, 0, k] * turns[0, side, 2, k] - turns[1, side, 2, k] * turns[0, side, 0, k]
+                z += turns[1, side, 1, k] * turns[0, side, 0, k] - turns[1, side, 0, k] * turns[0, side, 1, k]
+            sx += weight * x
+            sy += weight * y
+            sz += weight * z
+            total += weight
+        if not total > 0.0:
+            stood[0] = stood[1] = stood[2] = 0.0
+            return False
+        stood[0], stood[1], stood[2] = 0.5 * sx / total, 0.5 * sy / total, 0.5 * sz / total
+        return True
+
+    def turn(self, rate, accelerometer, planned, by_legs, missed):
+        """Turn the base by one tick.
+
+        Args:
+            rate: Angular velocity (3,) in the base frame in rad/s, less the gyro's bias.
+            accelerometer: Specific force (3,) in the base frame in m/s^2.
+            planned: Horizontal acceleration (2,) of the CoM in m/s^2 that the plan asks for; None for none.
+            by_legs: Whether the heading goes by `missed`, as where the gyro's bias is identified; else by the feet.
+            missed: Angle (3,) in the base frame in rad by which the legs turned more than the gyro said; None for none.
+        """
+        rotation, specific, vector, before = self.rotation, self.other, self.vector, self.before
+        rx, ry, rz = rate[0], rate[1], rate[2]
+        for i in range(3):
+            vector[i] = accelerometer[i]
+        rotations.turn(rotation, vector, specific)
+        # Gravity: the specific force minus the body's acceleration points up.
+        x, y, z = specific[0], specific[1], specific[2]
+        if planned is not None:
+            x -= planned[0]
+            y -= planned[1]
+        size = math.sqrt(x * x + y * y + z * z)
+        # An impact says nothing of what is up.
+        if 0.7 * self.gravity < size < 1.3 * self.gravity:
+            # While the robot holds still, the running mean of what came so far; then a slow filter. (Balance control
+            # has to wait that long: it would sway the robot by a wrong tilt and the sway would look like more tilt.)
+            self.samples += 1
+            since = self.period * (self.samples + 1)
+            gain = 1.0 / since if since < self.averaging else self.tilt_rate
+            x, y = gain * y / size, -gain * x / size  # specific force x up
+            rx += rotation[0, 0] * x + rotation[1, 0] * y
+            ry += rotation[0, 1] * x + rotation[1, 1] * y
+            rz += rotation[0, 2] * x + rotation[1, 2] * y
+        if by_legs:
+            if missed is not None:
+                self.astray -= rotation[2, 0] * missed[0] + rotation[2, 1] * missed[1] + rotation[2, 2] * missed[2]
+            error = self.astray
+            self.astray -= self.period * self.yaw_rate * error
+        else:
+            error = self._heading_error()
+        rx -= self.yaw_rate * error * rotation[2, 0]
+        ry -= self.yaw_rate * error * rotation[2, 1]
+        rz -= self.yaw_rate * error * rotation[2, 2]
+        for i in range(3):
+            for j in range(3):
+                before[i, j] = rotation[i, j]
+        rotations.exponential(self.period * rx, self.period * ry, self.period * rz, self.work)
+        rotations.multiply(before, self.work, self.matrix)
+        # Rounding would make the product of thousands of rotations shrink or shear.
+        rotations.orthonormalise(self.matrix, self.work, rotation)
+
+    def _heading_error(self):
+        """How far in rad the heading is ahead of that which each foot had when it came to carry."""
+        rotation, headings, turns = self.rotation, self.headings, self.turns_in_base
+        total = error = 0.0
+        for side in range(2):
+            weight = self.loads[side] - self.minimum_load
+            if not weight > 0.0:
+                headings[side] = _NONE
+                continue
+            x = y = 0.0
+            for k in range(3):
+                x += rotation[0, k] * turns[0, side, k, 0]
+                y += rotation[1, k] * turns[0, side, k, 0]
+            yaw = math.atan2(y, x)
+            if math.isnan(headings[side]):
+                # The heading that the foot has when it comes to carry is held against the gyro, which drifts about the
+                # vertical.
+                headings[side] = yaw
+            # Weights begin at zero, so that a foot joins and leaves without a jump.
+            error += weight * math.remainder(yaw - headings[side], 2.0 * math.pi)
+            total += weight
+        return error / total if total > 0.0 else 0.0
+
+    def move(self):
+        """Move the base by one tick, as the feet that carry say."""
+        sx = sy = sz = total = 0.0
+        before, now, vector, other, cops = self.before, self.rotation, self.vector, self.other, self.cops
+        for side in range(2):
+            weight = self.loads[side] - self.minimum_load
+            if not (self.pressed[side] and weight > 0.0):
+                continue
+            # The point of the sole that carries does not move while it rolls over the ground: its apparent move is the
+            # base's.
+            self._point(1, side, cops[side, 0], cops[side, 1], other)
+            rotations.turn(before, other, vector)
+            sx += weight * vector[0]
+            sy += weight * vector[1]
+            sz += weight * vector[2]
+            self._point(0, side, cops[side, 0], cops[side, 1], other)
+            rotations.turn(now, other, vector)
+            sx -= weight * vector[0]
+            sy -= weight * vector[1]
+            sz -= weight * vector[2]
+            total += weight
+        if total > 0.0:
+            self.position[0] += sx / total
+            self.position[1] += sy / total
+            self.position[2] += sz / total
+        else:
+            # No foot carries: the body goes on as it went.
+            for i in range(3):
+                self.position[i] += self.period * self.velocity[i]
+
+    def _point(self, past, side, x, y, out):
+        """A point of a sole in the base frame, now (0) or a tick ago (1)."""
+        places, turns = self.places_in_base, self.turns_in_base
+        for i in range(3):
+            out[i] = places[past, side, i] + turns[past, side, i, 0] * x + turns[past, side, i, 1] * y
+
+    def place(self):
+        """Where the soles are in the world, and the ZMP of what they carry.
+
+        Returns:
+            The ZMP in a new array (2,) in m; None where they carry nothing.
+
+        Raises:
+            InputError: If what they carry, or where, is not finite.
+        """
+        loads, cops = self.loads, self.cops
+        rotation, position, places, turns = self.rotation, self.position, self.places, self.turns
+        total = x = y = 0.0
+        for side in range(2):
+            for i in range(3):
+                places[side, i] = position[i]
+                for k in range(3):
+                    places[side, i] += rotation[i, k] * self.places_in_base[0, side, k]
+            rotations.multiply(rotation, self.turns_in_base[0, side], turns[side])
+            load = loads[side]
+            if self.pressed[side] and load > 0.0:
+                total += load
+                x += load * (places[side, 0] + turns[side, 0, 0] * cops[side, 0] + turns[side, 0, 1] * cops[side, 1])
+                y += load * (places[side, 1] + turns[side, 1, 0] * cops[side, 0] + turns[side, 1, 1] * cops[side, 1])
+        if not total > 0.0:
+            self.zmp[0] = self.zmp[1] = _NONE
+            return None
+        x, y = x / total, y / total
+        if not math.isfinite(x + y):
+            raise InputError("the ZMP or the vertical force of a foot is not finite")
+        self.zmp[0], self.zmp[1] = x, y
+        return vectors.vector2(x, y)
+
+    def snapshot(self):
+        """The state in new arrays, which stay as they are.
+
+        Returns:
+            Rotation (3, 3) from the base frame to the world, base position (3,) in m, CoM (3,) in m, its velocity (3,)
+            in m/s, origin (3,) of the left sole frame and of the right one in the world in m, rotation (3, 3) from the
+            left sole frame to the world and from the right one.
+        """
+        places, turns = self.places, self.turns
+        return (
+            _matrix(self.rotation),
+            _vector(self.position),
+            _vector(self.com),
+            _vector(self.velocity),
+            _vector(places[0]),
+            _vector(places[1]),
+            _matrix(turns[0]),
+            _matrix(turns[1]),
+        )
+
+    def observe(self, push_x, push_y):
+        """Observe CoM and its velocity for one tick, with the acceleration in m/s^2 that a push gives."""
+        com, velocity, zmp, period = self.com, self.velocity, self.zmp, self.period
+        # Gains 2 b and b^2: with the pendulum's own fall the observer's poles lie at -b +- omega.
+        near = min(1.0, 2.0 * self.bandwidth * period)
+        fast = min(1.0, self.bandwidth * self.bandwidth * period)
+        rotations.turn(self.rotation, self.com_in_base, self.vector)
+        for i in range(3):
+            acceleration = 0.0
+            if i < 2:
+                # Predicted by the pendulum over the measured ZMP; the kinematics corrects it.
+                if not math.isnan(zmp[i]):
+                    acceleration = self.omega * self.omega * (com[i] - zmp[i])
+                acceleration += push_x if i == 0 else push_y
+            com[i] += period * velocity[i]
+            velocity[i] += period * acceleration
+            error = self.position[i] + self.vector[i] - com[i]
+            com[i] += near * error
+            velocity[i] += fast * error
+
+
+def _vector(v):
+    """A new array of the same (3,)."""
+    return vectors.vector(v[0], v[1], v[2])
+
+
+def _matrix(m):
+    """A new array of the same (3, 3)."""
+    return vectors.matrix(m[0, 0], m[0, 1], m[0, 2], m[1, 0], m[1, 1], m[1, 2], m[2, 0], m[2, 1], m[2, 2])

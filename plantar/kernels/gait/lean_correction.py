@@ -1,0 +1,115 @@
+"""The kernel that keeps a swing foot where it is wanted in the world while the body leans.
+
+Plain Python that also compiles ahead of time (`lean_correction.pxd` gives the C types).
+`gait.feet.posture_compensation` is the public face, with the equation.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..base import fused, memory
+from ..mechanics import rotations
+
+__all__ = ["correct", "headed", "turned"]
+
+
+def headed(rotation, yaw):
+    """A rotation with another heading: turned about the vertical until its x axis points there, seen from above.
+
+    Args:
+        rotation: Rotation (3, 3) to the world.
+        yaw: The heading in rad.
+
+    Returns:
+        A new rotation (3, 3), its product with the turn summed as BLAS does (`fused`).
+    """
+    r, made = memory.values(rotation), memory.new_matrix(3, 3)
+    out = memory.room(made)
+    angle = yaw - math.atan2(r[3], r[0])
+    c, s = math.cos(angle), math.sin(angle)
+    for j in range(3):
+        x, y, z = r[j], r[3 + j], r[6 + j]
+        out[j] = fused.multiply_add(0.0, z, fused.multiply_add(-s, y, c * x))
+        out[3 + j] = fused.multiply_add(0.0, z, fused.multiply_add(c, y, s * x))
+        out[6 + j] = fused.multiply_add(1.0, z, fused.multiply_add(0.0, y, 0.0 * x))
+    return made
+
+
+def turned(turn, rotation):
+    """A rotation after a turn.
+
+    Args:
+        turn: Rotation vector (3,) in rad.
+        rotation: Rotation (3, 3) to the frame of the turn.
+
+    Returns:
+        A new rotation (3, 3), summed likewise.
+    """
+    t, r, made = memory.values(turn), memory.values(rotation), memory.new_matrix(3, 3)
+    out = memory.room(made)
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = rotations._exponential(t[0], t[1], t[2])
+    for j in range(3):
+        x, y, z = r[j], r[3 + j], r[6 + j]
+        out[j] = fused.multiply_add(xz, z, fused.multiply_add(xy, y, xx * x))
+        out[3 + j] = fused.multiply_add(yz, z, fused.multiply_add(yy, y, yx * x))
+        out[6 + j] = fused.multiply_add(zz, z, fused.multiply_add(zy, y, zx * x))
+    return made
+
+
+def correct(
+    position, place, com_command, com_estimated, command, estimated, kept, largest_shift, largest_turn, weight, share,
+    shift, turn,
+):  # fmt: skip
+    """One control tick of the correction's low pass.
+
+    Args:
+        position: Wanted sole position (3,) in the command frame in m.
+        place: The same point in the world frame in m.
+        com_command: CoM reference (3,) in the command frame in m.
+        com_estimated: Estimated CoM (3,) in the world frame in m.
+        command: Commanded torso orientation (3, 3).
+        estimated: Estimated torso orientation (3, 3), heading as commanded.
+        kept: What the foot was commanded farther (3,) in m.
+        largest_shift: Largest correction of the position in m.
+        largest_turn: Largest correction of the orientation in rad.
+        weight: How much of the correction counts, 0 to 1.
+        share: Share of a new correction in the low pass.
+        shift: Correction of the position (3,) in m, moved on by one tick.
+        turn: Correction of the orientation (3,) in rad, moved on by one tick.
+    """
+    p, q, c, e = memory.values(position), memory.values(place), memory.values(com_command), memory.values(com_estimated)
+    k, by, turned = memory.values(kept), memory.room(shift), memory.room(turn)
+    dx, dy, dz = q[0] - e[0], q[1] - e[1], q[2] - e[2]
+    # R_command R_estimated^T; only its antisymmetric part is a turn.
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _between(memory.values(command), memory.values(estimated))
+    sx = c[0] + (xx * dx + xy * dy + xz * dz) - p[0]
+    sy = c[1] + (yx * dx + yy * dy + yz * dz) - p[1]
+    sz = c[2] + (zx * dx + zy * dy + zz * dz) - p[2]
+    # The sine instead of the angle: the leans are small, and it has no singularity to guard.
+    tx, ty, tz = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
+    size = math.sqrt(sx * sx + sy * sy + sz * sz)
+    scale = 1.0 if size <= largest_shift else largest_shift / size
+    by[0] += share * (weight * (scale * sx + k[0]) - by[0])
+    by[1] += share * (weight * (scale * sy + k[1]) - by[1])
+    by[2] += share * (weight * (scale * sz + k[2]) - by[2])
+    size = math.sqrt(tx * tx + ty * ty + tz * tz)
+    scale = 1.0 if size <= largest_turn else largest_turn / size
+    turned[0] += share * (weight * scale * tx - turned[0])
+    turned[1] += share * (weight * scale * ty - turned[1])
+    turned[2] += share * (weight * scale * tz - turned[2])
+
+
+def _between(a, b):
+    """Product of a matrix and another's transpose, A B^T, as of `rotations.between`, of their values row by row."""
+    return (
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
+        a[0] * b[3] + a[1] * b[4] + a[2] * b[5],
+        a[0] * b[6] + a[1] * b[7] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[1] + a[5] * b[2],
+        a[3] * b[3] + a[4] * b[4] + a[5] * b[5],
+        a[3] * b[6] + a[4] * b[7] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[1] + a[8] * b[2],
+        a[6] * b[3] + a[7] * b[4] + a[8] * b[5],
+        a[6] * b[6] + a[7] * b[7] + a[8] * b[8],
+    )

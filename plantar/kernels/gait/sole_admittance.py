@@ -1,0 +1,86 @@
+"""Kernel of foot damping: one sole that yields until it carries what it shall.
+
+Plain Python that also compiles ahead of time (`sole_admittance.pxd` gives the C types).
+`gait.balance.foot_admittance` is the public face: it says why, and lets two feet share a load.
+"""
+
+from __future__ import annotations
+
+from ..base import memory
+
+__all__ = ["SoleAdmittance"]
+
+_NONE = 1e-7  # rad and m: below what any servo resolves a correction that fades is exactly none
+
+
+class SoleAdmittance:
+    """Correction of one commanded sole.
+
+    Args:
+        period: Control period in s.
+        share: Share of a new measurement in its low pass.
+        turn_gain: Turning rate in rad/s for each N m of moment error.
+        back: Rate in 1/s at which the correction returns to zero while the foot stands.
+        release: Rate in 1/s at which it does in the air.
+        largest_turn: Largest turn about an axis in rad.
+        largest_lift: Largest shift in m.
+
+    Attributes:
+        roll: Turn about the sole's x axis in rad.
+        pitch: Turn about its y axis in rad.
+        shift: Shift upwards in m.
+    """
+
+    def __init__(self, period, share, turn_gain, back, release, largest_turn, largest_lift):
+        self.period = period
+        self.share = share
+        self.turn_gain = turn_gain
+        self.back = back
+        self.keep = max(0.0, 1.0 - release * period)
+        self.largest_turn = largest_turn
+        self.largest_lift = largest_lift
+        self.roll = self.pitch = self.shift = 0.0
+        self.stands = False
+        self.fz = self.tx = self.ty = 0.0
+
+    def fade(self):
+        """One tick in the air."""
+        # There is no load to compare with, and the filter must begin anew at touchdown.
+        self.stands = False
+        self.roll, self.pitch, self.shift = self.keep * self.roll, self.keep * self.pitch, self.keep * self.shift
+        # An exponential never ends.
+        if abs(self.roll) + abs(self.pitch) + abs(self.shift) < _NONE:
+            self.roll = self.pitch = self.shift = 0.0
+
+    def turn(self, measured, wanted):
+        """Turn by one tick under load, until the sole feels the moments that it shall.
+
+        Args:
+            measured: Wrench (6,) on the sole in its frame in N and N m.
+            wanted: What it shall be (6,).
+
+        Returns:
+            Error in N of the normal force.
+        """
+        now, goal = memory.values(measured), memory.values(wanted)
+        # Only fz, tx and ty: a sole turns and lifts for these; friction carries the other three.
+        fz, tx, ty = now[2], now[3], now[4]
+        if self.stands:
+            fz = self.fz + self.share * (fz - self.fz)
+            tx = self.tx + self.share * (tx - self.tx)
+            ty = self.ty + self.share * (ty - self.ty)
+        self.stands, self.fz, self.tx, self.ty = True, fz, tx, ty
+        self.roll = self._moved(self.roll, self.turn_gain * (tx - goal[3]), self.largest_turn)
+        self.pitch = self._moved(self.pitch, self.turn_gain * (ty - goal[4]), self.largest_turn)
+        return fz - goal[2]
+
+    def lift(self, rate):
+        """Shift by one tick under load, at a rate in m/s upwards."""
+        self.shift = self._moved(self.shift, rate, self.largest_lift)
+
+    def _moved(self, value, rate, largest):
+        """A correction after one tick at a rate, drawn back to zero and limited."""
+        value += self.period * (rate - self.back * value)
+        if not value > -largest:
+            value = -largest
+        return value if value < largest else largest

@@ -1,0 +1,1 @@
+"""Hulls, polygons, outlines and what fits into them."""

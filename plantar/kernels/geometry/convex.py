@@ -1,0 +1,427 @@
+"""Kernels on one convex polygon: area, centroid, closest point, margin, inner offset.
+
+Plain Python that also compiles ahead of time: `convex.pxd` beside it gives the C types. Both forms do the same
+operations in the same order and agree to the last bit. `plantar.polygon` is the public face, with units and examples;
+here points are float64 arrays (n, 2), strided or not, and polygons have no repeated last point.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..base import memory, vectors
+from . import clean
+
+__all__ = [
+    "OffsetRoom",
+    "area",
+    "area_and_centroid",
+    "closest_point",
+    "inner_offset",
+    "nearest",
+    "offset",
+    "seen_from_above",
+    "signed_margin",
+]
+
+_LARGEST = 1e100  # coordinates in m beyond this are taken for not finite: their products would overflow
+_INFINITE = float("inf")
+_NONE = float("nan")
+_NOISE = 1e-15  # of a polygon's extent: corners of its inner offset that are nearer to each other are one
+_FEW = 64  # vertices: room for polygons of up to so many is kept
+
+
+def area(polygon):
+    """Signed area by the shoelace formula about the first vertex.
+
+    Reference: exact fractions. The error is below 1e-15 times the number of vertices times the square of the extent,
+    whatever the distance from the origin.
+
+    Args:
+        polygon: Polygon (k, 2) in m, simple.
+
+    Returns:
+        Area in m^2, positive for counter-clockwise; 0 for fewer than 3 vertices.
+    """
+    total = 0.0
+    k = polygon.shape[0]
+    if k < 3:
+        return 0.0
+    x0, y0 = polygon[0, 0], polygon[0, 1]
+    ax, ay = polygon[1, 0] - x0, polygon[1, 1] - y0
+    for i in range(2, k):
+        bx, by = polygon[i, 0] - x0, polygon[i, 1] - y0
+        total += ax * by - bx * ay
+        ax, ay = bx, by
+    return 0.5 * total
+
+
+def area_and_centroid(polygon):
+    """Signed area, and the centroid of the area.
+
+    Reference: exact fractions; the centroid's error is below 1e-15 times the extent, for thin polygons divided by
+    their width over length.
+
+    Args:
+        polygon: Polygon (k, 2) in m, simple, k 1 or more.
+
+    Returns:
+        Area in m^2 as `area` gives it, and x and y of the centroid in m: the mean of the vertices where the area is 0.
+    """
+    k = polygon.shape[0]
+    x0, y0 = polygon[0, 0], polygon[0, 1]
+    total = cx = cy = mx = my = size = ax = ay = 0.0
+    for i in range(1, k):
+        bx, by = polygon[i, 0] - x0, polygon[i, 1] - y0
+        cross = ax * by - bx * ay
+        total += cross
+        cx += (ax + bx) * cross
+        cy += (ay + by) * cross
+        mx += bx
+        my += by
+        size = max(size, max(abs(bx), abs(by)))
+        ax, ay = bx, by
+    if abs(total) <= 1e-14 * size * size:
+        return 0.5 * total, x0 + mx / k, y0 + my / k
+    return 0.5 * total, x0 + cx / (3.0 * total), y0 + cy / (3.0 * total)
+
+
+def _nearest(polygon, turn, x, y):
+    """Signed margin and closest point (T Algorithm 1), as three numbers.
+
+    Args:
+        polygon: Ring (k, 2) in m: clean, or of 1 or 2 vertices.
+        turn: 1.0 where it goes round counter-clockwise, else -1.0.
+        x: The point in m; likewise y.
+    """
+    k = polygon.shape[0]
+    if not (abs(x) <= _LARGEST and abs(y) <= _LARGEST):
+        return _NONE, _NONE, _NONE
+    inside = k > 2
+    deepest = best = _INFINITE
+    span = 0.0
+    ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
+    for i in range(k):
+        bx, by = polygon[i, 0], polygon[i, 1]
+        lx, ly = bx - ax, by - ay
+        length2 = lx * lx + ly * ly
+        across = turn * ((x - ax) * ly - (y - ay) * lx)  # (d x l)_z, above 0 outside
+        if across > 0.0:
+            inside = False
+            break
+        span += length2
+        if length2 > 0.0:
+            deepest = min(deepest, -across / math.sqrt(length2))
+        ax, ay = bx, by
+    if inside and (deepest * deepest > 1e-27 * k * span or abs(area(polygon)) > 1e-14 * span):
+        return deepest, x, y  # else it has no area, and nothing is inside
+    # Every edge counts: where several are on one line, rounding decides which of them a point lies outside of.
+    qx, qy = polygon[0, 0], polygon[0, 1]
+    ax, ay = polygon[k - 1, 0], polygon[k - 1, 1]
+    for i in range(k):
+        bx, by = polygon[i, 0], polygon[i, 1]
+        lx, ly = bx - ax, by - ay
+        along = (x - ax) * lx + (y - ay) * ly
+        length2 = lx * lx + ly * ly
+        if along <= 0.0:
+            px, py = ax, ay
+        elif along >= length2:
+            px, py = bx, by
+        else:
+            t = along / length2
+            px, py = ax + t * lx, ay + t * ly
+        distance2 = (x - px) * (x - px) + (y - py) * (y - py)
+        if distance2 < best:
+            best = distance2
+            qx, qy = px, py
+        ax, ay = bx, by
+    return -math.sqrt((x - qx) * (x - qx) + (y - qy) * (y - qy)), qx, qy
+
+
+def _nearest_of_any(polygon, x, y):
+    """`_nearest` of the ring that counts of any one (see `clean`); -inf and NaN where nothing is left of it."""
+    turn = clean.turning(polygon, 0.0, 0.0, 0.0)
+    if turn != 0:
+        return _nearest(polygon, turn, x, y)
+    ring = clean.clean_ring(polygon, 0.0, 0.0, 0.0)
+    corners = ring
+    if corners.shape[0] == 0:
+        return -_INFINITE, _NONE, _NONE
+    return _nearest(corners, 1.0, x, y)
+
+
+def closest_point(polygon, x, y):
+    """Point of a convex polygon that is closest to a given one (T Algorithm 1, corrected: either orientation).
+
+    Reference: the smallest of the distances to all edges of the vertices' hull, in exact fractions. The error is below
+    1e-15 of the largest distance between the point and a vertex, and a rounding of the coordinates.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m.
+        x: The point in m.
+        y: The same.
+
+    Returns:
+        The closest point (2,), the point itself where it is inside; NaN where the point, or no vertex, is finite.
+    """
+    qx, qy = nearest(polygon, x, y)
+    return vectors.vector2(qx, qy)
+
+
+def nearest(polygon, x, y):
+    """`closest_point` as two numbers."""
+    room = _borrow(0)  # of a polygon of more than a few vertices its buffer is read
+    _margin, qx, qy = _nearest_of_any(_entered(polygon, room), x, y)
+    _FREE.append(room)
+    return qx, qy
+
+
+def signed_margin(polygon, x, y):
+    """Signed distance of a point to the edge of a convex polygon; reference and error as `closest_point`.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m, either orientation.
+        x: The point in m.
+        y: The same.
+
+    Returns:
+        Distance in m, positive inside, negative outside; NaN where the point is not finite, -inf where no vertex is.
+    """
+    room = _borrow(0)
+    margin, _qx, _qy = _nearest_of_any(_entered(polygon, room), x, y)
+    _FREE.append(room)
+    return margin
+
+
+def seen_from_above(polygon, rotation, position):
+    """A polygon of one frame's x-y plane, turned, shifted and seen along the other frame's z axis.
+
+    Args:
+        polygon: Polygon (k, 2) in m.
+        rotation: Rotation (3, 3) from its frame to the other.
+        position: Position (3,) of its frame's origin in the other in m.
+
+    Returns:
+        Polygon (k, 2) in the other frame in m.
+    """
+    out = np.empty((polygon.shape[0], 2))
+    _place(polygon, rotation, position, out)
+    return out
+
+
+def _place(polygon, rotation, position, out):
+    """`seen_from_above` into an array."""
+    for i in range(polygon.shape[0]):
+        x, y = polygon[i, 0], polygon[i, 1]
+        out[i, 0] = rotation[0, 0] * x + rotation[0, 1] * y + position[0]
+        out[i, 1] = rotation[1, 0] * x + rotation[1, 1] * y + position[1]
+
+
+class OffsetRoom:
+    """What one inner offset works in at a time.
+
+    Args:
+        corners: Largest number of vertices of a polygon that fits.
+    """
+
+    def __init__(self, corners):
+        room = 2 * corners + 8
+        self.given = np.zeros((corners, 2))
+        self.lines = np.zeros((corners, 3))
+        self.rings = np.zeros((3, room, 3))
+        self.result = np.zeros((room, 2))
+
+    def copied(self, size):
+        """The polygon of `size` vertices that `offset` left in `result`, as an array of its own."""
+        return vectors.points_of(self.result, size)
+
+
+_FREE: list = []  # type: ignore[type-arg]  # rooms for `_FEW` vertices that no call has borrowed
+
+
+def _borrow(corners):
+    """A room for so many vertices: for a few a kept one, which is to be put back into `_FREE`."""
+    if corners > _FEW:
+        return OffsetRoom(corners)
+    try:
+        return _FREE.pop()
+    except IndexError:
+        return OffsetRoom(_FEW)
+
+
+def _entered(polygon, room):
+    """A polygon (k, 2) where loops read it: copied into a room with space for it, which takes a tenth of the time that
+    an array is asked for its buffer; one that is strided or of another kind is asked."""
+    k = memory.rows(polygon, 2)
+    if not 0 <= k <= room.given.shape[0]:
+        return polygon
+    given = room.given
+    values = memory.values(polygon)
+    for i in range(k):
+        given[i, 0], given[i, 1] = values[2 * i], values[2 * i + 1]
+    return given[:k]
+
+
+def inner_offset(polygon, distance):
+    """Convex polygon of the points that keep a distance from every edge.
+
+    Each edge's half plane, moved inwards, cuts the polygon (Sutherland and Hodgman). Where nothing is left, the depth
+    of the deepest point is bisected over the edges that were left last. Reference: the intersection of the half planes
+    in exact fractions. Every vertex keeps the distance to 1e-15 of the polygon's size.
+
+    Args:
+        polygon: Convex polygon (k, 2) in m, either orientation, with 1 vertex or more.
+        distance: Distance in m, above 0.
+
+    Returns:
+        Counter-clockwise polygon (m, 2), clean; where nothing is left, the deepest point (1, 2), the middle where the
+        polygon has no area; none (0, 2) where no vertex is finite.
+    """
+    room = _borrow(len(polygon))
+    found = room.copied(offset(_entered(polygon, room), distance, room))
+    if len(polygon) <= _FEW:
+        _FREE.append(room)
+    return found
+
+
+def offset(polygon, distance, room):
+    """`inner_offset` into the `result` of a room.
+
+    Args:
+        polygon: As in `inner_offset`; likewise distance.
+        room: The `OffsetRoom`.
+
+    Returns:
+        Number of vertices.
+    """
+    i = clean.anchor(polygon)
+    x0, y0 = polygon[i, 0], polygon[i, 1]
+    turn = clean.turning(polygon, x0, y0, 0.0)
+    if turn != 0:
+        near = _NOISE * clean.extent(polygon)
+        size = _inner_offset(polygon, x0, y0, turn < 0, distance, room.lines, room.rings)
+    else:
+        ring = clean.clean_ring(polygon, x0, y0, 0.0)
+        corners = ring
+        near = _NOISE * clean.extent(corners)
+        size = corners.shape[0]
+        if size > 2:
+            size = _inner_offset(corners, 0.0, 0.0, False, distance, room.lines, room.rings)
+        elif size > 0:
+            room.rings[0, 0, 0] = 0.5 * (corners[0, 0] + corners[size - 1, 0])
+            room.rings[0, 0, 1] = 0.5 * (corners[0, 1] + corners[size - 1, 1])
+            size = 1
+    return _shifted(room, size, x0, y0, near)
+
+
+def _shifted(room, size, x0, y0, near):
+    """Ring 0, moved back to the polygon's place and clean there: edges that just vanish leave near-duplicates, and
+    rounding far from the origin may turn a sliver over."""
+    rings, result = room.rings, room.result
+    for i in range(size):
+        result[i, 0] = rings[0, i, 0] + x0
+        result[i, 1] = rings[0, i, 1] + y0
+    if size < 2 or clean.turning(result[:size], 0.0, 0.0, near) > 0:
+        return size
+    ring = clean.clean_ring(result[:size], 0.0, 0.0, near)
+    corners = ring
+    for i in range(corners.shape[0]):
+        result[i, 0], result[i, 1] = corners[i, 0], corners[i, 1]
+    return corners.shape[0]
+
+
+def _inner_offset(polygon, x0, y0, backwards, distance, lines, rings):
+    """Offset a clean polygon into ring 0, about a point; a ring's third column is the line of the edge that starts at
+    the vertex."""
+    k = polygon.shape[0]
+    reach = 0.0
+    for i in range(k):
+        j = k - 1 - i if backwards else i
+        x, y = polygon[j, 0] - x0, polygon[j, 1] - y0
+        rings[0, i, 0], rings[0, i, 1], rings[0, i, 2] = x, y, i
+        reach = max(reach, max(abs(x), abs(y)))
+    used = 0
+    for i in range(k):
+        j = i + 1 if i + 1 < k else 0
+        ax, ay = rings[0, i, 0], rings[0, i, 1]
+        lx, ly = rings[0, j, 0] - ax, rings[0, j, 1] - ay
+        length = math.sqrt(lx * lx + ly * ly)
+        if length > 0.0:
+            lines[used, 0], lines[used, 1] = -ly / length, lx / length
+            lines[used, 2] = (lx * ay - ly * ax) / length
+            rings[0, i, 2] = used
+            used += 1
+        else:
+            rings[0, i, 2] = 0.0
+    size = k
+    left = _cut(lines, used, distance, rings, size)
+    if left == 0:  # nothing is left: bisect for the depth of the deepest point
+        low, high = 0.0, distance if distance < reach else reach
+        while high - low > 2e-16 * reach:
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                break
+            left = _cut(lines, used, middle, rings, size)
+            if left == 0:
+                high = middle
+            else:
+                low = middle
+                size = left
+                used = _keep_lines(lines, used, rings, size)
+        x = y = 0.0
+        for i in range(size):
+            x += rings[0, i, 0] / size
+            y += rings[0, i, 1] / size
+        rings[0, 0, 0], rings[0, 0, 1] = x, y
+        return 1
+    return left
+
+
+def _keep_lines(lines, used, rings, size):
+    """Keep the lines that still bound ring 0: an edge that has vanished stays so at greater depth."""
+    kept = 0
+    for line in range(used):
+        found = False
+        for i in range(size):
+            if rings[0, i, 2] == line:
+                rings[0, i, 2] = kept
+                found = True
+        if found:
+            lines[kept, 0], lines[kept, 1], lines[kept, 2] = lines[line, 0], lines[line, 1], lines[line, 2]
+            kept += 1
+    return kept
+
+
+def _cut(lines, used, depth, rings, size):
+    """Cut ring 0 by the lines moved inwards; ring 0 becomes the result unless nothing is left."""
+    room = rings.shape[1]
+    source = 0
+    for line in range(used):
+        target = 2 if source == 1 else 1
+        nx, ny, level = lines[line, 0], lines[line, 1], lines[line, 2] + depth
+        ex, ey, tag = rings[source, size - 1, 0], rings[source, size - 1, 1], rings[source, size - 1, 2]
+        before = nx * ex + ny * ey - level
+        count = 0
+        for i in range(size):
+            cx, cy = rings[source, i, 0], rings[source, i, 1]
+            here = nx * cx + ny * cy - level
+            if (here >= 0.0) != (before >= 0.0) and count < room:
+                t = before / (before - here)
+                rings[target, count, 0], rings[target, count, 1] = ex + t * (cx - ex), ey + t * (cy - ey)
+                rings[target, count, 2] = line if before >= 0.0 else tag
+                count += 1
+            tag = rings[source, i, 2]
+            if here >= 0.0 and count < room:
+                rings[target, count, 0], rings[target, count, 1], rings[target, count, 2] = cx, cy, tag
+                count += 1
+            ex, ey, before = cx, cy, here
+        source = target
+        size = count
+        if size == 0:
+            return 0
+    for i in range(size):
+        for j in range(3):
+            rings[0, i, j] = rings[source, i, j]
+    return size

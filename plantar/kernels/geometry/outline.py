@@ -1,0 +1,277 @@
+# cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True, initializedcheck=False
+# cython: infer_types=True
+"""Kernel of the contact's outline: a walk along the edges that two active cells do not share.
+
+Plain Python that also compiles ahead of time (`outline.pxd` gives the C types). `plantar.outline` builds the table of
+edges and is the public face.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..base import memory, vectors
+
+__all__ = ["EdgeTable", "Rings", "area_and_centroid", "ring_areas"]
+
+
+def area_and_centroid(points, starts):
+    """Area and centroid of an outline, holes left out.
+
+    Args:
+        points: Vertices (k, 2) in m, one or more.
+        starts: Offsets (r + 1) of the rings.
+
+    Returns:
+        Area in m^2 and centroid x, y in m; the first vertex where the area is 0.
+    """
+    x0 = points[0, 0]
+    y0 = points[0, 1]
+    twice = 0.0
+    sx = 0.0
+    sy = 0.0
+    for r in range(len(starts) - 1):
+        last = starts[r + 1]
+        ax = points[last - 1, 0] - x0
+        ay = points[last - 1, 1] - y0
+        for i in range(starts[r], last):
+            bx = points[i, 0] - x0
+            by = points[i, 1] - y0
+            cross = ax * by - bx * ay
+            twice += cross
+            sx += (ax + bx) * cross
+            sy += (ay + by) * cross
+            ax = bx
+            ay = by
+    if twice == 0.0:
+        return 0.0, x0, y0
+    return 0.5 * twice, x0 + sx / (3.0 * twice), y0 + sy / (3.0 * twice)
+
+
+def ring_areas(points, starts):
+    """Signed area of each ring, about its first vertex.
+
+    Args:
+        points: Vertices (k, 2) in m.
+        starts: Offsets (r + 1) of the rings.
+
+    Returns:
+        Areas (r) in m^2, a list: 0 for a ring of fewer than 3 vertices.
+    """
+    areas = []
+    for r in range(len(starts) - 1):
+        first = starts[r]
+        last = starts[r + 1]
+        twice = 0.0
+        ax = 0.0
+        ay = 0.0
+        for i in range(first + 1, last):
+            bx = points[i, 0] - points[first, 0]
+            by = points[i, 1] - points[first, 1]
+            twice += ax * by - bx * ay
+            ax = bx
+            ay = by
+        areas.append(0.5 * float(twice))
+    return areas
+
+
+class Rings:
+    """Rings around an area of the plane, what `plantar.geometry.outline.Outline` adds to and checks.
+
+    Args:
+        points: Vertices (k, 2) of all rings in m, one ring after another.
+        starts: Offsets (r + 1) of the rings.
+        ring_areas: Signed area (r) of each ring in m^2.
+        apart: Whether islands are known to meet in points at most.
+    """
+
+    def __init__(self, points, starts, ring_areas, apart=False):
+        self.points = points
+        self.starts = starts
+        self.ring_areas = ring_areas
+        self.apart = apart
+
+    @property
+    def area(self):
+        """Area in m^2, holes left out; exact to 1e-12 of it."""
+        areas = self.ring_areas
+        return areas[0] if len(areas) == 1 else math.fsum(areas)
+
+
+class EdgeTable:
+    """The directed edges of a sole's cells, each cell's counter-clockwise and one after another.
+
+    Args:
+        edges: Offsets (n + 1,) of each cell's edges and, for each edge, its cell (h,), the same edge seen from the
+            neighbour (h,), -1 where there is none, the cell's next edge (h,) and the vertex (h,) it starts at.
+        vertices: Coordinates of the v vertices, flat (2 v,), in m.
+        straight: A vertex whose neighbours' line passes within this distance in m is no corner.
+        reuse: Keep the work arrays from walk to walk. Compiled walks cannot interleave; interpreted ones can.
+
+    Example:
+        >>> from plantar.layouts.cell_edges import edge_table
+        >>> table = edge_table([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]])
+        >>> table.walk(bytes([1]))[1:], table.walk(bytes([0]))[1:]
+        (([0, 4], [1.0]), ([0], []))
+    """
+
+    def __init__(self, edges, vertices, straight, reuse):
+        self.cell_start, self.cell, self.twin, self.after, self.origin = edges
+        self.vertices = vertices
+        self.straight = straight
+        self.reuse = reuse
+        self.mark = bytearray(len(self.cell))
+        self.path = np.empty(len(self.cell), dtype=np.intp)
+        self.place = np.full(len(vertices) // 2, -1, dtype=np.intp)
+        self.leaving = bytearray(len(vertices) // 2)
+        self.points = np.empty((len(self.cell), 2))
+
+    def __reduce__(self):
+        """Rebuild from the arguments, so that a layout crosses to another process."""
+        tables = [self.cell_start, self.cell, self.twin, self.after, self.origin]
+        edges = tuple([np.array(t) for t in tables])
+        return type(self), (edges, np.array(self.vertices), self.straight, self.reuse)
+
+    def walk(self, active):
+        """Rings around the active cells, the contact on their left.
+
+        Args:
+            active: For each of the n cells a byte, other than 0 where it is active.
+
+        Returns:
+            Points (k, 2) of all rings in m, one ring after another; offsets (r + 1) of the rings; their signed areas
+            (r) in m^2, above 0 for the rim of an island and below 0 for that of a hole.
+        """
+        starts = [0]
+        areas = []
+        return self._trace(active, starts, areas), starts, areas
+
+    def rings(self, active, kind):
+        """Rings around the active cells as an object.
+
+        Args:
+            active: As in `walk`.
+            kind: Its class, `Rings` or one derived from it; made without a call of its `__init__`.
+
+        Returns:
+            The object; None where there are not n bytes.
+        """
+        if len(active) != len(self.cell_start) - 1:
+            return None
+        found = Rings.__new__(kind)
+        starts = [0]
+        areas = []
+        found.points = self._trace(active, starts, areas)
+        memory.close(found.points)
+        found.starts = tuple(starts)
+        found.ring_areas = tuple(areas)
+        found.apart = True
+        return found
+
+    def _trace(self, active, starts, areas):
+        """Walk; the points, with offsets and areas of the rings added to two lists."""
+        n = len(self.cell_start) - 1
+        # Of each edge: 0 not on the outline, 1 on it, 2 walked. Of each vertex: how many edges of the outline leave it.
+        mark = self.mark
+        leaving = self.leaving
+        path = self.path
+        place = self.place
+        if not self.reuse:
+            mark = bytearray(len(self.mark))
+            leaving = bytearray(len(self.leaving))
+            path = np.empty(len(self.path), dtype=np.intp)
+            place = np.full(len(self.leaving), -1, dtype=np.intp)
+        count = 0
+        pinched = False
+        for i in range(n):
+            if active[i]:
+                for h in range(self.cell_start[i], self.cell_start[i + 1]):
+                    t = self.twin[h]
+                    if t < 0 or not active[self.cell[t]]:
+                        mark[h] = 1
+                        count += 1
+                        v = self.origin[h]
+                        leaving[v] += 1
+                        if leaving[v] > 1:
+                            pinched = True
+        if count == 0:
+            return np.empty((0, 2))
+        points = self.points
+        if not self.reuse:
+            room = np.empty((count, 2))
+            points = room
+        used = 0
+        for i in range(n):
+            if not active[i]:
+                continue
+            for first in range(self.cell_start[i], self.cell_start[i + 1]):
+                if mark[first] != 1:
+                    continue
+                size = 0
+                h = first
+                while mark[h] == 1:
+                    mark[h] = 2
+                    v = self.origin[h]
+                    if pinched:
+                        low = place[v]
+                        if low >= 0:  # back at a vertex of this ring: what lies between is a ring of its own
+                            used = self._keep(path, low, size, points, used, starts, areas)
+                            for k in range(low, size):
+                                place[path[k]] = -1
+                            size = low
+                        place[v] = size
+                    path[size] = v
+                    size += 1
+                    h = self.after[h]
+                    while mark[h] == 0:
+                        h = self.after[self.twin[h]]
+                used = self._keep(path, 0, size, points, used, starts, areas)
+                if pinched:
+                    for k in range(size):
+                        place[path[k]] = -1
+        for i in range(n):  # work arrays as they were: nothing marked
+            if active[i]:
+                for h in range(self.cell_start[i], self.cell_start[i + 1]):
+                    mark[h] = 0
+                    leaving[self.origin[h]] = 0
+        if not self.reuse:
+            return room[:used]
+        return vectors.points_of(points, used)
+
+    def _keep(self, path, low, high, points, used, starts, areas):
+        """Write the ring path[low:high] to the points, without vertices on straight lines; how many points are used."""
+        base = used
+        b = path[high - 1]
+        bx = self.vertices[2 * b]
+        by = self.vertices[2 * b + 1]
+        a = path[high - 2]
+        ax = self.vertices[2 * a]
+        ay = self.vertices[2 * a + 1]
+        twice = 0.0
+        ox = bx
+        oy = by
+        for k in range(low, high):
+            c = path[k]
+            cx = self.vertices[2 * c]
+            cy = self.vertices[2 * c + 1]
+            ux = bx - ax
+            uy = by - ay
+            wx = cx - bx
+            wy = cy - by
+            turn = ux * wy - uy * wx
+            if abs(turn) > self.straight * (abs(ux) + abs(uy) + abs(wx) + abs(wy)):
+                points[used, 0] = bx
+                points[used, 1] = by
+                used += 1
+                ax = bx
+                ay = by
+            twice += (bx - ox) * (cy - oy) - (cx - ox) * (by - oy)
+            bx = cx
+            by = cy
+        if used - base < 3 or twice == 0.0:
+            return base
+        starts.append(used)
+        areas.append(0.5 * float(twice))
+        return used

@@ -1,0 +1,39 @@
+"""Kernel of what legs are asked for: the targets of CoM, torso and both soles, written where their tasks read them.
+
+Plain Python that also compiles ahead of time (`leg_targets.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+from ..base import memory
+
+__all__ = ["LegTargets"]
+
+
+class LegTargets:
+    """Arrays that receive the targets.
+
+    Args:
+        com: CoM (3,).
+        torso: Rotation (3, 3) of the torso.
+        left: Position (3,) and rotation (3, 3) of the left sole.
+        right: The same of the right sole.
+    """
+
+    def __init__(self, com, torso, left, right):
+        self.com, self.torso = com, torso
+        self.left, self.left_turn = left
+        self.right, self.right_turn = right
+
+    def take(self, com, torso, left, left_turn, right, right_turn):
+        """Copy the targets, in the order of the arguments above.
+
+        Raises:
+            ValueError: If one of them is no contiguous array of float64.
+        """
+        a, b, c = memory.values(com), memory.values(left), memory.values(right)
+        d, e, f = memory.values(torso), memory.values(left_turn), memory.values(right_turn)
+        for i in range(3):
+            self.com[i], self.left[i], self.right[i] = a[i], b[i], c[i]
+            for j in range(3):
+                self.torso[i, j], self.left_turn[i, j], self.right_turn[i, j] = d[3 * i + j], e[3 * i + j], f[3 * i + j]

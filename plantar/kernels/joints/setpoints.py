@@ -1,0 +1,115 @@
+"""Kernel of the set-points of joint servos: where the joints are told to go, and what is written at each step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["Setpoints"]
+
+_NONE = float("nan")
+
+
+class Setpoints:
+    """The set-points of k joints, which move on between control ticks.
+
+    Args:
+        controls: Set-points (n,) of all servos, where the simulator reads them.
+        servos: Where each joint's servo stands there (k,).
+        stiffness: Position gains (k,) in N m/rad.
+        damping: Gains (k,) in N m s/rad of what slows a joint down: its servo's, and its own.
+        per_way: One over the largest way (k,) of a set-point in a control period in 1/rad; empty without limits.
+        period: Control period in s.
+        step: Period in s in which `advance` is called.
+        joints: Joint angles (k,) in rad to go to, where the caller writes them.
+        torques: Torques (k,) in N m that it takes to hold them, likewise.
+
+    Attributes:
+        reference: Where the joints shall be now (k,) in rad; NaN before they were told anything.
+        velocity: How fast they shall be (k,) in rad/s.
+        setpoint: What the servos are told (k,) in rad.
+    """
+
+    def __init__(self, controls, servos, stiffness, damping, per_way, period, step, joints, torques):
+        self.controls = controls
+        self.servos = servos
+        self.stiffness = stiffness
+        self.damping = damping
+        self.per_way = per_way
+        self.period = period
+        self.step = step
+        self.joints, self.torques = joints, torques
+        count = len(servos)
+        self.reference = np.full(count, _NONE)
+        self.velocity = np.zeros(count)
+        self.setpoint = np.zeros(count)
+        self.rate = np.zeros(count)
+
+    def hold(self, joints, torques):
+        """Hold a posture.
+
+        Args:
+            joints: Joint angles (k,) in rad.
+            torques: Torques (k,) in N m that it takes.
+        """
+        for i in range(self.servos.shape[0]):
+            self.reference[i] = joints[i]
+            self.velocity[i] = self.rate[i] = 0.0
+            self.setpoint[i] = joints[i] + torques[i] / self.stiffness[i]
+
+    def go_to(self):
+        """Set the reference for the next control tick: the joints' goal, or as far on the way to it as the fastest one
+        may go."""
+        joints = self.joints
+        count = self.servos.shape[0]
+        fastest = total = 0.0
+        for i in range(self.per_way.shape[0]):
+            share = (joints[i] - self.reference[i]) * self.per_way[i]
+            total += share * share
+            if share < 0.0:
+                share = -share
+            if share > fastest:
+                fastest = share
+        late = fastest > 1.0 and total == total
+        for i in range(count):
+            last = self.reference[i]
+            if last != last:
+                last = joints[i]
+            goal = last + (joints[i] - last) / fastest if late else joints[i]
+            self.velocity[i] = (goal - last) / self.period
+            self.reference[i] = goal
+            self.rate[i] = self.velocity[i] * self.step
+
+    def load(self, friction=None, offsets=None):
+        """Set what the servos are told for the reference: they follow it without lag, and hold a load without error.
+
+        Args:
+            friction: Torques (k,) in N m that the joints take besides; None for none.
+            offsets: Angles (k,) in rad that are added to the set-points, a contiguous array of float64; None for none.
+        """
+        for i in range(self.servos.shape[0]):
+            torque = self.torques[i]
+            if friction is not None:
+                torque += friction[i]
+            lead = self.damping[i] * self.velocity[i] + torque
+            self.setpoint[i] = self.reference[i] + lead / self.stiffness[i]
+        if offsets is not None:
+            angles = memory.values(offsets)
+            for i in range(self.servos.shape[0]):
+                self.setpoint[i] = self.setpoint[i] + angles[i]
+
+    def write(self):
+        """Hand the set-points to the simulator."""
+        for i in range(self.servos.shape[0]):
+            self.controls[self.servos[i]] = self.setpoint[i]
+
+    def advance(self):
+        """Let the set-points move on by a step."""
+        for i in range(self.servos.shape[0]):
+            self.setpoint[i] = self.setpoint[i] + self.rate[i]
+
+    def drive(self):
+        """Write the set-points of one physics step, and let them move on."""
+        self.write()
+        self.advance()

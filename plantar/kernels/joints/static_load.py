@@ -1,0 +1,67 @@
+"""Kernel of the torques that hold a tree of bodies at rest: against gravity, less what other forces take.
+
+What a velocity has to hold is its unit motion (w, v) times the moment and the force of the bodies that it moves, both
+about the center of their tree. That is MuJoCo's `mj_rne` for a model at rest, with its sums in its order.
+
+Plain Python that also compiles ahead of time (`static_load.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["StaticLoad"]
+
+
+class StaticLoad:
+    """Loads of a model, and those of its joints.
+
+    Args:
+        parents: Parent of each body (b,), which comes before it; the first is the world, which holds everything.
+        bodies: Body of each velocity (nv,).
+        inertias: Inertia about the center of its tree of each body (b, 10), as MuJoCo's `cinert`: of its entries the
+            last four are mass times way from the center, and mass.
+        motions: Unit motion (nv, 6) of each velocity: w, then v.
+        gravity: Acceleration (3,) of a falling body.
+        places: Which velocities are those of the joints (k,).
+        torques: Receives their loads (k,).
+    """
+
+    def __init__(self, parents, bodies, inertias, motions, gravity, places, torques):
+        self.parents, self.bodies, self.inertias, self.motions = parents, bodies, inertias, motions
+        self.gravity, self.places, self.torques = gravity, places, torques
+        self.wrenches = np.zeros((len(parents), 6))
+        self.load = np.zeros(len(bodies))
+
+    def weigh(self):
+        """Begin with what gravity asks for."""
+        wrenches, inertias, motions = self.wrenches, self.inertias, self.motions
+        x, y, z = -self.gravity[0], -self.gravity[1], -self.gravity[2]
+        count = self.parents.shape[0]
+        for b in range(1, count):
+            i, j, k, mass = inertias[b, 6], inertias[b, 7], inertias[b, 8], inertias[b, 9]
+            wrenches[b, 0], wrenches[b, 1], wrenches[b, 2] = j * z - k * y, k * x - i * z, i * y - j * x
+            wrenches[b, 3], wrenches[b, 4], wrenches[b, 5] = mass * x, mass * y, mass * z
+        for b in range(count - 1, 0, -1):
+            p = self.parents[b]
+            if p > 0:
+                for n in range(6):
+                    wrenches[p, n] += wrenches[b, n]
+        for v in range(self.load.shape[0]):
+            b = self.bodies[v]
+            even = motions[v, 0] * wrenches[b, 0] + motions[v, 2] * wrenches[b, 2]
+            odd = motions[v, 1] * wrenches[b, 1] + motions[v, 3] * wrenches[b, 3]
+            self.load[v] = (even + odd) + (motions[v, 4] * wrenches[b, 4] + motions[v, 5] * wrenches[b, 5])
+
+    def less(self, share):
+        """Subtract loads (nv,) that something else takes: a contiguous array of float64."""
+        numbers = memory.values(share)
+        for v in range(self.load.shape[0]):
+            self.load[v] -= numbers[v]
+
+    def take(self):
+        """Write the loads of the joints."""
+        for k in range(self.places.shape[0]):
+            self.torques[k] = self.load[self.places[k]]

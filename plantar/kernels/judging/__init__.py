@@ -1,0 +1,1 @@
+"""What the judge of a walk looks at after each physics step and tick."""

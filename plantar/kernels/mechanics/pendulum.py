@@ -1,0 +1,44 @@
+"""The kernel of a pendulum over a VRP that moves along a line: VRP, DCM and CoM at one time, with their rates.
+
+Plain Python that also compiles ahead of time (`pendulum.pxd` gives the C types). `gait.plan.vrp_plan` is the public
+face, with the equations.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..base import memory, vectors
+
+__all__ = ["on_segment"]
+
+
+def on_segment(omega, since, until, segment, vrps, rates, growths, shrinkage):
+    """The pendulum within a segment of its plan.
+
+    Args:
+        omega: Pendulum frequency in rad/s.
+        since: Time in s since the segment began.
+        until: Time in s until it ends.
+        segment: Number of the segment.
+        vrps: VRP (k, 2) at the beginning of each segment in m.
+        rates: Rate (k, 2) of the VRP in each in m/s.
+        growths: A e^(w T) (k, 2) of each in m.
+        shrinkage: B (2,) of this one in m.
+
+    Returns:
+        VRP, DCM and its rate, CoM and its first and second rate, each an array (2,) of its own.
+    """
+    start, rate, growth = memory.values(vrps), memory.values(rates), memory.values(growths)
+    offset, i, j = memory.values(shrinkage), 2 * segment, 2 * segment + 1
+    grown, shrunk = math.exp(-omega * until), math.exp(-omega * since)
+    x, gx, sx = start[i] + since * rate[i], grown * growth[i], shrunk * offset[0]
+    y, gy, sy = start[j] + since * rate[j], grown * growth[j], shrunk * offset[1]
+    return (
+        vectors.vector2(x, y),
+        vectors.vector2(x + rate[i] / omega + gx, y + rate[j] / omega + gy),
+        vectors.vector2(rate[i] + omega * gx, rate[j] + omega * gy),
+        vectors.vector2(x + 0.5 * gx + sx, y + 0.5 * gy + sy),
+        vectors.vector2(rate[i] + omega * (0.5 * gx - sx), rate[j] + omega * (0.5 * gy - sy)),
+        vectors.vector2(omega * omega * (0.5 * gx + sx), omega * omega * (0.5 * gy + sy)),
+    )

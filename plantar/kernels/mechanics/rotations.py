@@ -1,0 +1,165 @@
+"""Kernels of rotations in space: products of matrices (3, 3) and vectors (3,), the exponential map, one Newton step
+back to a rotation, and how far one is from another.
+
+`plantar.mechanics.rotation` is the public face, with units and examples. Here each result is written where the caller
+wants it, since these run many times in a control tick.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..base import vectors
+
+__all__ = [
+    "between",
+    "exponential",
+    "missing_pose",
+    "missing_turn",
+    "multiply",
+    "orthonormalise",
+    "rotation_of",
+    "turn",
+    "turn_back",
+]
+
+# Angle in rad below which sin a / a and (1 - cos a) / a^2 are 1 and 1/2: what is left out is a^2 / 24 of terms of size
+# a^2, 4e-26.
+_SMALL = 1e-6
+
+
+def turn(rotation, vector, out):
+    """Rotate a vector: R v.
+
+    Args:
+        rotation: R (3, 3).
+        vector: v (3,).
+        out: Receives the vector (3,); another one than v.
+    """
+    for i in range(3):
+        out[i] = rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
+
+
+def turn_back(rotation, vector, out):
+    """Rotate a vector the other way: R^T v; arguments as of `turn`."""
+    for i in range(3):
+        out[i] = rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
+
+
+def multiply(a, b, out):
+    """Product of two matrices: A B.
+
+    Args:
+        a: A (3, 3).
+        b: B (3, 3).
+        out: Receives the product (3, 3); another one than A and B.
+    """
+    for i in range(3):
+        for j in range(3):
+            out[i, j] = a[i, 0] * b[0, j] + a[i, 1] * b[1, j] + a[i, 2] * b[2, j]
+
+
+def between(a, b):
+    """Product of a matrix and another's transpose, A B^T: for rotations to one frame, from B's frame to A's.
+
+    Args:
+        a: A (3, 3).
+        b: B (3, 3).
+
+    Returns:
+        The nine numbers of the product, row by row.
+    """
+    xx = xy = xz = yx = yy = yz = zx = zy = zz = 0.0
+    for k in range(3):
+        xx += a[0, k] * b[0, k]
+        xy += a[0, k] * b[1, k]
+        xz += a[0, k] * b[2, k]
+        yx += a[1, k] * b[0, k]
+        yy += a[1, k] * b[1, k]
+        yz += a[1, k] * b[2, k]
+        zx += a[2, k] * b[0, k]
+        zy += a[2, k] * b[1, k]
+        zz += a[2, k] * b[2, k]
+    return xx, xy, xz, yx, yy, yz, zx, zy, zz
+
+
+def exponential(x, y, z, out):
+    """Rotation of a rotation vector (Rodrigues), exact to rounding for every angle.
+
+    Args:
+        x: Axis times angle in rad.
+        y: The same.
+        z: The same.
+        out: Receives the rotation (3, 3).
+    """
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
+    out[0, 0], out[0, 1], out[0, 2] = xx, xy, xz
+    out[1, 0], out[1, 1], out[1, 2] = yx, yy, yz
+    out[2, 0], out[2, 1], out[2, 2] = zx, zy, zz
+
+
+def rotation_of(x, y, z):
+    """The same as a new array (3, 3)."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = _exponential(x, y, z)
+    return vectors.matrix(xx, xy, xz, yx, yy, yz, zx, zy, zz)
+
+
+def _exponential(x, y, z):
+    """The nine numbers of `exponential`, row by row."""
+    angle = math.sqrt(x * x + y * y + z * z)
+    if angle < _SMALL:
+        s, c = 1.0, 0.5
+    else:
+        s, c = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
+    xx, yy, zz, xy, xz, yz = c * x * x, c * y * y, c * z * z, c * x * y, c * x * z, c * y * z
+    x, y, z = s * x, s * y, s * z
+    return 1.0 - yy - zz, xy - z, xz + y, xy + z, 1.0 - xx - zz, yz - x, xz - y, yz + x, 1.0 - xx - yy
+
+
+def orthonormalise(rotation, work, out):
+    """One Newton step towards the nearest rotation: R (3 I - R^T R) / 2.
+
+    Args:
+        rotation: R (3, 3).
+        work: Room (3, 3).
+        out: Receives the result (3, 3); another one than R.
+    """
+    for i in range(3):
+        for j in range(3):
+            total = rotation[0, i] * rotation[0, j] + rotation[1, i] * rotation[1, j] + rotation[2, i] * rotation[2, j]
+            work[i, j] = (1.5 if i == j else 0.0) - 0.5 * total
+    multiply(rotation, work, out)
+
+
+def missing_turn(wanted, actual, out):
+    """Error of a rotation up to a quarter turn, `plantar.mechanics.rotation.rotation_error`.
+
+    Args:
+        wanted: Rotation (3, 3) to a common frame.
+        actual: Rotation (3, 3) to the same frame.
+        out: Receives the error (3,) in the common frame.
+
+    Returns:
+        Whether it is no more than a quarter turn; beyond that the error is another one.
+    """
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = between(wanted, actual)
+    out[0], out[1], out[2] = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
+    return xx + yy + zz >= 1.0
+
+
+def missing_pose(position, rotation, at, turned, out):
+    """Error of a pose: way and turn that are missing.
+
+    Args:
+        position: Wanted position (3,) in m.
+        rotation: Wanted rotation (3, 3) to a common frame.
+        at: Position (3,) in m.
+        turned: Rotation (3, 3) to the same frame.
+        out: Receives the way (3,) in m and the turn (3,), as of `missing_turn`.
+
+    Returns:
+        Whether the turn is no more than a quarter turn; beyond that the error is another one.
+    """
+    for i in range(3):
+        out[i] = position[i] - at[i]
+    return missing_turn(rotation, turned, out[3:])

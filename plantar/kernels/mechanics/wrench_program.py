@@ -1,0 +1,190 @@
+"""Kernel of the quadratic program that shares a net wrench between contacts: what of it changes from call to call.
+
+Plain Python that also compiles ahead of time (`wrench_program.pxd` gives the C types).
+`plantar.mechanics.wrench_distribution` is the public face: it says what the program is, and calls the solver.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..base import memory
+
+__all__ = ["WrenchProgram"]
+
+
+class WrenchProgram:
+    """The program of n contacts, in its units; it fills the arrays of its caller in place.
+
+    Args:
+        scales: Weight of the robot in N, unit of moments over forces in m, and the costs of the net wrench and of the
+            proportion of the normal forces.
+        unit: What 1 of each unknown (6 n,) means in N and N m, contact by contact.
+        jacobian: Receives what the unknowns make of the net wrench about the middle of the contacts (6, 6 n).
+        fixed: What of the Hessian (6 n, 6 n) does not depend on the shares; the caller fills it.
+        hessian: Receives the Hessian (6 n, 6 n).
+        wanted: Receives the wanted net wrench (6,) about the middle of the contacts.
+        gradient: Gradient (6 n,) but for a factor; the caller fills it, `finish_gradient` multiplies it.
+    """
+
+    def __init__(self, scales, unit, jacobian, fixed, hessian, wanted, gradient):
+        self.weight, self.length, self.net, self.pressure = scales
+        self.unit, self.jacobian, self.fixed, self.hessian = unit, jacobian, fixed, hessian
+        self.wanted, self.gradient = wanted, gradient
+        count = len(unit) // 6
+        self.positions, self.rotations = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        self.wished, self.shares = np.zeros(count), np.zeros(count)
+        self.request, self.middle = np.zeros(9), np.zeros(3)
+
+    def ask(self, wrench, point, shares):
+        """Take in a request.
+
+        Args:
+            wrench: Wanted net wrench, six numbers in N and N m in the world frame about the point.
+            point: Three numbers of the world frame in m.
+            shares: Share of the normal force of each contact.
+
+        Returns:
+            Whether all numbers are finite, and some share is above 0.
+        """
+        request = self.request
+        fx, fy, fz, tx, ty, tz = wrench
+        px, py, pz = point
+        request[0], request[1], request[2], request[3], request[4], request[5] = fx, fy, fz, tx, ty, tz
+        request[6], request[7], request[8] = px, py, pz
+        total = fx + fy + fz + tx + ty + tz + px + py + pz
+        some = 0.0
+        for i in range(self.wished.shape[0]):
+            share = shares[i]
+            self.wished[i] = share
+            some += share
+        return math.isfinite(total + some) and some > 0.0
+
+    def place(self, i, position, rotation):
+        """Put a contact somewhere.
+
+        Args:
+            i: Which contact.
+            position: Origin (3,) of its frame in the world in m.
+            rotation: Rotation (3, 3) to the world.
+
+        Returns:
+            Whether it was elsewhere before.
+        """
+        moved = False
+        for j in range(3):
+            moved = moved or self.positions[i, j] != position[j]
+            self.positions[i, j] = position[j]
+            for k in range(3):
+                moved = moved or self.rotations[i, j, k] != rotation[j, k]
+                self.rotations[i, j, k] = rotation[j, k]
+        return moved
+
+    def turn(self):
+        """Fill the Jacobian for where the contacts are.
+
+        Returns:
+            Whether all of it is finite.
+        """
+        positions, rotations, jacobian, middle = self.positions, self.rotations, self.jacobian, self.middle
+        count, total = positions.shape[0], 0.0
+        for i in range(count):
+            for j in range(3):
+                if not math.isfinite(positions[i, j]):
+                    return False
+                for k in range(3):
+                    if not math.isfinite(rotations[i, j, k]):
+                        return False
+        for j in range(3):
+            middle[j] = 0.0
+            for i in range(count):
+                middle[j] += positions[i, j]
+            middle[j] /= count
+        for i in range(count):
+            dx = (positions[i, 0] - middle[0]) / self.length
+            dy = (positions[i, 1] - middle[1]) / self.length
+            dz = (positions[i, 2] - middle[2]) / self.length
+            for k in range(3):
+                x, y, z, c = rotations[i, 0, k], rotations[i, 1, k], rotations[i, 2, k], 6 * i + k
+                jacobian[0, c] = jacobian[3, c + 3] = x
+                jacobian[1, c] = jacobian[4, c + 3] = y
+                jacobian[2, c] = jacobian[5, c + 3] = z
+                jacobian[3, c] = dy * z - dz * y
+                jacobian[4, c] = dz * x - dx * z
+                jacobian[5, c] = dx * y - dy * x
+                total += x + y + z + jacobian[3, c] + jacobian[4, c] + jacobian[5, c]
+        return math.isfinite(total)
+
+    def weigh(self, renewed):
+        """Fill the Hessian for the shares asked for.
+
+        Args:
+            renewed: Whether what does not depend on them is another than before.
+
+        Returns:
+            Whether the Hessian is another one.
+        """
+        hessian, shares, count = self.hessian, self.shares, self.shares.shape[0]
+        for i in range(count):
+            renewed = renewed or shares[i] != self.wished[i]
+            shares[i] = self.wished[i]
+        if not renewed:
+            return False
+        for a in range(6 * count):
+            for b in range(6 * count):
+                hessian[a, b] = self.fixed[a, b]
+        for i in range(count):
+            for j in range(i + 1, count):
+                a, b, one, other = 6 * i + 2, 6 * j + 2, shares[i], shares[j]
+                hessian[a, a] += self.pressure * other * other
+                hessian[b, b] += self.pressure * one * one
+                hessian[a, b] -= self.pressure * one * other
+                hessian[b, a] -= self.pressure * one * other
+        return True
+
+    def aim(self):
+        """Fill the wanted net wrench about the middle of the contacts."""
+        request, middle, wanted = self.request, self.middle, self.wanted
+        fx, fy, fz, tx, ty, tz = request[0], request[1], request[2], request[3], request[4], request[5]
+        dx, dy, dz = request[6] - middle[0], request[7] - middle[1], request[8] - middle[2]
+        force, moment = self.weight, self.weight * self.length
+        wanted[0], wanted[1], wanted[2] = fx / force, fy / force, fz / force
+        wanted[3] = (tx + dy * fz - dz * fy) / moment
+        wanted[4] = (ty + dz * fx - dx * fz) / moment
+        wanted[5] = (tz + dx * fy - dy * fx) / moment
+
+    def finish_gradient(self):
+        """Multiply the product of wanted wrench and Jacobian by its factor, minus the cost of the net wrench."""
+        for i in range(self.gradient.shape[0]):
+            self.gradient[i] *= -self.net
+
+    def finish(self, unknowns, names):
+        """What a solution means.
+
+        Args:
+            unknowns: The solution (6 n,).
+            names: Name of each contact.
+
+        Returns:
+            The largest error in the program's units, NaN if some error is none; the net wrench (6,) less the wanted one
+            in N and N m; and the wrench (6,) of each contact by its name. All are new arrays.
+        """
+        jacobian, wanted, unit, largest = self.jacobian, self.wanted, self.unit, 0.0
+        solution, error, wrenches = memory.values(unknowns), memory.new_vector(6), {}
+        out = memory.room(error)
+        for j in range(6):
+            off = 0.0
+            for i in range(unit.shape[0]):
+                off += jacobian[j, i] * solution[i]
+            off -= wanted[j]
+            out[j] = off * unit[j]
+            if not abs(off) <= largest and largest == largest:
+                largest = abs(off)
+        for i, name in enumerate(names):
+            wrenches[name] = memory.new_vector(6)
+            out = memory.room(wrenches[name])
+            for j in range(6):
+                out[j] = solution[6 * i + j] * unit[6 * i + j]
+        return largest, error, wrenches

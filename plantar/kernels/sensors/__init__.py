@@ -1,0 +1,1 @@
+"""What simulated sensors read: IMU, encoders, taxels, rays, and the noise in them."""

@@ -1,0 +1,182 @@
+"""Kernels over many readings of one sole: one pass over the forces, nothing kept but the results.
+
+They release the interpreter lock: several threads at once may each do a part of the frames.
+"""
+
+from __future__ import annotations
+
+try:
+    import cython
+except ImportError:
+    from plantar.kernels.base import without_cython as cython
+
+__all__ = ["hulls", "loads", "wrenches"]
+
+_INFINITE = float("inf")
+_NONE = float("nan")
+
+
+def wrenches(sole, force, threshold, saturation, out):
+    """Wrench of the active taxels of each frame; reference and error as `SoleKernel.loads`.
+
+    On a flat sole three sums do. Masking comes first and each sum runs in a loop of its own, over every fourth taxel
+    apart: the compiler can put them side by side without changing the order of any sum.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Forces up to this, and NaN, are left out; in N.
+        saturation: Forces from this on are left out; in N.
+        out: Receives the wrenches (frames, 6) about the sole frame's origin in N and N m.
+    """
+    scratch = sole.borrow()
+    with cython.nogil:
+        _wrenches(sole, force, threshold, saturation, scratch.kept, out)
+    sole.give_back(scratch)
+
+
+def _wrenches(sole, force, threshold, saturation, kept, out):
+    """`wrenches` with room (n,) to work in."""
+    frames, n = force.shape[0], sole.taxels
+    columns = sole.columns
+    lever_x, lever_y = sole.lever_x, sole.lever_y
+    for k in range(frames):
+        for i in range(n):
+            f = force[k, i]
+            f = f if f > threshold else 0.0
+            kept[i] = f if f < saturation else 0.0
+        if sole.flat:
+            az = bz = cz = dz = ax = bx = cx = dx = ay = by = cy = dy = 0.0
+            for i in range(0, n - 3, 4):
+                az += kept[i]
+                bz += kept[i + 1]
+                cz += kept[i + 2]
+                dz += kept[i + 3]
+            for i in range(0, n - 3, 4):
+                ax += kept[i] * lever_x[i]
+                bx += kept[i + 1] * lever_x[i + 1]
+                cx += kept[i + 2] * lever_x[i + 2]
+                dx += kept[i + 3] * lever_x[i + 3]
+            for i in range(0, n - 3, 4):
+                ay += kept[i] * lever_y[i]
+                by += kept[i + 1] * lever_y[i + 1]
+                cy += kept[i + 2] * lever_y[i + 2]
+                dy += kept[i + 3] * lever_y[i + 3]
+            for i in range(n - n % 4, n):
+                az += kept[i]
+                ax += kept[i] * lever_x[i]
+                ay += kept[i] * lever_y[i]
+            out[k, 0] = out[k, 1] = out[k, 5] = 0.0
+            out[k, 2] = (az + bz) + (cz + dz)
+            out[k, 3] = (ax + bx) + (cx + dx)
+            out[k, 4] = (ay + by) + (cy + dy)
+        else:
+            fx = fy = fz = tx = ty = tz = 0.0
+            for i in range(n):
+                f = kept[i]
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5] = fx, fy, fz, tx, ty, tz
+
+
+def loads(sole, force, threshold, saturation, out):
+    """Wrench, contact area and CoP of each frame: to the last bit what `SoleKernel.loads` gives.
+
+    A taxel that is not active adds a 0, which changes no sum and costs less than asking each one. On a flat sole the
+    moments are those of the CoP already.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Forces up to this, and NaN, are left out; in N.
+        saturation: Forces from this on are left out; in N.
+        out: Receives (frames, 9): wrench about the sole frame's origin, area in m^2, CoP in m, NaN where there is none.
+    """
+    scratch = sole.borrow()
+    with cython.nogil:
+        _loads(sole, force, threshold, saturation, scratch.kept, scratch.covered, out)
+    sole.give_back(scratch)
+
+
+def _loads(sole, force, threshold, saturation, kept, covered, out):
+    """`loads` with rooms (n,) to work in."""
+    n = sole.taxels
+    columns, areas = sole.columns, sole.areas
+    lever_x, lever_y = sole.lever_x, sole.lever_y
+    for k in range(force.shape[0]):
+        for i in range(n):
+            f, part = force[k, i], areas[i]
+            part = part if f > threshold else 0.0
+            covered[i] = part if f < saturation else 0.0
+            f = f if f > threshold else 0.0
+            kept[i] = f if f < saturation else 0.0
+        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        if sole.flat:
+            for i in range(n):
+                fz += kept[i]
+                tx += kept[i] * lever_x[i]
+                ty += kept[i] * lever_y[i]
+                area += covered[i]
+            sx = 0.0 - ty
+            sy = tx
+        else:
+            for i in range(n):
+                f = kept[i]
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+                sx += f * columns[i, 6]
+                sy += f * columns[i, 7]
+                area += covered[i]
+        out[k, 0], out[k, 1], out[k, 2], out[k, 3], out[k, 4], out[k, 5], out[k, 6] = fx, fy, fz, tx, ty, tz, area
+        if 0.0 < fz < _INFINITE:
+            out[k, 7], out[k, 8] = sx / fz, sy / fz
+        else:
+            out[k, 7] = out[k, 8] = _NONE
+
+
+def hulls(sole, force, threshold, saturation, size, measure, points):
+    """Support polygon of each frame, with its area and centroid; reference and error as `SoleKernel.hull`.
+
+    Args:
+        sole: The `SoleKernel`.
+        force: Normal forces (frames, n) in N.
+        threshold: Taxels up to this, and NaN, are not active; in N.
+        saturation: Taxels from this on are not active; in N.
+        size: Receives the number of vertices (frames,).
+        measure: Receives area in m^2 and centroid in m (frames, 3), NaN where there is no contact.
+        points: Receives the vertices (room, 2) in m, one polygon after the other; of no length where none are wanted.
+
+    Returns:
+        Number of frames done: fewer than all where the room is used up.
+    """
+    scratch = sole.borrow()
+    with cython.nogil:
+        done = _hulls(sole, force, threshold, saturation, scratch, size, measure, points)
+    sole.give_back(scratch)
+    return done
+
+
+def _hulls(sole, force, threshold, saturation, scratch, size, measure, points):
+    """`hulls` with arrays to work in."""
+    filled = 0
+    room = points.shape[0]
+    for k in range(force.shape[0]):
+        sole.activate(force[k], threshold, saturation, scratch.mask)
+        found = sole.find_hull(scratch.mask, scratch)
+        if room:
+            if filled + found > room:
+                return k
+            scratch.copy_hull(found, points[filled:])
+            filled += found
+        size[k] = found
+        area, x, y = scratch.measure_hull(found)
+        measure[k, 0], measure[k, 1], measure[k, 2] = area, x, y
+    return force.shape[0]

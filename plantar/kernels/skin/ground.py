@@ -1,0 +1,276 @@
+"""Kernel of the ground's plane under a sole: least squares, and least median of squares where some taxels see else.
+
+Plain Python that also compiles ahead of time (`ground.pxd` gives the C types). `plantar.ground_plane` and
+`plantar.batch` are the public faces.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+try:
+    import cython
+except ImportError:
+    from plantar.kernels.base import without_cython as cython
+
+__all__ = ["GroundFit", "GroundScratch"]
+
+_NONE = float("nan")
+_INFINITE = float("inf")
+_DRAWS = 80  # triples of taxels that a robust fit tries: with 40 % outliers all but one fit in 10^8 holds a clean one
+
+
+class GroundScratch:
+    """What the fit of one reading works in.
+
+    Args:
+        n: Number of taxels.
+    """
+
+    def __init__(self, n):
+        self.points = np.zeros((n, 3))
+        self.taxel = np.zeros(n, dtype=np.intp)
+        self.kept = np.zeros(n, dtype=np.uint8)
+        self.miss = np.zeros(n)
+        self.plane = np.zeros(3)
+        self.triples = np.zeros((3, 0), dtype=np.intp)  # of the number of points below
+        self.triples_of = -1
+
+
+class GroundFit:
+    """Fits planes to what the taxels of one sole see.
+
+    Each call works in arrays of its own, so that several threads may fit at once.
+
+    Args:
+        positions: Taxel centres (n, 3) in the sole frame in m.
+        normals: z axes (n, 3) of the taxels in the sole frame.
+    """
+
+    def __init__(self, positions, normals):
+        self.positions = np.ascontiguousarray(positions, dtype=np.float64)
+        self.normals = np.ascontiguousarray(normals, dtype=np.float64)
+        n = len(self.positions)
+        self.taxels = n
+        self.triples = {}
+        self.free = []
+
+    def frames(self, distance, reach, tolerance, out, directions, inliers):
+        """Fit a plane to each of some readings, without the interpreter lock.
+
+        Args:
+            distance: Distances (frames, n) in m.
+            reach: Distance in m from which a reading, also a negative one, is out of range.
+            tolerance: Distance in m from the plane that noise and rough ground explain.
+            out: Receives height in m, slopes along x and y, and root mean square residual in m (frames, 4): NaN where
+                no taxel sees the ground.
+            directions: Receives the directions (frames,) in which the points determine a slope; -1 where there is none.
+            inliers: Receives the taxels (frames, n) that were used; of zeros.
+        """
+        scratch = self._borrow()
+        with cython.nogil:
+            self._fit_each(distance, reach, tolerance, out, directions, inliers, scratch)
+        self.free.append(scratch)
+
+    def _fit_each(self, distance, reach, tolerance, out, directions, inliers, scratch):
+        """`frames` with arrays to work in."""
+        for k in range(distance.shape[0]):
+            directions[k] = self._fit(distance[k], reach, tolerance, out[k], inliers[k], scratch)
+        return 0
+
+    def fit(self, distance, reach, tolerance, out, inliers):
+        """Fit a plane to one reading; the rows of `frames`.
+
+        Returns:
+            The directions.
+        """
+        scratch = self._borrow()
+        directions = self._fit(distance, reach, tolerance, out, inliers, scratch)
+        self.free.append(scratch)
+        return directions
+
+    def _borrow(self):
+        """Arrays to work in, nobody else's until they are given back; those of a call that failed never are."""
+        try:
+            return self.free.pop()
+        except IndexError:
+            return GroundScratch(self.taxels)
+
+    def _fit(self, distance, reach, tolerance, out, inliers, scratch):
+        """`fit` with arrays to work in."""
+        seen = 0
+        for i in range(self.taxels):
+            d = distance[i]
+            if abs(d) < reach:
+                scratch.points[seen, 0] = self.positions[i, 0] - d * self.normals[i, 0]
+                scratch.points[seen, 1] = self.positions[i, 1] - d * self.normals[i, 1]
+                scratch.points[seen, 2] = self.positions[i, 2] - d * self.normals[i, 2]
+                scratch.taxel[seen] = i
+                scratch.kept[seen] = 1
+                seen += 1
+        if seen == 0:
+            out[0] = out[1] = out[2] = out[3] = _NONE
+            return -1
+        directions = _least_squares(seen, scratch)
+        worst = _misses(seen, scratch)
+        if seen > 3 and worst > tolerance:
+            if self._agree(seen, tolerance, scratch):
+                directions = _least_squares(seen, scratch)
+            _misses(seen, scratch)
+        total = 0.0
+        used = 0
+        for i in range(seen):
+            if scratch.kept[i]:
+                total += scratch.miss[i] * scratch.miss[i]
+                used += 1
+                inliers[scratch.taxel[i]] = 1
+        out[0] = -scratch.plane[0]
+        out[1] = scratch.plane[1]
+        out[2] = scratch.plane[2]
+        out[3] = math.sqrt(total / used)
+        return directions
+
+    def _agree(self, seen, tolerance, scratch):
+        """Keep the points that agree with the plane of least median of squares through three of them.
+
+        Returns:
+            Whether there is one.
+        """
+        if scratch.triples_of != seen:
+            with cython.gil:
+                self._find_triples(seen, scratch)
+        table = scratch.triples
+        points, miss = scratch.points, scratch.miss
+        half = (seen + 3) // 2 - 1  # the median of Rousseeuw: with three parameters, breakdown of one half
+        best = _INFINITE
+        best_z = best_x = best_y = 0.0
+        for k in range(table.shape[1]):
+            a, b, c = table[0, k], table[1, k], table[2, k]
+            ux, uy, uz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
+            vx, vy, vz = points[c, 0] - points[a, 0], points[c, 1] - points[a, 1], points[c, 2] - points[a, 2]
+            nx, ny, nz = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            # Neither flat triangles nor planes steeper than 60 degrees or so, which no foot steps on.
+            size = ux * ux + uy * uy + vx * vx + vy * vy
+            if not (nz * nz > 0.25 * (nx * nx + ny * ny) and abs(nz) > 1e-6 * size):
+                continue
+            rise_x, rise_y = -nx / nz, -ny / nz
+            level = points[a, 2] - rise_x * points[a, 0] - rise_y * points[a, 1]
+            below = 0
+            for i in range(seen):
+                miss[i] = abs(points[i, 2] - level - rise_x * points[i, 0] - rise_y * points[i, 1])
+                if miss[i] < best:
+                    below += 1
+            if below > half:
+                best = _ranked(seen, half, scratch)
+                best_z, best_x, best_y = level, rise_x, rise_y
+        if best == _INFINITE:
+            return False
+        scratch.plane[0], scratch.plane[1], scratch.plane[2] = best_z, best_x, best_y
+        _misses(seen, scratch)
+        limit = max(tolerance, 2.5 * 1.4826 * (1.0 + 5.0 / max(seen - 3, 1)) * best)
+        for i in range(seen):
+            scratch.kept[i] = scratch.miss[i] <= limit
+        return True
+
+    def _find_triples(self, seen, scratch):
+        """Let the scratch hold the triples of so many points."""
+        triples = self.triples.get(seen)
+        if triples is None:
+            triples = self.triples[seen] = _triples(seen)
+        scratch.triples = triples
+        scratch.triples_of = seen
+        return 0
+
+
+def _misses(seen, scratch):
+    """Distance along z of every point from the plane; the largest of those that are kept."""
+    worst = 0.0
+    for i in range(seen):
+        scratch.miss[i] = abs(
+            scratch.points[i, 2]
+            - scratch.plane[0]
+            - scratch.plane[1] * scratch.points[i, 0]
+            - scratch.plane[2] * scratch.points[i, 1]
+        )
+        if scratch.kept[i]:
+            worst = max(worst, scratch.miss[i])
+    return worst
+
+
+def _least_squares(seen, scratch):
+    """Plane through the kept points; the directions it is determined in, the flattest plane where not in both."""
+    x = y = z = 0.0
+    count = 0
+    for i in range(seen):
+        if scratch.kept[i]:
+            x += scratch.points[i, 0]
+            y += scratch.points[i, 1]
+            z += scratch.points[i, 2]
+            count += 1
+    x, y, z = x / count, y / count, z / count
+    xx = xy = yy = xz = yz = 0.0
+    for i in range(seen):
+        if scratch.kept[i]:
+            dx, dy, dz = scratch.points[i, 0] - x, scratch.points[i, 1] - y, scratch.points[i, 2] - z
+            xx += dx * dx
+            xy += dx * dy
+            yy += dy * dy
+            xz += dx * dz
+            yz += dy * dz
+    # Eigenvalues of the 2 x 2 scatter; a direction with less than 1e-9 of the extent's square says nothing.
+    middle, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
+    spread = math.sqrt(half * half + xy * xy)
+    large, small = middle + spread, middle - spread
+    rise_x = rise_y = 0.0
+    directions = 0
+    if large > 1e-18 * count:  # else one place: 1 nm
+        if small <= 1e-9 * large:
+            angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
+            c, s = math.cos(angle), math.sin(angle)
+            rise = (c * xz + s * yz) / large
+            rise_x, rise_y = c * rise, s * rise
+            directions = 1
+        else:
+            determinant = xx * yy - xy * xy
+            rise_x, rise_y = (yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant
+            directions = 2
+    scratch.plane[0], scratch.plane[1], scratch.plane[2] = z - rise_x * x - rise_y * y, rise_x, rise_y
+    return directions
+
+
+def _ranked(seen, rank, scratch):
+    """The value of `miss` with so many below it; the values change their places (Hoare's selection)."""
+    miss = scratch.miss
+    low, high = 0, seen - 1
+    while low < high:
+        pivot = miss[(low + high) // 2]
+        i, j = low, high
+        while i <= j:
+            while miss[i] < pivot:
+                i += 1
+            while miss[j] > pivot:
+                j -= 1
+            if i <= j:
+                miss[i], miss[j] = miss[j], miss[i]
+                i += 1
+                j -= 1
+        if rank <= j:
+            high = j
+        elif rank >= i:
+            low = i
+        else:
+            break
+    return miss[rank]
+
+
+def _triples(n):
+    """Index triples (3, m) of n points: all of them where they are few, else the same random ones each time."""
+    if n * (n - 1) * (n - 2) <= 6 * _DRAWS:
+        a, b, c = np.meshgrid(*[np.arange(n)] * 3, indexing="ij")
+        ordered = (a < b) & (b < c)
+        return np.stack([a[ordered], b[ordered], c[ordered]]).astype(np.intp)
+    rng = np.random.default_rng(0)
+    draws = [rng.choice(n, 3, replace=False) for _ in range(_DRAWS)]
+    return np.ascontiguousarray(np.array(draws).T, dtype=np.intp)

@@ -1,0 +1,594 @@
+"""Kernels of one sole: loads and support polygon of its active taxels, one call each for a reading.
+
+What does not change from reading to reading is prepared once: columns to multiply the forces with, the corners of the
+cells, sorted, on which side of its cell each lies, and the rows of cells that are shifted copies of each other.
+
+A call borrows the arrays that it works in, so that calls of one kernel from several threads do not meet in them: two
+calls of one thread never have different ones, and two at once never the same.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from plantar.errors import ReadingError
+
+from ..base import memory, vectors
+from ..geometry import convex, hull
+
+__all__ = ["SoleKernel", "SoleScratch"]
+
+_NONE = float("nan")
+_INFINITE = float("inf")
+_NOT_LOWER = 1  # bits of a corner: where its cell keeps it from being on the hull
+_NOT_UPPER = 2
+
+
+class SoleScratch:
+    """What one call works in at a time.
+
+    Args:
+        taxels: Number of taxels.
+        corners: Number of points that their cells have as corners.
+        levels: Number of x that those differ in.
+    """
+
+    def __init__(self, taxels, corners, levels):
+        self.kept = np.zeros(taxels)
+        self.covered = np.zeros(taxels)
+        self.lowest = np.full(levels, corners, dtype=np.intp)  # at each x, between calls; `find_hull` leaves it so
+        self.highest = np.full(levels, -1, dtype=np.intp)
+        self.way = np.zeros(2 * corners + 2, dtype=np.intp)
+        self.ring = np.zeros(2 * corners + 2, dtype=np.intp)
+        self.polygon = np.zeros((corners, 2))
+        self.force = np.zeros(taxels)
+        self.mask = np.zeros(taxels, dtype=bool)
+        self.other_mask = np.zeros(taxels, dtype=bool)
+        self.sums = np.zeros(9)
+        self.offset = convex.OffsetRoom(corners)
+
+    def summed(self, first, count):
+        """A new array (count,) of the sums from one on."""
+        made = memory.new_vector(count)
+        out = memory.room(made)
+        for i in range(count):
+            out[i] = self.sums[first + i]
+        return made
+
+    def hull(self, size):
+        """The hull (size, 2) in m that `SoleKernel.find_hull` left in `polygon`, as a new array."""
+        return vectors.points_of(self.polygon, size)
+
+    def copy_hull(self, size, out):
+        """Copy the hull that `SoleKernel.find_hull` left in `polygon`.
+
+        Args:
+            size: Number of its corners.
+            out: Receives them (size, 2) in m.
+        """
+        for i in range(size):
+            out[i, 0] = self.polygon[i, 0]
+            out[i, 1] = self.polygon[i, 1]
+
+    def measure_hull(self, size):
+        """Area in m^2 and centroid in m of that hull of `size` corners; NaN where it is empty."""
+        if size == 0:
+            return 0.0, _NONE, _NONE
+        return convex.area_and_centroid(self.polygon[:size])
+
+
+class SoleKernel:
+    """The taxels of one sole, prepared for the kernels.
+
+    Args:
+        positions: Taxel centres (n, 3) in the sole frame in m.
+        normals: z axes (n, 3) of the taxels in the sole frame.
+        areas: Cell areas (n,) in m^2.
+        vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
+        corner_start: Offsets (n + 1,) of each taxel's corners.
+        corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
+    """
+
+    def __init__(self, positions, normals, areas, vertices, corner_start, corner_vertex):
+        positions = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
+        normals = np.asarray(normals, dtype=np.float64).reshape(-1, 3)
+        vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 2)
+        corner_vertex = np.asarray(corner_vertex, dtype=np.intp)
+        vertical = normals[:, 2:3]
+        self.columns = np.ascontiguousarray(
+            np.hstack([normals, np.cross(positions, normals), vertical * positions[:, :2]])
+        )
+        plain = np.array([0.0, 0.0, 1.0])
+        self.flat = bool((normals == plain).all() and (positions[:, 2] == 0.0).all())
+        self.lever_x = np.ascontiguousarray(positions[:, 1])  # moments about x and y of a unit force
+        self.lever_y = np.ascontiguousarray(-positions[:, 0])
+        self.areas = np.ascontiguousarray(areas, dtype=np.float64)
+        order = np.lexsort((vertices[:, 1], vertices[:, 0]))
+        rank = np.empty(len(order), dtype=np.intp)
+        rank[order] = np.arange(len(order))
+        ordered = np.ascontiguousarray(vertices[order])
+        self.points = ordered
+        self.taxels = len(self.areas)
+        self.corners = len(order)
+        largest = float(np.abs(vertices).max(initial=0.0))
+        extent = float(np.ptp(vertices, axis=0).max()) if len(vertices) else 0.0
+        self.tolerance = hull.hull_tolerance(largest, extent)
+        starts = np.asarray(corner_start, dtype=np.intp).tolist()
+        rings = [corner_vertex[starts[i] : starts[i + 1]] for i in range(self.taxels)]
+        rows = _rows_of_copies([vertices[ring] for ring in rings], self.tolerance)
+        # Each cell's corners in another order: those that count only where it is the first of its row come first,
+        # those that count only where it is the last come last.
+        first_end, last_begin = starts[1 : self.taxels + 1], starts[: self.taxels]
+        for row in rows:
+            if len(row) > 1:
+                along = vertices[rings[row[len(row) - 1]][0]] - vertices[rings[row[0]][0]]
+                behind = _is_behind(vertices[rings[row[0]]], along)
+                ahead = _is_behind(vertices[rings[row[0]]], -along)
+                order_in_cell = np.concatenate(
+                    [np.flatnonzero(ahead), np.flatnonzero(~ahead & ~behind), np.flatnonzero(behind)]
+                )
+                for i in row:
+                    rings[i] = rings[i][order_in_cell]
+                    first_end[i] -= int(behind.sum())
+                    last_begin[i] += int(ahead.sum())
+        self.first_end = np.array(first_end, dtype=np.intp)
+        self.last_begin = np.array(last_begin, dtype=np.intp)
+        self.row_taxel = np.array([i for row in rows for i in row], dtype=np.intp)
+        self.row_start = np.cumsum([0, *map(len, rows)], dtype=np.intp)
+        self.corner_rank = np.concatenate([*(rank[ring] for ring in rings), np.empty(0, dtype=np.intp)])
+        self.corner_sign = np.concatenate(
+            [*(_signs(vertices[ring], rank[ring]) for ring in rings), np.empty(0)]
+        ).astype(np.uint8)
+        self.corner_start = np.array(starts, dtype=np.intp)
+        new = np.ones(len(order), dtype=bool)  # x that differ, to the last bit: on a lattice few of them
+        new[1:] = ordered[1:, 0] != ordered[:-1, 0]
+        level = np.cumsum(new) - 1
+        self.levels = int(new.sum())
+        self.corner_level = np.ascontiguousarray(level[np.asarray(self.corner_rank)], dtype=np.intp)
+        self.free = [SoleScratch(self.taxels, self.corners, self.levels)]
+
+    def borrow(self):
+        """Arrays to work in, nobody else's until they are given back; those of a call that failed never are."""
+        try:
+            return self.free.pop()
+        except IndexError:
+            return SoleScratch(self.taxels, self.corners, self.levels)
+
+    def give_back(self, scratch):
+        """Take back what was borrowed."""
+        self.free.append(scratch)
+        return 0
+
+    def active(self, force, threshold, saturation):
+        """Active taxels (T 4.22), as `plantar.activation.active_taxels`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            Mask (n,).
+        """
+        scratch = self._borrow_with_active(force, threshold, saturation)
+        mask = self._copied(scratch.mask)
+        self.give_back(scratch)
+        return mask
+
+    def _copied(self, mask):
+        """A mask (n,) as a new array."""
+        made = memory.new_mask(self.taxels)
+        out = memory.flags(made)
+        for i in range(self.taxels):
+            out[i] = mask[i]
+        return made
+
+    def _borrow_with(self, force):
+        """Borrowed arrays with the forces: to copy them takes a tenth of the time that an array is asked for its
+        buffer; one that is strided or of another kind is asked."""
+        if memory.size(force) != self.taxels:
+            self._check(force)
+        scratch = self.borrow()
+        if memory.size(force) == self.taxels:
+            values = memory.values(force)
+            for i in range(self.taxels):
+                scratch.force[i] = values[i]
+        else:
+            self._read(force, scratch)
+        return scratch
+
+    def _take_mask(self, active, scratch):
+        """Copy a mask to what was borrowed, likewise."""
+        if memory.is_mask(active, self.taxels):
+            values = memory.flags(active)
+            for i in range(self.taxels):
+                scratch.mask[i] = values[i]
+        else:
+            self._read_mask(active, scratch)
+        return 0
+
+    def _check(self, force):
+        """Refuse forces that are not one a taxel: a loop over the taxels would read past them."""
+        if force is None or force.shape[0] != self.taxels:
+            raise ReadingError(f"{_count(force)} forces for {self.taxels} taxels; expected one each")
+        return 0
+
+    def _read(self, force, scratch):
+        """Copy forces through their buffer."""
+        for i in range(self.taxels):
+            scratch.force[i] = force[i]
+
+    def _read_mask(self, active, scratch):
+        """Copy a mask through its buffer, and refuse one that is not one value a taxel."""
+        if active is None or active.shape[0] != self.taxels:
+            raise ReadingError(f"mask has {_count(active)} values for {self.taxels} taxels; expected one each")
+        for i in range(self.taxels):
+            scratch.mask[i] = active[i]
+        return 0
+
+    def _borrow_with_active(self, force, threshold, saturation):
+        """Borrowed arrays with the forces, and `active` in their mask."""
+        scratch = self._borrow_with(force)
+        self.activate(scratch.force, threshold, saturation, scratch.mask)
+        return scratch
+
+    def activate(self, force, threshold, saturation, out):
+        """`active` into an array (n,)."""
+        for i in range(self.taxels):
+            out[i] = (force[i] > threshold) & (force[i] < saturation)
+
+    def faults(self, force, saturation):
+        """Dead and saturated taxels, as `plantar.health.dead_taxels` and `saturated_taxels`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            saturation: A taxel from this on, up to the largest finite number, is saturated; in N.
+
+        Returns:
+            Masks (n,): taxels that read NaN or inf, and saturated ones.
+        """
+        scratch = self._borrow_with(force)
+        for i in range(self.taxels):
+            finite = -_INFINITE < scratch.force[i] < _INFINITE
+            scratch.mask[i] = not finite
+            scratch.other_mask[i] = finite and scratch.force[i] >= saturation
+        masks = self._copied(scratch.mask), self._copied(scratch.other_mask)
+        self.give_back(scratch)
+        return masks
+
+    def loads(self, force, active):
+        """Wrench, contact area and CoP of the active taxels (T 4.21-4.23).
+
+        Reference: `math.fsum` of the single terms. The error of each sum is below n * 1.2e-16 of the sum of its terms'
+        absolute values.
+
+        Args:
+            force: Normal forces (n,) in N; those of taxels that are not active are not read.
+            active: Mask (n,).
+
+        Returns:
+            (9,): wrench about the sole frame's origin in N and N m, area in m^2, CoP in m: NaN where there is none.
+        """
+        scratch = self._borrow_with(force)
+        self._take_mask(active, scratch)
+        self._loads(scratch.force, scratch.mask, scratch.sums)
+        sums = scratch.summed(0, 9)
+        self.give_back(scratch)
+        return sums
+
+    def loads_above(self, force, threshold, saturation):
+        """`loads` of the taxels that `active` gives, without a mask for anybody else.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            (9,), as `loads`.
+        """
+        scratch = self._borrow_with_active(force, threshold, saturation)
+        self._loads(scratch.force, scratch.mask, scratch.sums)
+        sums = scratch.summed(0, 9)
+        self.give_back(scratch)
+        return sums
+
+    def unsaturated_loads(self, force, threshold, saturation):
+        """`loads_above` of a sole without a saturated taxel.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is saturated; in N.
+
+        Returns:
+            (9,), as `loads`; None where a taxel is saturated.
+        """
+        if not self.flat or memory.size(force) != self.taxels:
+            return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
+        # What is active is finite here, so that of the sums those with a column of 0 are 0, and two others are the
+        # negative of each other, or the same.
+        values, lever_x, lever_y, areas = memory.values(force), self.lever_x, self.lever_y, self.areas
+        fz = tx = ty = area = 0.0
+        for i in range(self.taxels):
+            f = values[i]
+            if f >= saturation:
+                return None
+            if f > threshold:
+                fz += f
+                tx += f * lever_x[i]
+                ty += f * lever_y[i]
+                area += areas[i]
+        sums = memory.new_vector(9)
+        out = memory.room(sums)
+        out[0] = out[1] = out[5] = 0.0
+        out[2], out[3], out[4], out[6] = fz, tx, ty, area
+        # Not -ty: without load on either side of x = 0 that is -0.
+        out[7], out[8] = ((0.0 - ty) / fz, tx / fz) if 0.0 < fz < _INFINITE else (_NONE, _NONE)
+        return sums
+
+    def reaches(self, force, level):
+        """Whether some taxel's force is as large as a level.
+
+        Args:
+            force: Normal forces (n,) in N.
+            level: The level in N.
+
+        Returns:
+            True where one is; NaN is not.
+        """
+        scratch = self._borrow_with(force)
+        largest = -_INFINITE
+        for i in range(self.taxels):
+            if scratch.force[i] > largest:
+                largest = scratch.force[i]
+        self.give_back(scratch)
+        return bool(self.taxels and largest >= level)
+
+    def _loads(self, force, active, out):
+        """`loads` into an array."""
+        columns = self.columns
+        fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
+        for i in range(self.taxels):
+            if active[i]:
+                f = force[i]
+                fx += f * columns[i, 0]
+                fy += f * columns[i, 1]
+                fz += f * columns[i, 2]
+                tx += f * columns[i, 3]
+                ty += f * columns[i, 4]
+                tz += f * columns[i, 5]
+                sx += f * columns[i, 6]
+                sy += f * columns[i, 7]
+                area += self.areas[i]
+        out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, fz, tx, ty, tz, area
+        if 0.0 < fz < _INFINITE:
+            out[7], out[8] = sx / fz, sy / fz
+        else:
+            out[7] = out[8] = _NONE
+
+    def hull(self, active):
+        """Convex hull of the active cells (T 4.24), with its area and centroid.
+
+        Only the ends of each row of copies are looked at, and of their corners the lowest at each x for the lower
+        chain, the highest for the upper; they come sorted. Reference: the monotone chain over all corners of all
+        active cells in exact fractions; errors as `hull.convex_hull`, `convex.area`, `convex.area_and_centroid`.
+
+        Args:
+            active: Mask (n,).
+
+        Returns:
+            Polygon (k, 2) in m, counter-clockwise; area in m^2; x and y of the centroid in m, NaN without contact.
+        """
+        scratch = self.borrow()
+        self._take_mask(active, scratch)
+        return self._hull(scratch)
+
+    def hull_above(self, force, threshold, saturation):
+        """`hull` of the taxels that `active` gives, without a mask for anybody else.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+
+        Returns:
+            As `hull`.
+        """
+        return self._hull(self._borrow_with_active(force, threshold, saturation))
+
+    def _hull(self, scratch):
+        """`hull` of the mask of what was borrowed, which is given back."""
+        size = self.find_hull(scratch.mask, scratch)
+        area, x, y = scratch.measure_hull(size)
+        polygon = scratch.hull(size)
+        self.give_back(scratch)
+        return polygon, area, x, y
+
+    def tick(self, force, threshold, saturation, offset, x, y):
+        """What a controller needs of one foot, in one call: `active`, `loads`, `hull`, then the hull moved inwards and
+        the point of it that is closest to another one, as `convex.inner_offset` and `convex.closest_point`.
+
+        Args:
+            force: Normal forces (n,) in N.
+            threshold: A taxel up to this, and NaN, is not active; in N.
+            saturation: A taxel from this on is not active; in N.
+            offset: How far the hull's edges move inwards in m; 0 or less, and they stay.
+            x: The other point in m.
+            y: The same.
+
+        Returns:
+            Mask (n,); wrench (6,) in N and N m, contact area in m^2, CoP (2,) in m or None without load; polygon (k, 2)
+            in m, its area in m^2, its centroid (2,) in m; the smaller polygon (m, 2) in m; the closest point (2,) in m.
+            The two points are None without contact.
+        """
+        scratch = self._borrow_with_active(force, threshold, saturation)
+        sums = scratch.sums
+        self._loads(scratch.force, scratch.mask, sums)
+        mask, wrench, contact = self._copied(scratch.mask), scratch.summed(0, 6), sums[6]
+        cop = scratch.summed(7, 2) if 0.0 < sums[2] < _INFINITE else None
+        size = self.find_hull(scratch.mask, scratch)
+        polygon = scratch.hull(size)
+        if size == 0:
+            self.give_back(scratch)
+            return mask, wrench, contact, cop, polygon, 0.0, None, memory.new_matrix(0, 2), None
+        area, middle_x, middle_y = scratch.measure_hull(size)
+        if offset <= 0.0:
+            safe = scratch.hull(size)
+            _margin, near_x, near_y = convex._nearest_of_any(scratch.polygon[:size], x, y)
+        else:
+            left = convex.offset(scratch.polygon[:size], offset, scratch.offset)
+            safe = scratch.offset.copied(left)
+            _margin, near_x, near_y = convex._nearest_of_any(scratch.offset.result[:left], x, y)
+        self.give_back(scratch)
+        centroid, nearest = vectors.vector2(middle_x, middle_y), vectors.vector2(near_x, near_y)
+        return mask, wrench, contact, cop, polygon, area, centroid, safe, nearest
+
+    def find_hull(self, active, scratch):
+        """Find the hull of the active cells and leave it in the scratch's `polygon`.
+
+        Args:
+            active: Mask (n,).
+            scratch: What was borrowed.
+
+        Returns:
+            Number of its corners.
+        """
+        rank, sign, level = self.corner_rank, self.corner_sign, self.corner_level
+        way, ring, lowest, highest = scratch.way, scratch.ring, scratch.lowest, scratch.highest
+        left, right = self.levels, -1
+        for row in range(self.row_start.shape[0] - 1):
+            first, last = self.row_start[row], self.row_start[row + 1] - 1
+            while first <= last and not active[self.row_taxel[first]]:
+                first += 1
+            if first > last:
+                continue
+            while not active[self.row_taxel[last]]:
+                last -= 1
+            for end in range(2 if last > first else 1):
+                i = self.row_taxel[last if end else first]
+                from_corner = self.last_begin[i] if end else self.corner_start[i]
+                to_corner = self.corner_start[i + 1] if end or last == first else self.first_end[i]
+                for c in range(from_corner, to_corner):
+                    v, kind, at = rank[c], sign[c], level[c]
+                    if not kind & _NOT_LOWER:
+                        lowest[at] = min(lowest[at], v)
+                    if not kind & _NOT_UPPER:
+                        highest[at] = max(highest[at], v)
+                    left = min(left, at)
+                    right = max(right, at)
+        if right < 0:
+            return 0
+        # The lower chain takes the lowest corner at each x, the upper one the highest; where a chain turns, both.
+        way[0] = lowest[left]
+        forth = 1
+        for at in range(left + 1, right + 1):
+            if lowest[at] < self.corners:
+                way[forth] = lowest[at]
+                forth += 1
+                lowest[at] = self.corners
+        lowest[left] = self.corners
+        count = forth
+        way[count] = highest[right]  # where it is the lowest too, the walk steps over it
+        count += 1
+        forth += 1
+        highest[right] = -1
+        for at in range(right - 1, left, -1):
+            if highest[at] >= 0:
+                way[count] = highest[at]
+                count += 1
+                highest[at] = -1
+        if left < right:
+            way[count] = highest[left]
+            count += 1
+            highest[left] = -1
+        way[count] = way[0]
+        count += 1
+        size = hull.hull_ring(self.points, way, forth, count, self.tolerance, ring)
+        for i in range(size):
+            v = ring[i]
+            scratch.polygon[i, 0] = self.points[v, 0]
+            scratch.polygon[i, 1] = self.points[v, 1]
+        return size
+
+
+def _count(values):
+    return "no" if values is None else values.shape[0]
+
+
+def _rows_of_copies(cells, tolerance):
+    """Rows of cells that are copies of each other, shifted along one line: the hull of a row's active cells is that of
+    the first and the last of them.
+
+    Args:
+        cells: Corners (k, 2) of each cell in m.
+        tolerance: How far in m a copy may be off.
+
+    Returns:
+        For each row the indices of its cells from one end to the other; a cell without copies is a row of its own.
+    """
+    kinds = {}  # cells of one kind, the first of which stands for them
+    for i, cell in enumerate(cells):
+        shape = cell - cell[0]
+        kind = kinds.setdefault((np.rint(shape * 1e6) + 0.0).tobytes(), [i])
+        first = cells[kind[0]]
+        if kind[0] == i:
+            continue
+        if np.abs(shape - (first - first[0])).max() <= 2.0 * tolerance:
+            kind.append(i)
+        else:
+            kinds[f"{i}".encode()] = [i]
+    rows = []
+    for kind in kinds.values():
+        where = np.array([cells[i][0] for i in kind])
+        steps = where[1:] - where[0]
+        best = [[i] for i in kind]
+        for j in np.argsort((steps * steps).sum(axis=1))[:6].tolist():  # the directions of the nearest copies
+            length = float(np.hypot(steps[j, 0], steps[j, 1]))
+            if length <= tolerance:
+                continue
+            ux, uy = (steps[j] / length).tolist()
+            across, along = where[:, 1] * ux - where[:, 0] * uy, where[:, 0] * ux + where[:, 1] * uy
+            order = np.argsort(across, kind="stable")
+            ends = np.flatnonzero(np.diff(across[order]) > 4.0 * tolerance) + 1
+            found = [part[np.argsort(along[part], kind="stable")] for part in np.split(order, ends)]
+            if len(found) < len(best) and all(np.ptp(across[part]) <= 8.0 * tolerance for part in found):
+                best = [[kind[i] for i in part.tolist()] for part in found]
+        rows += best
+    return rows
+
+
+def _is_behind(cell, along):
+    """Which corners (k,) of a convex cell lie within it and its copies farther along: no corners of their hull.
+
+    Args:
+        cell: Corners (k, 2) in m; where they are not convex none is.
+        along: Direction (2,) to the copies, of any length.
+    """
+    edge = np.roll(cell, -1, axis=0) - cell
+    length = np.hypot(edge[:, 0], edge[:, 1])
+    after = np.roll(edge, -1, axis=0)
+    turns = edge[:, 0] * after[:, 1] - edge[:, 1] * after[:, 0]
+    size = float(length.sum())
+    if not (turns > 1e-6 * size * size / len(cell) ** 2).all():
+        return np.zeros(len(cell), dtype=bool)
+    away = cell[:, None] - 1e-3 * size * along / float(np.hypot(*along)) - cell
+    depth = (edge[:, 0] * away[..., 1] - edge[:, 1] * away[..., 0]) / length
+    return depth.min(axis=1) > 1e-6 * size
+
+
+def _signs(cell, rank):
+    """Where each corner of a cell can be on a hull that holds the cell, as bits (k,).
+
+    A corner above the line from the lowest to the highest of its cell's corners is never on the lower chain of the
+    hull, one below it never on the upper.
+
+    Args:
+        cell: Corners (k, 2) in m.
+        rank: Their ranks (k,) by x, then y.
+    """
+    low, high = cell[np.argmin(rank)], cell[np.argmax(rank)]
+    along, away = high - low, cell - low
+    above = along[0] * away[:, 1] - along[1] * away[:, 0]
+    sure = 1e-9 * float((along * along).sum())
+    return np.where(above > sure, _NOT_LOWER, np.where(above < -sure, _NOT_UPPER, 0))
