@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-__all__ = ["close", "flags", "is_mask", "new_mask", "new_matrix", "new_vector", "room", "rows", "size", "values"]
+__all__ = ["close", "flags", "is_array", "is_mask", "new_mask", "new_matrix", "new_vector"]
+__all__ += ["room", "rows", "size", "values"]
 
 
 def values(array):
@@ -53,6 +54,11 @@ def rows(array, columns):
     if type(array) is not np.ndarray or array.dtype != np.float64 or array.ndim != 2 or not array.flags.c_contiguous:
         return -1
     return array.shape[0] if array.shape[1] == columns else -1
+
+
+def is_array(value):
+    """Whether this is an array of any kind."""
+    return isinstance(value, np.ndarray)
 
 
 def is_mask(array, size):

@@ -42,6 +42,10 @@ cdef inline Py_ssize_t rows(object array, Py_ssize_t columns) noexcept:
     return cnp.PyArray_DIM(<cnp.ndarray> array, 0)
 
 
+cdef inline bint is_array(object value) noexcept:
+    return isinstance(value, cnp.ndarray)
+
+
 cdef inline bint is_mask(object array, Py_ssize_t size) noexcept:
     return _is_plain(array, cnp.NPY_BOOL, 1) and cnp.PyArray_DIM(<cnp.ndarray> array, 0) == size
 

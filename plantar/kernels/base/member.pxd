@@ -1,0 +1,10 @@
+# C types of member.py. Without a compiler this file is not read.
+cimport cython
+
+from . cimport pointers as memory
+
+cdef class Member:
+    cdef readonly object function
+    cdef readonly str name
+
+cpdef close_all(value)

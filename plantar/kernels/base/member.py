@@ -1,0 +1,42 @@
+"""A member that is computed once: what `plantar.lazy` is made of, since every member of a percept goes through it.
+
+Plain Python that also compiles ahead of time (`member.pxd` gives the C types).
+"""
+
+from __future__ import annotations
+
+from . import memory
+
+__all__ = ["Member", "close_all"]
+
+
+class Member:
+    """A descriptor that calls a function at first use and keeps the value in the instance's `__dict__`.
+
+    Args:
+        function: What computes it of the instance.
+    """
+
+    def __init__(self, function):
+        self.function, self.name = function, ""
+
+    def __set_name__(self, owner, name):
+        self.name = name
+
+    def __get__(self, instance, owner):
+        if instance is None:
+            return self
+        value = self.function(instance)
+        if type(value) is not float:
+            close_all(value)
+        instance.__dict__[self.name] = value  # where Python looks first from then on
+        return value
+
+
+def close_all(value):
+    """Close an array, and those in a tuple, however deep, to writing."""
+    if memory.is_array(value):
+        memory.close(value)
+    elif isinstance(value, tuple):
+        for item in value:
+            close_all(item)
