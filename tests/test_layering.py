@@ -24,7 +24,19 @@ ALLOWED = {
 
 ROOMS: dict[str, tuple[str, ...]] = {
     "plantar": (
-        *("errors", "sides", "gravity", "kernels", "arguments", "arrays", "plane_points", "lazy", "record", "atomic"),
+        *(
+            "errors",
+            "sides",
+            "gravity",
+            "kernels",
+            "arguments",
+            "arrays",
+            "plane_points",
+            "lazy",
+            "record",
+            "kernel_class",
+        ),
+        "atomic",
         *("console", "optional_library", "doctor", "files", "settings", "mechanics", "layouts", "plotting", "pages"),
         *("geometry", "sensing", "percepts", "recordings", "formats", "viewer", "bench"),
     ),

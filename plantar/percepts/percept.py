@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
-from typing import Self
+from functools import partial
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from plantar.arguments import instance, number
-from plantar.arrays import read_only
 from plantar.errors import ReadingError
+from plantar.kernel_class import constructed_by_kernel
 from plantar.kernels.base.vectors import close
+from plantar.kernels.skin.percept_fields import PerceptFields
 from plantar.layouts.layout import SoleLayout
 from plantar.layouts.taxel_values import taxel_mask
 from plantar.lazy import lazy
@@ -27,10 +28,9 @@ from plantar.sensing.reading import Reading
 
 __all__ = ["Percept"]
 
-_USUAL = PerceptOptions()
 
-
-class Percept(ShapeMembers, VirtualMembers):
+@constructed_by_kernel
+class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     """A reading seen through its layout.
 
     Nothing is computed before it is asked for, and nothing twice; what is kept is read-only. An unloaded sole has
@@ -44,7 +44,7 @@ class Percept(ShapeMembers, VirtualMembers):
         active: Mask (n,) of taxels to take as active, of a `TaxelActivation` with hysteresis; those above the threshold
             where None.
         stuck: Mask (n,) of stuck taxels, of a `StuckMonitor`; none where None.
-        options: What else may be told.
+        options: What else may be told; what is usual where None.
 
     Raises:
         ReadingError: If the reading or a mask has another number of taxels than the layout.
@@ -58,6 +58,21 @@ class Percept(ShapeMembers, VirtualMembers):
         (True, 0.0, (0, 2))
     """
 
+    PLAIN = (SoleLayout, Reading, PerceptOptions())
+    """What needs no check: the classes of layout and reading, and the options where none are told."""
+
+    if TYPE_CHECKING:  # what the kernel keeps and finds
+        force_threshold: float
+        _given_active: NDArray[np.bool_] | None
+        _stuck: NDArray[np.bool_] | None
+
+        def _keep(self, *fields: Any) -> None: ...
+        def _take_loads(self, loads: NDArray[np.float64]) -> None: ...
+        def _loads(self) -> NDArray[np.float64]: ...
+        def _hull(self) -> NDArray[np.float64]: ...
+        def _hull_area(self) -> float: ...
+        def _hull_centroid(self) -> tuple[float, float]: ...
+
     def __init__(
         self,
         layout: SoleLayout,
@@ -66,24 +81,29 @@ class Percept(ShapeMembers, VirtualMembers):
         *,
         active: ArrayLike | None = None,
         stuck: ArrayLike | None = None,
-        options: PerceptOptions = _USUAL,
-    ) -> None:
-        if type(layout) is not SoleLayout:
-            instance(layout, SoleLayout, "layout")
-        if type(reading) is not Reading:
-            instance(reading, Reading, "reading")
+        options: PerceptOptions | None = None,
+    ) -> None: ...
+
+    def _checked(
+        self,
+        layout: SoleLayout,
+        reading: Reading,
+        force_threshold: float | None,
+        active: ArrayLike | None,
+        stuck: ArrayLike | None,
+        options: PerceptOptions | None,
+    ) -> tuple[Any, ...]:
+        """Threshold, masks and options, of what did not come as it usually does."""
+        instance(layout, SoleLayout, "layout")
+        instance(reading, Reading, "reading")
         if reading.force.shape[0] != len(layout.corners):
             raise ReadingError(f"reading has {reading.force.shape[0]} taxels; layout '{layout.name}' has {len(layout)}")
-        self.layout = layout
-        self.reading = reading
-        self.force_threshold = (
-            layout.force_threshold if force_threshold is None else number(force_threshold, "force threshold")
+        return (
+            layout.force_threshold if force_threshold is None else number(force_threshold, "force threshold"),
+            None if active is None else taxel_mask(layout, active, "mask 'active'").copy(),
+            None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy(),
+            self.PLAIN[2] if options is None else instance(options, PerceptOptions, "options"),
         )
-        self.options = options if options is _USUAL else instance(options, PerceptOptions, "options")
-        self._given_active = None if active is None else taxel_mask(layout, active, "mask 'active'").copy()
-        self._stuck = None if stuck is None else taxel_mask(layout, stuck, "mask 'stuck'").copy()
-        # Whether what is active is nothing but a comparison, which a kernel then makes on its way.
-        self._compared = active is None and stuck is None and not options.fill
 
     @classmethod
     def summed(cls, layout: SoleLayout, reading: Reading, loads: NDArray[np.float64]) -> Self:
@@ -108,27 +128,26 @@ class Percept(ShapeMembers, VirtualMembers):
         """
         close(loads)
         vertical = loads.item(2)
-        percept = object.__new__(cls)
+        percept = cls.__new__(cls)
+        percept._keep(layout, reading, layout.force_threshold, None, None, cls.PLAIN[2])
+        percept._take_loads(loads)
         percept.__dict__ = {
-            "layout": layout,
-            "reading": reading,
-            "force_threshold": layout.force_threshold,
-            "options": _USUAL,
-            "_given_active": None,
-            "_stuck": None,
-            "_compared": True,
-            "_loads_summed": loads,
             "vertical_force": vertical,
             "wrench_in_sole": loads[:6],
             "position_cop_in_sole": loads[7:] if 0.0 < vertical < math.inf else None,
         }
         return percept
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles compute their members anew: numpy forgets what is read-only.
+        masks: dict[str, Any] = {"active": self._given_active, "stuck": self._stuck, "options": self.options}
+        return partial(type(self), **masks), (self.layout, self.reading, self.force_threshold)
+
     @classmethod
     def members(cls) -> tuple[str, ...]:
         """Names of all lazy members; those in a percept's `__dict__` have been computed."""
         own = (vars(base).items() for base in cls.__mro__)
-        return tuple(name for items in own for name, value in items if isinstance(value, cached_property))
+        return tuple(name for items in own for name, value in items if isinstance(value, lazy))
 
     @lazy
     def health(self) -> TaxelHealth:
@@ -160,18 +179,6 @@ class Percept(ShapeMembers, VirtualMembers):
     def active_force(self) -> NDArray[np.float64]:
         """Normal forces (n,) of the active taxels in N, 0 elsewhere."""
         return np.where(self.active, self.sound_force if self.options.fill else self.reading.force, 0.0)
-
-    def _loads(self) -> NDArray[np.float64]:
-        """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
-        loads: NDArray[np.float64] | None = self.__dict__.get("_loads_summed")
-        if loads is None:
-            force, kernel = self.sound_force if self.options.fill else self.reading.force, self.layout.kernel
-            if self._compared and "active" not in self.__dict__:
-                loads = kernel.loads_above(force, self.force_threshold, self.layout.force_limit)
-            else:
-                loads = kernel.loads(force, self.active)
-            self.__dict__["_loads_summed"] = read_only(loads)
-        return loads
 
     @lazy
     def vertical_force(self) -> float:
@@ -205,27 +212,15 @@ class Percept(ShapeMembers, VirtualMembers):
         xi = self.options.reference_area
         return scaled_by_area(self.wrench_in_sole, self.contact_area, self.layout.cell_area if xi is None else xi)
 
-    def _hull(self) -> tuple[NDArray[np.float64], float, float, float]:
-        """Support polygon, its area and its centroid, found together when the first of them is asked for."""
-        hull: tuple[NDArray[np.float64], float, float, float] | None = self.__dict__.get("_hull_found")
-        if hull is None:
-            kernel = self.layout.kernel
-            if self._compared and "active" not in self.__dict__:
-                hull = kernel.hull_above(self.reading.force, self.force_threshold, self.layout.force_limit)
-            else:
-                hull = kernel.hull(self.active)
-            self.__dict__["_hull_found"] = hull
-        return hull
-
     @lazy
     def support_polygon_in_sole(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) in the sole frame in m, counter-clockwise (T 4.24)."""
-        return self._hull()[0]
+        return self._hull()
 
     @lazy
     def support_area(self) -> float:
         """Area A_p of the support polygon in m^2."""
-        return float(self._hull()[1])
+        return self._hull_area()
 
     @lazy
     def area_ratio(self) -> float:
@@ -235,5 +230,4 @@ class Percept(ShapeMembers, VirtualMembers):
     @lazy
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
-        polygon, _area, x, y = self._hull()
-        return np.array((x, y)) if len(polygon) else None
+        return np.array(self._hull_centroid()) if len(self._hull()) else None

@@ -4,23 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from plantar.arguments import LARGEST, number
+from plantar.arguments import number
 from plantar.arrays import numbers, own
 from plantar.errors import ReadingError
+from plantar.kernel_class import constructed_by_kernel
 from plantar.kernels.base import vectors
+from plantar.kernels.skin.reading_fields import ReadingFields
 
 __all__ = ["Reading"]
 
 _TIME, _FORCE = "reading field 'time'", "reading field 'force'"
 
 
+@constructed_by_kernel
 @dataclass(frozen=True, eq=False, init=False)
-class Reading:
+class Reading(ReadingFields):
     """What n taxels of one sole measured at one time. Arrays are copied in, and read-only.
 
     Attributes:
@@ -39,11 +42,16 @@ class Reading:
         np.float64(3.0)
     """
 
+    # Without values here: the class that is compiled holds them.
     time: float
     force: NDArray[np.float64]
-    proximity: NDArray[np.float64] | None = None
-    temperature: NDArray[np.float64] | None = None
-    acceleration: NDArray[np.float64] | None = None
+    proximity: NDArray[np.float64] | None
+    temperature: NDArray[np.float64] | None
+    acceleration: NDArray[np.float64] | None
+
+    if TYPE_CHECKING:
+
+        def _keep(self, *fields: Any) -> None: ...
 
     def __init__(
         self,
@@ -52,19 +60,25 @@ class Reading:
         proximity: NDArray[Any] | Sequence[float] | None = None,
         temperature: NDArray[Any] | Sequence[float] | None = None,
         acceleration: NDArray[Any] | Sequence[Sequence[float]] | None = None,
-    ) -> None:
-        kept = self.__dict__  # past what keeps others from assigning, which takes a third of the time
-        # What comes as it should is looked at here: calls for it would take a third of the time.
-        plain = type(time) is float and -LARGEST <= time <= LARGEST
-        kept["time"] = time if plain else number(time, _TIME, ReadingError, finite=True)
+    ) -> None: ...
+
+    def _checked(
+        self, time: object, force: object, proximity: object, temperature: object, acceleration: object
+    ) -> tuple[Any, ...]:
+        """The fields of what did not come as it should, or has more than proximity beside force."""
+        at = number(time, _TIME, ReadingError, finite=True)
         copy = vectors.kept(force)
-        kept["force"] = values = own(numbers(force, _FORCE, ReadingError)) if copy is None else copy
+        values = own(numbers(force, _FORCE, ReadingError)) if copy is None else copy
         if values.ndim != 1:
             raise ReadingError(f"{_FORCE} has shape {values.shape}; expected (taxels,)")
         shape = values.shape
-        kept["proximity"] = None if proximity is None else _field("proximity", proximity, shape)
-        kept["temperature"] = None if temperature is None else _field("temperature", temperature, shape)
-        kept["acceleration"] = None if acceleration is None else _field("acceleration", acceleration, (*shape, 3))
+        return (
+            at,
+            values,
+            None if proximity is None else _field("proximity", proximity, shape),
+            None if temperature is None else _field("temperature", temperature, shape),
+            None if acceleration is None else _field("acceleration", acceleration, (*shape, 3)),
+        )
 
     @classmethod
     def taken_over(cls, time: float, force: NDArray[np.float64], proximity: NDArray[np.float64] | None = None) -> Self:
@@ -82,14 +96,11 @@ class Reading:
             >>> Reading.taken_over(0.0, np.array([1.0, 2.0])).force.flags.writeable
             False
         """
-        reading = object.__new__(cls)
-        kept = reading.__dict__  # what is not put there is None, as the class says
-        kept["time"] = time
+        reading = cls.__new__(cls)
         vectors.close(force)
-        kept["force"] = force
         if proximity is not None:
             vectors.close(proximity)
-            kept["proximity"] = proximity
+        reading._keep(time, force, proximity, None, None)
         return reading
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -1,6 +1,7 @@
+import copy
+import inspect
 import math
-from functools import cached_property
-from types import SimpleNamespace
+import pickle
 
 import numpy as np
 import pytest
@@ -20,6 +21,8 @@ from plantar import (
 )
 from plantar.geometry.outline import Outline
 from plantar.geometry.polygon import signed_margin
+from plantar.kernels.skin.percept_fields import PerceptFields
+from plantar.lazy import lazy
 from plantar.sensing.ground_plane import fit_ground_plane
 from plantar.sensing.health import TaxelHealth
 from plantar.sensing.proximity import preemptive_polygon
@@ -76,7 +79,7 @@ def random_force(seed, n):
 
 def test_members_are_all_there_are():
     assert set(Percept.members()) == set(MEMBERS)
-    assert all(isinstance(getattr(Percept, name), cached_property) for name in MEMBERS)
+    assert all(isinstance(getattr(Percept, name), lazy) for name in MEMBERS)
     assert len(Percept.members()) == len(MEMBERS)
 
 
@@ -89,21 +92,26 @@ def test_nothing_is_computed_before_it_is_asked_for_and_nothing_twice(sole):
 
 def test_a_controller_that_asks_for_the_cop_never_pays_for_the_polygon(sole, monkeypatch):
     calls = []
-    kernel = sole.kernel
-    counting = SimpleNamespace(
-        loads_above=kernel.loads_above,
-        active=kernel.active,
-        hull_above=lambda *forces: calls.append(1) or kernel.hull_above(*forces),
-    )
-    monkeypatch.setitem(vars(sole), "kernel", counting)
+    for name in ("_hull", "_hull_area"):
+        asked = getattr(PerceptFields, name)
+        monkeypatch.setattr(Percept, name, lambda self, f=asked: calls.append(f.__name__) or f(self), raising=False)
     percept = Percept(sole, Reading(0.0, np.full(len(sole), 5.0)))
     assert percept.position_cop_in_sole is not None
     assert percept.wrench_in_sole[2] > 0.0
     assert calls == []
     assert percept.support_area > 0.0
-    assert percept.centroid_in_sole is not None
     assert percept.area_ratio > 0.0
-    assert calls == [1]
+    assert calls == ["_hull_area"]
+
+
+@pytest.mark.parametrize("first", ["support_area", "support_polygon_in_sole", "centroid_in_sole"])
+def test_area_polygon_and_centroid_are_the_same_in_whatever_order_they_are_asked_for(sole, first):
+    percept = Percept(sole, Reading(0.0, np.linspace(0.0, 20.0, len(sole))))
+    getattr(percept, first)
+    polygon, area, x, y = sole.kernel.hull(percept.active)
+    assert percept.support_area == area
+    assert percept.support_polygon_in_sole.tolist() == polygon.tolist()
+    assert percept.centroid_in_sole.tolist() == [x, y]
 
 
 @pytest.mark.parametrize("value", [0.0, -5.0, 1.0, math.nan, math.inf])
@@ -360,3 +368,37 @@ def test_wrong_arguments_are_refused_by_name(sole, argument, value, text):
 def test_wrong_options_are_refused_by_name(option, value, text):
     with pytest.raises(PlantarError, match=text):
         PerceptOptions(**{option: value})
+
+
+def test_a_copied_percept_says_the_same(sole):
+    active, stuck = np.arange(len(sole)) % 3 == 0, np.arange(len(sole)) % 5 == 0
+    percept = Percept(sole, Reading(0.5, np.linspace(0.0, 30.0, len(sole))), 2.0, active=active, stuck=stuck)
+    for again in (copy.copy(percept), copy.deepcopy(percept), pickle.loads(pickle.dumps(percept))):
+        assert again.active.tolist() == percept.active.tolist()
+        assert again.wrench_in_sole.tolist() == percept.wrench_in_sole.tolist()
+        assert (again.force_threshold, again.reading.time) == (2.0, 0.5)
+
+
+def test_signatures_are_told_though_a_kernel_constructs():
+    assert list(inspect.signature(Percept).parameters)[:3] == ["layout", "reading", "force_threshold"]
+    assert list(inspect.signature(Reading).parameters)[:2] == ["time", "force"]
+    with pytest.raises(TypeError, match="argument"):
+        Reading(0.0)
+
+
+@pytest.mark.parametrize("time", [np.float64(1.0), 1, np.float32(1.0)])
+def test_a_reading_takes_what_is_not_plain(time):
+    near = [0.01, 0.02]
+    reading = Reading(time, [1, 2], near, temperature=np.float32([20.0, 21.0]))
+    assert isinstance(reading.time, float)
+    assert reading.time == 1.0
+    assert reading.proximity.tolist() == near
+    assert reading.temperature.tolist() == [20.0, 21.0]
+    assert not reading.proximity.flags.writeable
+    for wrong in (np.zeros(3), np.zeros((2, 1)), ["a", "b"]):
+        with pytest.raises(ReadingError, match="proximity"):
+            Reading(time, [1, 2], wrong)
+        with pytest.raises(ReadingError, match="proximity"):
+            Reading(0.0, np.array([1.0, 2.0]), wrong)
+    with pytest.raises(ReadingError, match="time"):
+        Reading(np.nan, np.zeros(2))

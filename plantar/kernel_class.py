@@ -1,0 +1,38 @@
+"""Classes whose constructor is a kernel's: no Python runs where what is handed over comes as it should."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TypeVar
+
+__all__ = ["constructed_by_kernel"]
+
+_Class = TypeVar("_Class")
+
+
+def constructed_by_kernel(cls: type[_Class]) -> type[_Class]:
+    """Leave the construction to the kernel that a class inherits from, and keep what its own `__init__` tells.
+
+    A constructor in Python would be run at each instance; types and help need only its parameters.
+
+    Args:
+        cls: The class; its `__init__` has parameters with types, and no body.
+
+    Returns:
+        The class without that method, with its signature.
+
+    Example:
+        >>> class Fields:
+        ...     def __init__(self, time):
+        ...         self.time = time
+        >>> @constructed_by_kernel
+        ... class Instant(Fields):
+        ...     def __init__(self, time: float) -> None: ...
+        >>> Instant(0.5).time, str(inspect.signature(Instant))
+        (0.5, "(time: 'float') -> 'None'")
+    """
+    told = inspect.signature(vars(cls)["__init__"])
+    parameters = list(told.parameters.values())[1:]
+    cls.__signature__ = told.replace(parameters=parameters)  # type: ignore[attr-defined]
+    del cls.__init__
+    return cls
