@@ -258,6 +258,8 @@ class SoleLayout:
             self.vertices[:, :2],
             self.corner_start,
             self.corner_vertex,
+            self.force_threshold,
+            self.force_limit,
         )
 
     def cell_polygon(self, taxel: int) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ cdef class PerceptFields:
     cdef readonly object options
     cdef readonly object _given_active
     cdef readonly object _stuck
+    cdef SoleKernel _kernel
     cdef object _summed
     cdef object _polygon
     cdef bint _fills

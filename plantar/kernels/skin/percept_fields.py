@@ -31,13 +31,16 @@ class PerceptFields:
         plain = type(layout) is of_layout and type(reading) is of_reading and active is None and stuck is None
         if force_threshold is not None or not (options is None or options is usual):
             plain = False
-        if plain and memory.size(reading.force) == layout.kernel.taxels:
-            self._fill(layout, reading, layout.force_threshold, None, None, usual, False)
+        kernel = layout.kernel if plain else None
+        if plain and memory.size(reading.force) == kernel.taxels:
+            self._kernel = kernel
+            self._fill(layout, reading, kernel.threshold, None, None, usual, False)
         else:
             self._keep(layout, reading, *self._checked(layout, reading, force_threshold, active, stuck, options))
 
     def _keep(self, layout, reading, force_threshold, active, stuck, options):
         """Keep fields that are right."""
+        self._kernel = layout.kernel
         self._fill(layout, reading, force_threshold, active, stuck, options, options.fill)
 
     def _fill(self, layout, reading, force_threshold, active, stuck, options, fills):
@@ -57,9 +60,9 @@ class PerceptFields:
     def _loads(self):
         """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
         if self._summed is None:
-            kernel, force = self.layout.kernel, self.reading.force
+            kernel, force = self._kernel, self.reading.force
             if self._compared:
-                loads = kernel.loads_above(force, self.force_threshold, self.layout.force_limit)
+                loads = kernel.loads_above(force, self.force_threshold, kernel.limit)
             else:
                 loads = kernel.loads(self.sound_force if self._fills else force, self.active)
             memory.close(loads)
@@ -71,10 +74,8 @@ class PerceptFields:
         for those who want it."""
         if not self._has_area:
             if self._compared:
-                kernel = self.layout.kernel
-                self._take(
-                    kernel.measured_hull_above(self.reading.force, self.force_threshold, self.layout.force_limit)
-                )
+                kernel = self._kernel
+                self._take(kernel.measured_hull_above(self.reading.force, self.force_threshold, kernel.limit))
             else:
                 self._hull()
         return self._area
@@ -82,9 +83,9 @@ class PerceptFields:
     def _hull(self):
         """Support polygon (k, 2) in m; its area and centroid are found with it."""
         if self._polygon is None:
-            kernel = self.layout.kernel
+            kernel = self._kernel
             if self._compared:
-                found = kernel.hull_above(self.reading.force, self.force_threshold, self.layout.force_limit)
+                found = kernel.hull_above(self.reading.force, self.force_threshold, kernel.limit)
             else:
                 found = kernel.hull(self.active)
             polygon, area, x, y = found

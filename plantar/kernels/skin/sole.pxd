@@ -49,6 +49,8 @@ cdef class SoleKernel:
     cdef public Py_ssize_t taxels
     cdef public Py_ssize_t corners
     cdef public double tolerance
+    cdef readonly object threshold
+    cdef readonly double limit
     cdef public bint flat
     cdef const Py_ssize_t[::1] corner_level
     cdef const Py_ssize_t[::1] first_end

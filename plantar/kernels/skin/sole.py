@@ -87,9 +87,14 @@ class SoleKernel:
         vertices: Corner points (v, 2) in m in the sole plane, shared between cells that meet.
         corner_start: Offsets (n + 1,) of each taxel's corners.
         corner_vertex: Vertex indices of the corners, taxel by taxel, counter-clockwise.
+        threshold: Force in N up to which a taxel is not active, where nobody says otherwise.
+        limit: Force in N from which one is saturated.
     """
 
-    def __init__(self, positions, normals, areas, vertices, corner_start, corner_vertex):
+    def __init__(
+        self, positions, normals, areas, vertices, corner_start, corner_vertex, threshold=0.0, limit=_INFINITE
+    ):
+        self.threshold, self.limit = float(threshold), float(limit)
         positions = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
         normals = np.asarray(normals, dtype=np.float64).reshape(-1, 3)
         vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 2)
