@@ -131,11 +131,9 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         percept = cls.__new__(cls)
         percept._keep(layout, reading, layout.force_threshold, None, None, cls.PLAIN[2])
         percept._take_loads(loads)
-        percept.__dict__ = {
-            "vertical_force": vertical,
-            "wrench_in_sole": loads[:6],
-            "position_cop_in_sole": loads[7:] if 0.0 < vertical < math.inf else None,
-        }
+        known = percept.__dict__  # where lazy members look first
+        known["vertical_force"], known["wrench_in_sole"] = vertical, loads[:6]
+        known["position_cop_in_sole"] = loads[7:] if 0.0 < vertical < math.inf else None
         return percept
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -32,6 +32,7 @@ cdef class PerceptFields:
     @cython.locals(kernel=SoleKernel, area=double, x=double, y=double)
     cpdef _hull(self)
 
+    @cython.locals(area=double, x=double, y=double)
     cdef _take(self, (double, double, double) measured)
 
     cpdef _hull_centroid(self)

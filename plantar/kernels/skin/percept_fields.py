@@ -96,7 +96,8 @@ class PerceptFields:
 
     def _take(self, measured):
         """Keep area and centroid."""
-        self._area, self._x, self._y = measured
+        area, x, y = measured
+        self._area, self._x, self._y = float(area), float(x), float(y)
         self._has_area = True
 
     def _hull_centroid(self):

@@ -1,7 +1,10 @@
 import copy
 import inspect
 import math
+import os
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -402,3 +405,31 @@ def test_a_reading_takes_what_is_not_plain(time):
             Reading(0.0, np.array([1.0, 2.0]), wrong)
     with pytest.raises(ReadingError, match="time"):
         Reading(np.nan, np.zeros(2))
+
+
+def test_interpreted_kernels_construct_the_same():
+    code = """
+from dataclasses import FrozenInstanceError
+import numpy as np
+from plantar import Percept, Reading, hex_layout, kernels
+layout = hex_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]])
+force = np.linspace(0.0, 20.0, len(layout))
+loads = layout.kernel.loads_above(force, layout.force_threshold, layout.force_limit)
+told = [kernels.compiled]
+for reading in (Reading(0.5, force), Reading.taken_over(0.5, force.copy())):
+    for percept in (Percept(layout, reading), Percept.summed(layout, reading, loads.copy())):
+        told += [percept.vertical_force, percept.wrench_in_sole.tolist(), percept.support_area, percept.reading.time]
+        told += [percept.contact_area, percept.force_threshold, percept.centroid_in_sole.tolist()]
+    try:
+        reading.time = 1.0
+    except FrozenInstanceError:
+        told.append("closed")
+print(told)
+"""
+    found = []
+    for form in ("", "python"):
+        environment = {**os.environ, "PLANTAR_KERNELS": form}
+        run = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+        found.append(run.stdout.partition(",")[2])
+    assert found[0] == found[1]
+    assert found[0].count("closed") == 2
