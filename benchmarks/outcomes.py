@@ -3,15 +3,17 @@
 Runs what the tables still lack, a row of TABLE.csv a run, the runs that tell most first, and writes the tables;
 stopped, it goes on where it was. `... anew TABLE...` first drops the rows that were made at another commit than the one
 that is checked out; `... report [TABLE...]` only writes the tables. Without names it means all of them. A row's commit
-is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`. Several processes
-share the work when each has tables of its own. Robots that are not built in come from `PLANTAR_REAL_DATA`; without it
-their rows wait.
+is what is checked out, so run it in a worktree that nobody changes: `git worktree add ../tables`. `... again COUNT
+[TABLE...]` runs so many rows, drawn by chance, once more, and says which have another outcome or figure: those of
+another processor may differ in the last digits. Several processes share the work when each has tables of its own.
+Robots that are not built in come from `PLANTAR_REAL_DATA`; without it their rows wait.
 """
 
 from __future__ import annotations
 
 import csv
 import os
+import random
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -20,7 +22,7 @@ from pathlib import Path
 from types import ModuleType
 
 from introduced_robots import introduce
-from resumable import Benchmark, Case, add_row, commit, rows_of, wanted
+from resumable import Benchmark, Case, add_row, commit, differences, latest, rows_of, run_row, wanted
 
 TABLES = ("push_steps", "push", "footholds", "stones", "unknown_ground", "force_only", "velocity", "introduced_robots")
 TABLES += ("guide", "balance", "reactive_options", "survival_map", "plant")
@@ -63,20 +65,58 @@ def run(scripts: Sequence[ModuleType], minutes: float) -> None:
             print(f"{place} {script.__name__}: {case.name} {case.robot} {seed}: {told}", file=sys.stderr, flush=True)
 
 
+def again(scripts: Sequence[ModuleType], count: int) -> bool:
+    """Run some rows once more.
+
+    Args:
+        scripts: The tables that they are drawn from; each row is as likely as any other.
+        count: How many.
+
+    Returns:
+        Whether all have the same outcome.
+    """
+    known = {}
+    for script in scripts:
+        cases = {(c.name, c.robot): c for c in script.BENCHMARK.cases if not c.file or Path(c.file).exists()}
+        rows = [r for r in latest(rows_of(script.BENCHMARK.path)) if (r["case"], r["robot"]) in cases]
+        known |= {(script.__name__, i): (script.BENCHMARK, cases[r["case"], r["robot"]], r) for i, r in enumerate(rows)}
+    drawn = random.Random(0).sample(sorted(known), min(count, len(known)))
+    held = same = 0
+    for i, key in enumerate(drawn):
+        benchmark, case, row = known[key]
+        other = differences(row, run_row(benchmark, case, int(row["seed"]), row["commit"]))
+        held += not {"completed", "failed"} & set(other)
+        same += not other
+        told = f"differs in {', '.join(other)}" if other else "the same"
+        place = f"[{len(drawn) - i - 1} to come]"
+        print(f"{place} {key[0]}: {case.name} {case.robot} {row['seed']}: {told}", file=sys.stderr, flush=True)
+    figures = f"{same} of them in every figure; drawn from {len(known)}"
+    print(f"{held} of {len(drawn)} rows have the same outcome at {commit()}, {figures}")
+    return held == len(drawn)
+
+
 def main(arguments: Sequence[str]) -> None:
     """Do what the command line says."""
-    first, names = (arguments[0], arguments[1:] or TABLES) if arguments else ("", ())
+    first, names = (arguments[0], arguments[1:]) if arguments else ("", ())
+    count, names = (names[0], names[1:]) if first == "again" and names else ("", names)
+    names = names or TABLES
     odd = [name for name in names if name not in TABLES]
-    if odd or (first not in ("anew", "report") and not first.replace(".", "", 1).isdigit()):
-        sys.exit(f"outcomes.py: minutes, `anew` or `report`, then tables of {', '.join(TABLES)}; got {list(arguments)}")
+    known = first in ("anew", "report") or first.replace(".", "", 1).isdigit() or (first == "again" and count.isdigit())
+    if odd or not known:
+        sys.exit(
+            f"outcomes.py: minutes, `anew`, `report` or `again COUNT`, then tables of {', '.join(TABLES)}; "
+            f"got {list(arguments)}"
+        )
     scripts = [import_module(name) for name in names]
     if first == "anew":
         for script in scripts:
             print(f"{script.__name__}: {drop_other_commits(script.BENCHMARK, commit())} rows dropped")
         return
+    if first != "report" and (data := os.environ.get("PLANTAR_REAL_DATA")):
+        introduce(Path(data))
+    if first == "again":
+        sys.exit(not again(scripts, int(count)))
     if first != "report":
-        if data := os.environ.get("PLANTAR_REAL_DATA"):
-            introduce(Path(data))
         run(scripts, float(first))
     for script in scripts:
         script.report()

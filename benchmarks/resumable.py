@@ -23,9 +23,11 @@ __all__ = [
     "add_row",
     "commit",
     "count",
+    "differences",
     "latest",
     "origin",
     "rows_of",
+    "run_row",
     "wanted",
     "write_table",
 ]
@@ -119,8 +121,8 @@ def rank(case: Case, first: int, i: int) -> int:
     return i if first == FRESH else 10 + i
 
 
-def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
-    """Run a case with one seed and append its row.
+def run_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
+    """Run a case with one seed.
 
     Args:
         benchmark: What it belongs to.
@@ -129,7 +131,7 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         made: Name of the commit.
 
     Returns:
-        The row.
+        Its row.
     """
     from sim.run.runner import Simulation
     from sim.run.scene import load_scene
@@ -139,7 +141,7 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         recording = Path(folder, "run.mcap") if benchmark.recorded else None
         summary = simulation.run(record=recording)
         found = benchmark.figures(simulation, {**summary, "recording": recording})
-    row = {
+    return {
         "case": case.name,
         "robot": case.robot,
         "seed": seed,
@@ -148,6 +150,11 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         "commit": made,
         **found,
     }
+
+
+def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str, Any]:
+    """`run_row`, appended to the benchmark's file."""
+    row = run_row(benchmark, case, seed, made)
     columns = ("case", "robot", "seed", "completed", "failed", "commit", *benchmark.columns)
     new = not benchmark.path.exists()
     with benchmark.path.open("a", newline="", encoding="utf-8") as file:
@@ -158,6 +165,14 @@ def add_row(benchmark: Benchmark, case: Case, seed: int, made: str) -> dict[str,
         file.flush()
         os.fsync(file.fileno())
     return row
+
+
+def differences(row: dict[str, str], again: dict[str, Any]) -> list[str]:
+    """Columns in which a row and what it comes to when it is run again are not the same text; times of a machine, and
+    the commit, are left out."""
+    timed = ("_us", "real_time_factor", "commit")
+    texts = {k: "" if again.get(k) is None else str(again[k]) for k in row}
+    return [k for k in row if row[k] != texts[k] and not k.endswith(timed)]
 
 
 def count(rows: Sequence[dict[str, str]], fresh: bool) -> str:
