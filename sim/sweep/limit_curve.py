@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import chdtrc
 
 __all__ = ["LimitCurve", "limit_curve"]
 
@@ -25,6 +26,7 @@ _BEYOND = 0.5  # how far limits are looked for outside of the range, in shares o
 _LIMITS = 161
 _NEGLIGIBLE = 1e-6  # probability that is left out when the grid is drawn around the rest
 _LEAST = 1e-12
+_GROUP, _GROUPS = 10, 20  # least runs of a group by which a curve is held against its runs, and most groups
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +93,30 @@ class LimitCurve:
         """Expected share of runs that are completed at a value, 0 to 1."""
         rising = float((self.joint * _shares(value, self.limits, self.widths)).sum())
         return rising if self.rising else 1.0 - rising
+
+    def agreement(self, values: Sequence[float], completed: Sequence[bool]) -> float:
+        """Probability that runs of this very curve are as far from it as these: tiny where no one curve tells them.
+
+        So it is where the seed chooses what the limit depends on, as the side of a push: half of the runs are then
+        completed somewhere between several limits. Chi square of groups of ten runs or more, by value, after Pearson.
+
+        Args:
+            values: The setting's value in each run.
+            completed: Whether it was completed.
+
+        Returns:
+            The probability, 0 to 1; 1 with less than 40 runs, which cannot tell.
+        """
+        if len(values) < 4 * _GROUP:
+            return 1.0
+        order = np.argsort(np.asarray(values, dtype=float), kind="stable")
+        share = np.array([self.share(float(v)) for v in np.asarray(values, dtype=float)[order]])
+        off = np.asarray(completed, dtype=float)[order] - share
+        groups = np.array_split(np.arange(len(order)), min(_GROUPS, len(order) // _GROUP))
+        # Where all or none are expected a group would count one run that is otherwise for everything.
+        scatter = [max(float((share[g] * (1.0 - share[g])).sum()), 0.05) for g in groups]
+        square = sum(float(off[g].sum()) ** 2 / s for g, s in zip(groups, scatter, strict=True))
+        return float(chdtrc(len(groups) - 3, square))  # limit, width and lapse were chosen by the runs
 
     def turned(self, part: float, low: float, high: float) -> float:
         """The value at which a part of the way from all to none, or from none to all, is expected to be done.

@@ -96,7 +96,8 @@ class LimitSearch:
             "limits": for each grid point its settings, the setting that was searched ("setting", "unit", "range"), its
             "limit", the 95 % "interval" of that and the interval's "width" as a share of the limit (None where the
             limit is not in the range), whether it is known well enough ("reached"), whether larger values hold
-            ("rising"), runs, completed, and the errors of runs that could not be.
+            ("rising"), how well one curve tells the runs ("agreement", `LimitCurve.agreement`), runs, completed, and
+            the errors of runs that could not be.
         """
         return {"limits": [self._found(point, rows) for point in self.sweep.points()]}
 
@@ -130,9 +131,12 @@ class LimitSearch:
         Returns:
             What is known of the limit.
         """
+        return limit_curve(*self._outcomes(keys, rows), self.limit.low, self.limit.high)
+
+    def _outcomes(self, keys: Sequence[Key], rows: Rows) -> tuple[list[float], list[bool]]:
+        """The setting's value and whether it was completed, of each run that came to an end."""
         ran = [key for key in keys if not rows[key]["error"]]
-        values = [self.limit.value(key[0][-1]) for key in ran]
-        return limit_curve(values, [rows[key]["completed"] == "True" for key in ran], self.limit.low, self.limit.high)
+        return [self.limit.value(key[0][-1]) for key in ran], [rows[key]["completed"] == "True" for key in ran]
 
     def _chain(self, point: Sequence[str], rows: Rows) -> Iterator[Run | None]:
         """The runs of a grid point; None while outcomes have to be waited for."""
@@ -180,6 +184,7 @@ class LimitSearch:
             "width": _width(curve) if there else None,
             "reached": inside > _SURE and _width(curve) <= self.within,
             "rising": curve.rising,
+            "agreement": curve.agreement(*self._outcomes(keys, rows)),
             "runs": len(ran),
             "completed": sum(row["completed"] == "True" for row in ran),
             "errors": [row["error"] for row in ran if row["error"]],

@@ -7,6 +7,9 @@ from typing import Any
 
 __all__ = ["sweep_errors", "sweep_text"]
 
+_ODD = 1e-3
+"""Agreement of the runs with one curve below which it is doubted: once in a thousand searches by chance."""
+
 
 def sweep_text(result: Mapping[str, Any], scene: str) -> str:
     """How many runs of each grid point were completed and why the others were not, or its limit; and the files.
@@ -52,9 +55,15 @@ def _limit_text(told: Mapping[str, Any], scene: str) -> str:
     begin, end = told["interval"]
     enough = "" if told["reached"] else "; more seeds are needed to know it as well as was asked for"
     holds = "larger" if told["rising"] else "smaller"
+    odd = ""
+    if told["agreement"] < _ODD:
+        odd = (
+            f"; no one limit tells these runs (p = {told['agreement']:.0e}): if the seed chooses what it depends on, "
+            "as the side of a push, fix that by --set or --grid"
+        )
     return (
         f"{_name(told, scene)}: half of the runs are completed at {told['setting']} {told['limit']:.3g}{unit}, "
-        f"95 % interval {begin:.3g} to {end:.3g}{unit}; {holds} values hold; {counted}{enough}"
+        f"95 % interval {begin:.3g} to {end:.3g}{unit}; {holds} values hold; {counted}{enough}{odd}"
     )
 
 

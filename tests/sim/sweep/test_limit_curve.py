@@ -76,3 +76,29 @@ def test_intervals_of_95_percent_hold_the_limit_that_often(width: float, lapse: 
 def test_an_empty_range_is_refused() -> None:
     with pytest.raises(ValueError, match="empty"):
         limit_curve([], [], 1.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("width", "lapse", "limits", "least"),
+    [
+        *((0.005, 0.0, (0.5,), 0), (0.03, 0.02, (0.5,), 0), (0.1, 0.0, (0.5,), 0)),
+        *((0.005, 0.0, (0.3, 0.7), 27), (0.03, 0.02, (0.2, 0.8), 18)),
+    ],
+)
+def test_runs_of_one_curve_agree_with_it_and_those_of_two_steep_ones_do_not(
+    width: float, lapse: float, limits: tuple[float, ...], least: int
+) -> None:
+    """Of 30 draws: of one curve more than one is doubted at 1e-3 once in 2000 tests; two wide ones look like one."""
+    generator, doubted = np.random.default_rng(round(1e4 * width)), 0
+    for _ in range(30):
+        values = generator.uniform(0.0, 1.0, 400)
+        limit = generator.choice(limits, 400)
+        share = 0.5 * (1.0 + (1.0 - 2.0 * lapse) * np.tanh((values - limit) / (2.0 * width)))
+        completed = (generator.random(400) < share).tolist()
+        doubted += limit_curve(values.tolist(), completed, 0.0, 1.0).agreement(values.tolist(), completed) < 1e-3
+    assert doubted >= least if least else doubted <= 1
+
+
+def test_a_few_runs_are_not_doubted() -> None:
+    values, completed = [0.1, 0.9] * 10, [True, True] * 10
+    assert limit_curve(values, completed, 0.0, 1.0).agreement(values, completed) == 1.0
