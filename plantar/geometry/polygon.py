@@ -16,6 +16,7 @@ from plantar.arguments import number
 from plantar.kernels.geometry import convex as _kernel
 from plantar.kernels.geometry import hull as _hull
 from plantar.kernels.geometry.clean import clean_ring, extent, turning
+from plantar.kernels.geometry.half_plane import part_below
 from plantar.plane_points import plane_point, plane_points
 
 __all__ = ["area", "centroid", "closest_point", "convex_hull", "inner_offset", "part_inside", "signed_margin"]
@@ -191,16 +192,6 @@ def part_inside(polygon: NDArray[np.float64], nx: float, ny: float, h: float) ->
         >>> part_inside(np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), 1.0, 0.0, 0.5).tolist()
         [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [0.0, 1.0]]
     """
-    kept: list[tuple[float, float]] = []
-    points = polygon.tolist()
-    for k, (ax, ay) in enumerate(points):
-        bx, by = points[k + 1 - len(points)]
-        a, b = nx * ax + ny * ay - h, nx * bx + ny * by - h
-        if a <= 0.0:
-            kept.append((ax, ay))
-        if (a < 0.0 < b) or (b < 0.0 < a):
-            share = a / (a - b)
-            kept.append((ax + share * (bx - ax), ay + share * (by - ay)))
-    left = np.array(kept).reshape(-1, 2)
+    left = part_below(np.ascontiguousarray(polygon, dtype=np.float64), nx, ny, h)
     near = _NOISE * extent(polygon)
     return left if turning(left, 0.0, 0.0, near) > 0 else np.asarray(clean_ring(left, 0.0, 0.0, near))
