@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from resumable import FEW, Benchmark, Case, latest, origin, rows_of, write_table
+from resumable import FEW, Benchmark, Case, count, latest, origin, rows_of, write_table
 
 from sim.plant.draw import RANGES
 from sim.plant.settings import RANDOM, Plant
@@ -89,19 +89,21 @@ def table_alone(rows: Sequence[dict[str, str]]) -> list[str]:
         for scene in ALONE:
             for robot in ROBOTS:
                 found = [outcome(rows, _alone(item, level, scene), robot) for level in LEVELS]
-                if any(count for _, count in found):
-                    cells = " | ".join(f"{good}/{count}" if count else "" for good, count in found)
+                if any(runs for _, runs in found):
+                    cells = " | ".join(f"{good}/{runs}" if runs else "" for good, runs in found)
                     lines.append(f"| `{item}`, {limit_told(item)} | `{scene}` | {robot} | {cells} |")
     return lines
 
 
 def table_together(rows: Sequence[dict[str, str]]) -> list[str]:
-    """Completed runs with everything drawn together, by walk and robot; only what was run."""
-    lines = [f"| walk | {' | '.join(ROBOTS)} |", "|---|" + "---|" * len(ROBOTS)]
+    """Completed runs with everything drawn together, by walk and robot, and those on fresh seeds; only what was run."""
+    heads = [head for robot in ROBOTS for head in (robot, f"{robot}, fresh seeds")]
+    lines = [f"| walk | {' | '.join(heads)} |", "|---|" + "---|" * len(heads)]
     for scene in TOGETHER:
-        found = [outcome(rows, _together(scene), robot) for robot in ROBOTS]
-        if any(count for _, count in found):
-            lines.append(f"| `{scene}` | {' | '.join(f'{good}/{count}' if count else '' for good, count in found)} |")
+        mine = [r for r in rows if r["case"] == _together(scene)]
+        cells = [count([r for r in mine if r["robot"] == robot], fresh) for robot in ROBOTS for fresh in (False, True)]
+        if mine:
+            lines.append(f"| `{scene}` | {' | '.join(cells)} |")
     return lines
 
 
@@ -115,7 +117,7 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
     for robot in ROBOTS:
         for scene in ALONE:
             counts = [[outcome(rows, _alone(i, v, scene), robot) for v in LEVELS] for i in Plant.items()]
-            share = np.array([[good / count if count else np.nan for good, count in line] for line in counts])
+            share = np.array([[good / runs if runs else np.nan for good, runs in line] for line in counts])
             if np.isfinite(share).any():
                 panels.append((f"{scene}, {robot}", share, counts))
     items = [i for k, i in enumerate(Plant.items()) if any(np.isfinite(share[k]).any() for _, share, _ in panels)]
@@ -127,10 +129,10 @@ def draw(rows: Sequence[dict[str, str]], path: Path) -> None:
     for axis, (title, share, counts) in zip(axes[0], panels, strict=True):
         image = axis.imshow(share[shown], vmin=0.0, vmax=1.0, cmap="RdYlBu", aspect="auto")
         for row, k in enumerate(shown):
-            for column, (good, count) in enumerate(counts[k]):
-                if count:
-                    dark = good / count in (0.0, 1.0)
-                    told = f"{good}/{count}"
+            for column, (good, runs) in enumerate(counts[k]):
+                if runs:
+                    dark = good / runs in (0.0, 1.0)
+                    told = f"{good}/{runs}"
                     axis.text(column, row, told, ha="center", va="center", fontsize=7, color="w" if dark else "k")
         axis.set_title(title, fontsize=9)
         axis.set_xticks(range(len(LEVELS)), [f"{level:g}" for level in LEVELS], fontsize=8)
