@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from plantar.arguments import LARGEST, does
 from plantar.errors import InputError, PlantarError
 from plantar.kernels.base.limits import points_within, values_within
+from plantar.kernels.base.member import close_all
 
 __all__ = [
     "array",
@@ -270,11 +271,7 @@ def read_only(value: _Value) -> _Value:
         >>> read_only(np.zeros(2)).flags.writeable
         False
     """
-    if isinstance(value, np.ndarray):
-        value.setflags(False)  # type: ignore[call-arg]
-    elif isinstance(value, tuple):
-        for item in value:
-            read_only(item)
+    close_all(value)
     return value
 
 

@@ -67,8 +67,7 @@ class Reading(ReadingFields):
     ) -> tuple[Any, ...]:
         """The fields of what did not come as it should, or has more than proximity beside force."""
         at = number(time, _TIME, ReadingError, finite=True)
-        copy = vectors.kept(force)
-        values = own(numbers(force, _FORCE, ReadingError)) if copy is None else copy
+        values = own(numbers(force, _FORCE, ReadingError))
         if values.ndim != 1:
             raise ReadingError(f"{_FORCE} has shape {values.shape}; expected (taxels,)")
         shape = values.shape
