@@ -69,9 +69,7 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
         def _keep(self, *fields: Any) -> None: ...
         def _take_loads(self, loads: NDArray[np.float64]) -> None: ...
         def _loads(self) -> NDArray[np.float64]: ...
-        def _hull(self) -> NDArray[np.float64]: ...
-        def _hull_area(self) -> float: ...
-        def _hull_centroid(self) -> tuple[float, float]: ...
+        def _hull(self) -> tuple[NDArray[np.float64], float, float, float]: ...
 
     def __init__(
         self,
@@ -213,12 +211,12 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     @lazy
     def support_polygon_in_sole(self) -> NDArray[np.float64]:
         """Convex support polygon (k, 2) in the sole frame in m, counter-clockwise (T 4.24)."""
-        return self._hull()
+        return self._hull()[0]
 
     @lazy
     def support_area(self) -> float:
         """Area A_p of the support polygon in m^2."""
-        return self._hull_area()
+        return float(self._hull()[1])
 
     @lazy
     def area_ratio(self) -> float:
@@ -228,4 +226,5 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     @lazy
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
-        return np.array(self._hull_centroid()) if len(self._hull()) else None
+        polygon, _area, x, y = self._hull()
+        return np.array((x, y)) if len(polygon) else None

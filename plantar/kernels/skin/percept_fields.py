@@ -33,25 +33,22 @@ class PerceptFields:
             plain = False
         kernel = layout.kernel if plain else None
         if plain and memory.size(reading.force) == kernel.taxels:
-            self._kernel = kernel
-            self._fill(layout, reading, kernel.threshold, None, None, usual, False)
+            self._fill(kernel, layout, reading, kernel.threshold, None, None, usual, True)
         else:
             self._keep(layout, reading, *self._checked(layout, reading, force_threshold, active, stuck, options))
 
     def _keep(self, layout, reading, force_threshold, active, stuck, options):
         """Keep fields that are right."""
-        self._kernel = layout.kernel
-        self._fill(layout, reading, force_threshold, active, stuck, options, options.fill)
+        compared = active is None and stuck is None and not options.fill
+        self._fill(layout.kernel, layout, reading, force_threshold, active, stuck, options, compared)
 
-    def _fill(self, layout, reading, force_threshold, active, stuck, options, fills):
-        """`_keep`, where it is known whether the options say `fill`: not by those that are usual."""
+    def _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, compared):
+        """`_keep`, where it is known whether what is active is nothing but a comparison, which a kernel then makes on
+        its way."""
+        self._kernel, self._compared = kernel, compared
         self.layout, self.reading, self.force_threshold, self.options = layout, reading, force_threshold, options
         self._given_active, self._stuck = active, stuck
-        self._fills = fills
-        # Whether what is active is nothing but a comparison, which a kernel then makes on its way.
-        self._compared = active is None and stuck is None and not self._fills
-        self._summed = self._polygon = None
-        self._has_area, self._area, self._x, self._y = False, 0.0, 0.0, 0.0
+        self._summed = self._found = None
 
     def _take_loads(self, loads):
         """Keep loads that are summed already."""
@@ -64,43 +61,19 @@ class PerceptFields:
             if self._compared:
                 loads = kernel.loads_above(force, self.force_threshold, kernel.limit)
             else:
-                loads = kernel.loads(self.sound_force if self._fills else force, self.active)
+                loads = kernel.loads(self.sound_force if self.options.fill else force, self.active)
             memory.close(loads)
             self._summed = loads
         return self._summed
 
-    def _hull_area(self):
-        """Area in m^2 of the support polygon, without an array of it: its walk costs less than that, and is made again
-        for those who want it."""
-        if not self._has_area:
-            if self._compared:
-                kernel = self._kernel
-                self._take(kernel.measured_hull_above(self.reading.force, self.force_threshold, kernel.limit))
-            else:
-                self._hull()
-        return self._area
-
     def _hull(self):
-        """Support polygon (k, 2) in m; its area and centroid are found with it."""
-        if self._polygon is None:
+        """Support polygon (k, 2) in m, its area and x and y of its centroid, found when the first is asked for."""
+        if self._found is None:
             kernel = self._kernel
             if self._compared:
                 found = kernel.hull_above(self.reading.force, self.force_threshold, kernel.limit)
             else:
                 found = kernel.hull(self.active)
-            polygon, area, x, y = found
-            memory.close(polygon)
-            self._polygon = polygon
-            self._take((area, x, y))
-        return self._polygon
-
-    def _take(self, measured):
-        """Keep area and centroid."""
-        area, x, y = measured
-        self._area, self._x, self._y = float(area), float(x), float(y)
-        self._has_area = True
-
-    def _hull_centroid(self):
-        """Centroid of the support polygon in m, of a sole that has one."""
-        self._hull()
-        return self._x, self._y
+            memory.close(found[0])
+            self._found = found
+        return self._found

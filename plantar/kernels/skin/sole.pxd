@@ -118,9 +118,6 @@ cdef class SoleKernel:
 
     cpdef hull_above(self, force, double threshold, double saturation)
 
-    @cython.locals(scratch=SoleScratch, area=double, x=double, y=double)
-    cpdef (double, double, double) measured_hull_above(self, force, double threshold, double saturation) except *
-
     @cython.locals(size=Py_ssize_t, area=double, x=double, y=double)
     cdef _hull(self, SoleScratch scratch)
 

@@ -402,17 +402,6 @@ class SoleKernel:
         """
         return self._hull(self._borrow_with_active(force, threshold, saturation))
 
-    def measured_hull_above(self, force, threshold, saturation):
-        """Area and centroid of `hull_above`, without an array of the polygon; arguments as there.
-
-        Returns:
-            Area in m^2 and centroid in m, 0 and NaN without contact.
-        """
-        scratch = self._borrow_with_active(force, threshold, saturation)
-        area, x, y = scratch.measure_hull(self.find_hull(scratch.mask, scratch))
-        self.give_back(scratch)
-        return area, x, y
-
     def _hull(self, scratch):
         """`hull` of the mask of what was borrowed, which is given back."""
         size = self.find_hull(scratch.mask, scratch)
