@@ -99,8 +99,7 @@ cdef class SoleKernel:
     cpdef loads_above(self, force, double threshold, double saturation)
 
     @cython.locals(
-        values=cython.p_double, out=cython.p_double, lever_x="const double[::1]", lever_y="const double[::1]",
-        areas="const double[::1]", i=Py_ssize_t, f=double, fz=double, tx=double, ty=double, area=double
+        values=cython.p_double, out=cython.p_double, i=Py_ssize_t, f=double, fz=double, tx=double, ty=double, area=double
     )
     cpdef unsaturated_loads(self, force, double threshold, double saturation)
 
@@ -108,7 +107,7 @@ cdef class SoleKernel:
     cpdef bint reaches(self, force, double level) except *
 
     @cython.locals(
-        columns="const double[:, ::1]", fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
+        fx=double, fy=double, fz=double, tx=double, ty=double, tz=double, area=double,
         sx=double, sy=double, i=Py_ssize_t, f=double
     )
     cdef void _loads(self, const double[:] force, const unsigned char[:] active, double[::1] out) noexcept nogil
@@ -122,14 +121,13 @@ cdef class SoleKernel:
     cdef _hull(self, SoleScratch scratch)
 
     @cython.locals(
-        scratch=SoleScratch, sums="double[::1]", contact=double, size=Py_ssize_t, left=Py_ssize_t, area=double,
+        scratch=SoleScratch, contact=double, size=Py_ssize_t, left=Py_ssize_t, area=double,
         middle_x=double, middle_y=double, near_x=double, near_y=double, _margin=double
     )
     cpdef tick(self, force, double threshold, double saturation, double offset, double x, double y)
 
     @cython.locals(
-        way="Py_ssize_t[::1]", ring="Py_ssize_t[::1]", rank="const Py_ssize_t[::1]", sign="const unsigned char[::1]",
-        level="const Py_ssize_t[::1]", lowest="Py_ssize_t[::1]", highest="Py_ssize_t[::1]", kind=int, at=Py_ssize_t,
+        kind=int, at=Py_ssize_t,
         left=Py_ssize_t, right=Py_ssize_t, forth=Py_ssize_t, count=Py_ssize_t, row=Py_ssize_t, first=Py_ssize_t,
         last=Py_ssize_t, end=int, from_corner=Py_ssize_t, to_corner=Py_ssize_t, i=Py_ssize_t, c=Py_ssize_t, v=Py_ssize_t, size=Py_ssize_t
     )

@@ -313,7 +313,7 @@ class SoleKernel:
             return None if self.reaches(force, saturation) else self.loads_above(force, threshold, saturation)
         # What is active is finite here, so that of the sums those with a column of 0 are 0, and two others are the
         # negative of each other, or the same.
-        values, lever_x, lever_y, areas = memory.values(force), self.lever_x, self.lever_y, self.areas
+        values = memory.values(force)
         fz = tx = ty = area = 0.0
         for i in range(self.taxels):
             f = values[i]
@@ -321,9 +321,9 @@ class SoleKernel:
                 return None
             if f > threshold:
                 fz += f
-                tx += f * lever_x[i]
-                ty += f * lever_y[i]
-                area += areas[i]
+                tx += f * self.lever_x[i]
+                ty += f * self.lever_y[i]
+                area += self.areas[i]
         sums = memory.new_vector(9)
         out = memory.room(sums)
         out[0] = out[1] = out[5] = 0.0
@@ -352,19 +352,18 @@ class SoleKernel:
 
     def _loads(self, force, active, out):
         """`loads` into an array."""
-        columns = self.columns
         fx = fy = fz = tx = ty = tz = area = sx = sy = 0.0
         for i in range(self.taxels):
             if active[i]:
                 f = force[i]
-                fx += f * columns[i, 0]
-                fy += f * columns[i, 1]
-                fz += f * columns[i, 2]
-                tx += f * columns[i, 3]
-                ty += f * columns[i, 4]
-                tz += f * columns[i, 5]
-                sx += f * columns[i, 6]
-                sy += f * columns[i, 7]
+                fx += f * self.columns[i, 0]
+                fy += f * self.columns[i, 1]
+                fz += f * self.columns[i, 2]
+                tx += f * self.columns[i, 3]
+                ty += f * self.columns[i, 4]
+                tz += f * self.columns[i, 5]
+                sx += f * self.columns[i, 6]
+                sy += f * self.columns[i, 7]
                 area += self.areas[i]
         out[0], out[1], out[2], out[3], out[4], out[5], out[6] = fx, fy, fz, tx, ty, tz, area
         if 0.0 < fz < _INFINITE:
@@ -428,10 +427,9 @@ class SoleKernel:
             The two points are None without contact.
         """
         scratch = self._borrow_with_active(force, threshold, saturation)
-        sums = scratch.sums
-        self._loads(scratch.force, scratch.mask, sums)
-        mask, wrench, contact = self._copied(scratch.mask), scratch.summed(0, 6), sums[6]
-        cop = scratch.summed(7, 2) if 0.0 < sums[2] < _INFINITE else None
+        self._loads(scratch.force, scratch.mask, scratch.sums)
+        mask, wrench, contact = self._copied(scratch.mask), scratch.summed(0, 6), scratch.sums[6]
+        cop = scratch.summed(7, 2) if 0.0 < scratch.sums[2] < _INFINITE else None
         size = self.find_hull(scratch.mask, scratch)
         polygon = scratch.hull(size)
         if size == 0:
@@ -459,8 +457,6 @@ class SoleKernel:
         Returns:
             Number of its corners.
         """
-        rank, sign, level = self.corner_rank, self.corner_sign, self.corner_level
-        way, ring, lowest, highest = scratch.way, scratch.ring, scratch.lowest, scratch.highest
         left, right = self.levels, -1
         for row in range(self.row_start.shape[0] - 1):
             first, last = self.row_start[row], self.row_start[row + 1] - 1
@@ -475,43 +471,43 @@ class SoleKernel:
                 from_corner = self.last_begin[i] if end else self.corner_start[i]
                 to_corner = self.corner_start[i + 1] if end or last == first else self.first_end[i]
                 for c in range(from_corner, to_corner):
-                    v, kind, at = rank[c], sign[c], level[c]
+                    v, kind, at = self.corner_rank[c], self.corner_sign[c], self.corner_level[c]
                     if not kind & _NOT_LOWER:
-                        lowest[at] = min(lowest[at], v)
+                        scratch.lowest[at] = min(scratch.lowest[at], v)
                     if not kind & _NOT_UPPER:
-                        highest[at] = max(highest[at], v)
+                        scratch.highest[at] = max(scratch.highest[at], v)
                     left = min(left, at)
                     right = max(right, at)
         if right < 0:
             return 0
         # The lower chain takes the lowest corner at each x, the upper one the highest; where a chain turns, both.
-        way[0] = lowest[left]
+        scratch.way[0] = scratch.lowest[left]
         forth = 1
         for at in range(left + 1, right + 1):
-            if lowest[at] < self.corners:
-                way[forth] = lowest[at]
+            if scratch.lowest[at] < self.corners:
+                scratch.way[forth] = scratch.lowest[at]
                 forth += 1
-                lowest[at] = self.corners
-        lowest[left] = self.corners
+                scratch.lowest[at] = self.corners
+        scratch.lowest[left] = self.corners
         count = forth
-        way[count] = highest[right]  # where it is the lowest too, the walk steps over it
+        scratch.way[count] = scratch.highest[right]  # where it is the lowest too, the walk steps over it
         count += 1
         forth += 1
-        highest[right] = -1
+        scratch.highest[right] = -1
         for at in range(right - 1, left, -1):
-            if highest[at] >= 0:
-                way[count] = highest[at]
+            if scratch.highest[at] >= 0:
+                scratch.way[count] = scratch.highest[at]
                 count += 1
-                highest[at] = -1
+                scratch.highest[at] = -1
         if left < right:
-            way[count] = highest[left]
+            scratch.way[count] = scratch.highest[left]
             count += 1
-            highest[left] = -1
-        way[count] = way[0]
+            scratch.highest[left] = -1
+        scratch.way[count] = scratch.way[0]
         count += 1
-        size = hull.hull_ring(self.points, way, forth, count, self.tolerance, ring)
+        size = hull.hull_ring(self.points, scratch.way, forth, count, self.tolerance, scratch.ring)
         for i in range(size):
-            v = ring[i]
+            v = scratch.ring[i]
             scratch.polygon[i, 0] = self.points[v, 0]
             scratch.polygon[i, 1] = self.points[v, 1]
         return size
