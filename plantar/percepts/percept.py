@@ -68,7 +68,11 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
 
         def _keep(self, *fields: Any) -> None: ...
         def _take_loads(self, loads: NDArray[np.float64]) -> None: ...
+        def _active_above(self) -> NDArray[np.bool_] | None: ...
         def _loads(self) -> NDArray[np.float64]: ...
+        def _wrench(self) -> NDArray[np.float64]: ...
+        def _cop(self) -> NDArray[np.float64] | None: ...
+        def _centroid(self) -> NDArray[np.float64] | None: ...
         def _hull(self) -> tuple[NDArray[np.float64], float, float, float]: ...
 
     def __init__(
@@ -164,11 +168,13 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     @lazy
     def active(self) -> NDArray[np.bool_]:
         """Active taxels (n,) (T 4.22); a faulty one is not, unless it is filled."""
+        mask = self._active_above()
+        if mask is not None:
+            return mask
         leaves_out = self._stuck is None and not self.options.fill  # what is faulty, without a look at each fault
         force = self.reading.force if leaves_out else self.sound_force
         if self._given_active is None:
-            mask: NDArray[np.bool_] = self.layout.kernel.active(force, self.force_threshold, self.layout.force_limit)
-            return mask
+            return active_taxels(force, self.force_threshold, self.layout.force_limit)
         return np.asarray(self._given_active & active_taxels(force, 0.0, self.layout.force_limit))
 
     @lazy
@@ -189,13 +195,12 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     @lazy
     def position_cop_in_sole(self) -> NDArray[np.float64] | None:
         """Centre of pressure (2,) in the sole frame in m, or None without load (T 4.21)."""
-        loads = self._loads()
-        return loads[7:] if 0.0 < loads.item(2) < math.inf else None
+        return self._cop()
 
     @lazy
     def wrench_in_sole(self) -> NDArray[np.float64]:
         """Ground reaction wrench (6,) about the sole frame's origin in N and N m (T 4.23)."""
-        return self._loads()[:6]
+        return self._wrench()
 
     @lazy
     def zero_moment_wrench_in_sole(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
@@ -226,5 +231,4 @@ class Percept(ShapeMembers, VirtualMembers, PerceptFields):
     @lazy
     def centroid_in_sole(self) -> NDArray[np.float64] | None:
         """Centroid (2,) of the support polygon in the sole frame in m, or None without contact (T 4.4.2)."""
-        polygon, _area, x, y = self._hull()
-        return np.array((x, y)) if len(polygon) else None
+        return self._centroid()

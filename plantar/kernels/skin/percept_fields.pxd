@@ -2,7 +2,10 @@
 cimport cython
 
 from ..base cimport pointers as memory
+from ..base cimport vectors
 from .sole cimport SoleKernel
+
+cdef double _INFINITE
 
 cdef class PerceptFields:
     cdef readonly object layout
@@ -18,8 +21,18 @@ cdef class PerceptFields:
 
     cdef _fill(self, kernel, layout, reading, force_threshold, active, stuck, options, bint compared)
 
+    cpdef _active_above(self)
+
     @cython.locals(kernel=SoleKernel)
     cpdef _loads(self)
+
+    cpdef _wrench(self)
+
+    @cython.locals(vertical=double)
+    cpdef _cop(self)
+
+    @cython.locals(found=tuple)
+    cpdef _centroid(self)
 
     @cython.locals(kernel=SoleKernel, found=tuple)
     cpdef tuple _hull(self)

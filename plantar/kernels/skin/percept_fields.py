@@ -1,4 +1,4 @@
-"""What a percept is made of, and the two results that most of its members read: sums of loads, and the hull.
+"""What a percept is made of, and the results that most of its members read: what is active, sums of loads, the hull.
 
 Plain Python that also compiles ahead of time (`percept_fields.pxd` gives the C types). `plantar.percepts.percept` has
 the public class, which checks what comes otherwise.
@@ -6,9 +6,11 @@ the public class, which checks what comes otherwise.
 
 from __future__ import annotations
 
-from ..base import memory
+from ..base import memory, vectors
 
 __all__ = ["PerceptFields"]
+
+_INFINITE = float("inf")
 
 
 class PerceptFields:
@@ -54,6 +56,12 @@ class PerceptFields:
         """Keep loads that are summed already."""
         self._summed = loads
 
+    def _active_above(self):
+        """Mask (n,) of the taxels above the threshold; None where more than a comparison says what is active."""
+        if self._compared:
+            return self._kernel.active(self.reading.force, self.force_threshold, self._kernel.limit)
+        return None
+
     def _loads(self):
         """Wrench, contact area and CoP (9,), summed in one pass when the first of them is asked for."""
         if self._summed is None:
@@ -65,6 +73,21 @@ class PerceptFields:
             memory.close(loads)
             self._summed = loads
         return self._summed
+
+    def _wrench(self):
+        """Ground reaction wrench (6,) in N and N m."""
+        return self._loads()[:6]
+
+    def _cop(self):
+        """Centre of pressure (2,) in m; None without load."""
+        loads = self._loads()
+        vertical = memory.values(loads)[2]
+        return loads[7:] if 0.0 < vertical < _INFINITE else None
+
+    def _centroid(self):
+        """Centroid (2,) of the support polygon in m; None without contact."""
+        polygon, _area, x, y = self._hull()
+        return vectors.vector2(x, y) if len(polygon) else None
 
     def _hull(self):
         """Support polygon (k, 2) in m, its area and x and y of its centroid, found when the first is asked for."""
