@@ -68,7 +68,7 @@ def area(polygon: ArrayLike) -> float:
         >>> area(np.array([[0.0, 0], [2, 0], [2, 1], [0, 1]]))
         2.0
     """
-    return float(_kernel.area(plane_points(polygon)))
+    return float(_kernel.area_of(plane_points(polygon)))
 
 
 def centroid(polygon: ArrayLike) -> NDArray[np.float64] | None:
@@ -167,7 +167,8 @@ def inner_offset(polygon: ArrayLike, distance: float) -> NDArray[np.float64]:
         [[0.25, 0.75], [0.25, 0.25], [0.75, 0.25], [0.75, 0.75]]
     """
     ring = plane_points(polygon)
-    distance = number(distance, "distance", nan=True)
+    if type(distance) is not float:  # which control loops hand over, and which may be NaN or inf
+        distance = number(distance, "distance", nan=True)
     if len(ring) == 0 or distance <= 0.0:
         return ring[:: -1 if area(ring) < 0.0 else 1].copy()
     if len(ring) < 3:

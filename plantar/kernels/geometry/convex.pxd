@@ -16,6 +16,9 @@ cdef int _FEW
 )
 cpdef double area(const double[:, :] polygon) noexcept nogil
 
+@cython.locals(room=OffsetRoom, total=double)
+cpdef double area_of(polygon) except? -1.0
+
 @cython.locals(
     k=Py_ssize_t, i=Py_ssize_t, x0=double, y0=double, total=double, cx=double, cy=double, mx=double, my=double,
     size=double, ax=double, ay=double, bx=double, by=double, cross=double

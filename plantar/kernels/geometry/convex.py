@@ -18,6 +18,7 @@ __all__ = [
     "OffsetRoom",
     "area",
     "area_and_centroid",
+    "area_of",
     "closest_point",
     "inner_offset",
     "nearest",
@@ -56,6 +57,14 @@ def area(polygon):
         total += ax * by - bx * ay
         ax, ay = bx, by
     return 0.5 * total
+
+
+def area_of(polygon):
+    """`area`, where the polygon comes from Python: a small one is read without asking for its buffer."""
+    room = _borrow(0)
+    total = area(_entered(polygon, room))
+    _FREE.append(room)
+    return total
 
 
 def area_and_centroid(polygon):
