@@ -1,7 +1,7 @@
 """Ways to run a kernel of plain Python: interpreted, compiled ahead of time by Cython, compiled at run time by numba.
 
-Prints the table of kernel_forms.md. The function is the same source each time, `plantar/kernels/geometry/convex.py`'s area and
-closest point of a polygon of 20 vertices. numba is measured where it is installed; Plantar does not need it.
+Prints the table of kernel_forms.md. The function is the same source each time, `plantar/kernels/geometry/convex.py`'s
+area and closest point of a polygon of 20 vertices. numba is measured where it is installed; Plantar does not need it.
 
     python benchmarks/kernel_forms.py
 """
