@@ -86,8 +86,9 @@ def _tiles(result: Mapping[str, Any]) -> list[tuple[str, str]]:
         tiles.append(("Wanted of the kernels, and met", f"{sum(t['met'] for t in targets)} of {len(targets)}"))
     skip = result.get("skip", {}).get("scenes", ())
     if skip:
-        factors = [r["sim_s"] / r["run_s"] for r in skip]
-        tiles.append(("A whole walk, one core", f"{min(factors):.1f} to {max(factors):.1f} × real time"))
+        factors = [f"{x:.1f}" for x in sorted(r["sim_s"] / r["run_s"] for r in skip)]
+        between = factors[0] if factors[0] == factors[-1] else f"{factors[0]} to {factors[-1]}"
+        tiles.append(("A whole walk, one core", f"{between} × real time"))
     papers = result.get("papers", {}).get("experiments", ())
     if papers:
         tiles.append(("The papers' experiments, walked", f"{sum(r['completed'] for r in papers)} of {len(papers)}"))
@@ -148,7 +149,11 @@ def _kernels(told: Mapping[str, Any]) -> str:
         "size where that does best. Bars are logarithmic; blue where ours is faster. Errors are relative, against "
         "exact integers or fractions.</p>",
         table(
-            "kernels beside libraries", "Time of a call, median; size: active taxels, or frames and taxels", head, lines
+            "kernels beside libraries",
+            "Time of a call, median; size: active taxels, or frames and taxels",
+            head,
+            lines,
+            ("fastest other way", "as a bar"),
         ),
     ]
     points = [
@@ -228,7 +233,7 @@ def _papers(told: Mapping[str, Any]) -> str:
         "of real robots, measured by their ankles; ours are of a simulation, and the true ground forces within 50 ms "
         "of a touchdown. They show that the same is done and what comes out, not that a simulated robot is better than "
         "a real one. Counts over 30 seeds are in the project's benchmarks folder.</p>"
-        + table("walks beside the papers", "T: the thesis on plantar robot skin", head, lines)
+        + table("walks beside the papers", "T: the thesis on plantar robot skin", head, lines, head[3:])
     )
 
 
@@ -292,14 +297,13 @@ def _scenes(told: Mapping[str, Any]) -> str:
     lines = [
         row(
             html.escape(f"{v['scene']}, {v['robot']}: {v['knob']}"),
-            ["kept" if v["stays"] else "<b>better there is</b>", html.escape(v["reason"])],
+            ["kept" if v["stays"] else "<b>a better one</b>", html.escape(v["reason"])],
         )
         for v in told.get("verdicts", ())
     ]
     if lines:
-        parts.append(
-            table("defaults", "The scenes' own settings, judged", ("scene and knob", "default", "reason"), lines)
-        )
+        head = ("scene and knob", "default", "reason")
+        parts.append(table("defaults", "The scenes' own settings, judged", head, lines, head[1:]))
     return "".join(parts)
 
 
@@ -319,5 +323,5 @@ def _time(told: Mapping[str, Any]) -> str:
     return (
         "<p>What a run costs on one core. A scene computes what it needs; “saved” is how much longer all but the "
         "physics takes when everything is computed, with the same motion to the last bit.</p>"
-        + table("time of the scenes", "CPU time, medians", head, lines)
+        + table("time of the scenes", "CPU time, medians", head, lines, head[4:])
     )

@@ -116,7 +116,7 @@ _COLUMNS = (
 
 
 def _verdict_cells(verdict: KnobVerdict) -> tuple[str, ...]:
-    kept = "kept" if verdict.stays else "**better there is**"
+    kept = "kept" if verdict.stays else "**a better one**"
     return (verdict.scene, verdict.robot, verdict.knob, kept, verdict.reason)
 
 

@@ -91,7 +91,7 @@ def test_what_is_not_good_is_told() -> None:
     for words in (
         "tick &lt;: 50.0 us, wanted at most 40",
         "0.80 ×",
-        "better there is",
+        "a better one",
         "Not walked with: solver",
         "<b>no</b>",
     ):

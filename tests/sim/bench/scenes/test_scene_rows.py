@@ -87,7 +87,7 @@ def test_files_tell_what_was_run(tmp_path: Path) -> None:
     told = write_scenes(tmp_path, runs(0.7))
     assert {"scenes.md", "scenes.csv", "scenes.png"} == {p.name for p in tmp_path.iterdir()}
     page = (tmp_path / "scenes.md").read_text()
-    assert "| flat | h1 | physics step | **better there is** |" in page
+    assert "| flat | h1 | physics step | **a better one** |" in page
     assert "nan" not in page
     with (tmp_path / "scenes.csv").open() as table:
         assert [r["setting"] for r in csv.DictReader(table)] == [OWN, FINE, COARSE, NOISE]
