@@ -90,9 +90,7 @@ def scatter(label: str, axes: tuple[str, str], points: Sequence[Point], line: tu
     if line is not None:
         y = place(line[0], y_ticks, _HEIGHT - _BOTTOM, _TOP)
         parts.append(f'<path class="line" d="M{_LEFT} {y:.1f}H{_WIDTH - _RIGHT}"/>')
-        parts.append(
-            f'<text class="soft" x="{_LEFT + 5}" y="{y - 5:.1f}" text-anchor="start">{_text(line[1])}</text>'
-        )
+        parts.append(f'<text class="soft" x="{_LEFT + 5}" y="{y - 5:.1f}" text-anchor="start">{_text(line[1])}</text>')
     for p in sorted(kept, key=lambda p: p.ours):
         x, y = place(p.x, x_ticks, _LEFT, _WIDTH - _RIGHT), place(p.y, y_ticks, _HEIGHT - _BOTTOM, _TOP)
         style = f"c{groups.index(p.group) % _COLOURS}{' ours' if p.ours else ''}"
