@@ -208,11 +208,14 @@ class VelocityCommand:
         if self._proposed is not None and was_applied(self._proposed, tick):
             self._planned, self._proposed = self._proposed.step + 1, None
         phase, plan = tick.phase, tick.plan
-        if phase.kind == PhaseKind.SINGLE_SUPPORT or phase.step == self._planned:
+        if phase.kind == PhaseKind.SINGLE_SUPPORT:
             return None
         velocity, timing = self.table.at(tick.time), plan.schedule.timing
         if velocity is STOP and phase.step >= plan.count:
             return None  # at rest, or on the way to it
+        # A stop counts until the foot lifts off: heard a moment after the touchdown, it would take a step more.
+        if phase.step == self._planned and not (velocity is STOP and plan.count > phase.step + 1):
+            return None
         duration = timing.single_support + timing.double_support
         feet = {side: self._standing(side, tick) for side in SIDES}
         first = self._first(tick, velocity)

@@ -137,6 +137,19 @@ def test_a_stop_comes_to_rest_within_two_steps_with_the_feet_parallel(
     assert plan.schedule.at(20.0).kind == PhaseKind.STANDING
 
 
+def test_a_stop_counts_until_the_foot_lifts_off(tick_at: Callable[..., Tick]) -> None:
+    """Of a step cycle, the double support that the stop is heard in belongs to the step that it still changes."""
+    rows: list[list[float | str]] = [[1.0, 0.1, 0.0, 0.0]]
+    plan, _ = walked(command(*rows), tick_at, 6.0)
+    swings = [p for p in plan.schedule.phases if p.swing is not None]
+    before, after = swings[0], swings[1]
+    for share, most in ((0.1, 1), (0.6, 1), (1.2, 2)):  # of the double support; the last in the swing
+        stop = before.touchdown + share * (after.start - before.touchdown)
+        plan, _ = walked(command(*rows, [stop, "stop"]), tick_at, 12.0)
+        landings = [p.touchdown for p in plan.schedule.phases if p.swing is not None and p.touchdown > stop]
+        assert len(landings) == most
+
+
 def test_from_rest_it_walks_again_and_zero_takes_steps_in_place(tick_at: Callable[..., Tick]) -> None:
     rows: list[list[float | str]] = [[1.0, 0.1, 0.0, 0.0], [6.0, "stop"], [14.0, 0.0, 0.0, 0.0]]
     plan, steps = walked(command(*rows), tick_at, 30.0)
