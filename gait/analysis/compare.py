@@ -74,9 +74,10 @@ def compare_recordings(
 
     Raises:
         FormatError: If a file is not a recording that can be read.
-        InputError: If a file is a footprint image, or the folder cannot be written to.
+        InputError: If a file is a footprint image, the events are those of a file, or the folder cannot be written to.
     """
     tell = progress or (lambda fraction, text: None)
+    (choices or AnalysisOptions()).of_several("--compare takes")
     known = with_layout(options, layout)
     for path in (a, b):
         if named_format(path, format).read is None:

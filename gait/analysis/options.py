@@ -38,6 +38,19 @@ class AnalysisOptions:
         if self.begin is not None and self.end is not None and not self.begin < self.end:
             raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
 
+    def of_several(self, what: str) -> None:
+        """Refuse what can hold of one recording alone: a file of events has the times of one walk.
+
+        Args:
+            what: What takes several, the subject of the error.
+
+        Raises:
+            InputError: If the events are those of a file.
+        """
+        if self.events not in ("own", "vendor"):
+            text = f"a file of events is of one recording, and {what} several; allowed: own, vendor"
+            raise InputError(f"--events {self.events}: {text}")
+
 
 def steps_of_text(text: str | None) -> tuple[int, int] | Literal["steady", "all"]:
     """Which steps a text names.

@@ -23,6 +23,7 @@ from plantar import __version__
 from plantar.atomic import replacing
 from plantar.formats import ReadOptions
 from plantar.gravity import GRAVITY
+from plantar.layouts.layout_file import layout_to_dict
 from plantar.sides import Side
 
 __all__ = [
@@ -104,10 +105,13 @@ def digest_of(path: Path) -> str:
     return found.hexdigest()
 
 
-def key_of(who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None) -> str:
-    """What decides a result.
+def key_of(
+    folder: Path, who: Participation, digest: str, choices: AnalysisOptions, options: ReadOptions | None = None
+) -> str:
+    """What decides a result; of layouts it is their content, since a file of the same name may be another one.
 
     Args:
+        folder: The study's folder.
         who: What the table says of the recording.
         digest: SHA-256 of its file.
         choices: Which steps are in the means, and whose events.
@@ -117,8 +121,13 @@ def key_of(who: Participation, digest: str, choices: AnalysisOptions, options: R
         A digest of all of them and of the version.
     """
     given = options or ReadOptions()
-    known = (given.unit, given.rate_hz, given.side, given.insole_size, given.layout.name if given.layout else None)
-    return hashlib.sha256(json.dumps([__version__, digest, asdict(who), asdict(choices), known]).encode()).hexdigest()
+    known = (given.unit, given.rate_hz, given.side, given.insole_size)
+    layouts = (
+        layout_to_dict(given.layout) if given.layout else "",
+        digest_of(folder / who.layout) if who.layout else "",
+    )
+    told = [__version__, digest, asdict(who), asdict(choices), known, layouts]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()
 
 
 def measure_recording(
@@ -156,7 +165,7 @@ def measure_recording(
     return RecordingResult(
         who=who,
         digest=digest,
-        key=key_of(who, digest, choices, options),
+        key=key_of(folder, who, digest, choices, options),
         format=recording.format,
         error="",
         raw=raw,

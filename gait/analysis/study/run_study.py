@@ -114,11 +114,13 @@ def run_study(
         The study.
 
     Raises:
-        InputError: If the folder holds no recording, or a value in the table is not possible.
+        InputError: If the folder holds no recording, a value in the table is not possible, or the events are those of a
+            file.
         FormatError: If the table cannot be read.
     """
     tell = progress or (lambda fraction, text: None)
     root, target, chosen = Path(folder), Path(out), choices or AnalysisOptions()
+    chosen.of_several("a study has")
     listed = read_participants(participants) if participants is not None else []
     everything = [*listed, *_others(root, target, participants, {p.file for p in listed})]
     if not everything:
@@ -163,7 +165,7 @@ def _result(
     """The result of a recording: the one that was kept, or a new one, which is kept."""
     path = root / who.file
     digest = digest_of(path)
-    key = key_of(who, digest, choices, options)
+    key = key_of(root, who, digest, choices, options)
     kept = cache / f"{key[:24]}.npz"
     found = read_result(kept, key)
     if found is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from cli import app
+from gait.analysis.compare import compare_recordings
 from gait.analysis.options import AnalysisOptions
 from gait.analysis.study import run_study as module
 from gait.analysis.study.compare_conditions import compare_conditions, grid_neighbours
@@ -18,10 +20,11 @@ from gait.analysis.study.one_recording import GRID, RecordingResult, key_of, nor
 from gait.analysis.study.participants import Participation, read_participants
 from gait.analysis.study.run_study import Study, run_study
 from gait.analysis.study.study_page import study_page
-from plantar import FormatError, InputError
+from plantar import FormatError, InputError, grid_layout
+from plantar.formats import ReadOptions
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.gravity import GRAVITY
-from plantar.layouts.layout_file import layout_to_dict
+from plantar.layouts.layout_file import layout_to_dict, write_layout
 
 from ..browser import visit
 from ..printing import printed_images
@@ -118,7 +121,29 @@ def test_a_study_goes_on_where_it_was(study: tuple[Path, Path, Study], monkeypat
     run_study(folder, out, folder / "participants.csv")
     assert len(calls) == 4
     who = before.results[0].who
-    assert len({key_of(who, "0", AnalysisOptions(steps=steps)) for steps in ("all", "steady", (1, 3))}) == 3
+    assert len({key_of(folder, who, "0", AnalysisOptions(steps=steps)) for steps in ("all", "steady", (1, 3))}) == 3
+
+
+def test_a_layout_that_was_changed_under_its_name_makes_other_keys(tmp_path: Path) -> None:
+    square = grid_layout([[0, 0], [0.2, 0], [0.2, 0.1], [0, 0.1]], pitch=(0.05, 0.05))
+    wide = grid_layout([[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]], pitch=(0.05, 0.1))
+    assert square.name == wide.name
+    who, keys = Participation("a.npz", "a", layout="its.json"), set()
+    for layout in (square, wide):
+        write_layout(layout, tmp_path / "its.json")
+        keys.add(key_of(tmp_path, who, "0", AnalysisOptions()))
+        keys.add(key_of(tmp_path, replace(who, layout=None), "0", AnalysisOptions(), ReadOptions(layout=layout)))
+    assert len(keys) == 4
+
+
+def test_a_file_of_events_is_of_one_recording(study: tuple[Path, Path, Study], tmp_path: Path) -> None:
+    folder, *_ = study
+    choices = AnalysisOptions(events="events.csv")
+    with pytest.raises(InputError, match=r"--events events\.csv: a file of events is of one recording, and a study"):
+        run_study(folder, tmp_path / "out", choices=choices)
+    with pytest.raises(InputError, match="and --compare takes several"):
+        compare_recordings(folder / "a", folder / "b", tmp_path / "out", choices=choices)
+    assert not (tmp_path / "out").exists()
 
 
 def result_of(who: str, condition: str, value: float, curve: np.ndarray) -> RecordingResult:
