@@ -59,8 +59,27 @@ def analyse_feet(
             f"{' and '.join(s for s in recording.feet if s not in recording.events)}"
             "; --events allows own, or a file of events of each foot"
         )
+    if known.events != "own":
+        _check_clock(recording)
     feet = _measured_feet(recording, prints, known.events != "own")
     return {side: with_used_steps(gait, known, recording.kind, recording.raw) for side, gait in feet.items()}
+
+
+def _check_clock(recording: PressureRecording) -> None:
+    """Refuse stated events of another time than the recording's: in ms, or by another clock.
+
+    Raises:
+        InputError: If no event of a foot lies in the recording.
+    """
+    begin, end = float(recording.time[0]), float(recording.time[-1])
+    for side in recording.feet:
+        events = recording.events[side]
+        stated = np.concatenate([events.heel_strikes, events.toe_offs])
+        if len(stated) and not ((stated >= begin) & (stated <= end)).any():
+            raise InputError(
+                f"events of the {side} foot are stated from {stated.min():g} to {stated.max():g} s, the recording goes "
+                f"from {begin:g} to {end:g} s; allowed: times in s by the recording's clock"
+            )
 
 
 def _measured_feet(recording: PressureRecording, prints: Sequence[PlatformPrint], stated: bool) -> dict[Side, FootGait]:
@@ -98,13 +117,13 @@ def analyse_foot(
     loads = StepLoads(recording, gait.foot, gait.cell_threshold)
     gait = with_picture(recording, gait, loads)
     others = _other_foot(recording, side, stated)
-    strides = iter(stride_times(gait.contacts))
+    strides, longest = iter(stride_times(gait.contacts)), longest_stride(gait.contacts)
     steps: list[Step] = []
     for contact, previous in zip(gait.contacts, [None, *gait.contacts], strict=False):
         if contact.complete:
             print_, region = footprint_of_step(recording, gait, loads, contact, prints)
             load = loads.of(contact)
-            times = time_measures(contact, previous, next(strides), others)
+            times = time_measures(contact, previous, next(strides), longest, others)
             measures = {**times, **step_measures(recording, gait, load, contact, print_)}
             strike, lift = cast(float, contact.heel_strike), cast(float, contact.toe_off)
             regions = _regions(load, region, lift - strike)
@@ -128,7 +147,7 @@ def _other_foot(recording: PressureRecording, side: Side, stated: bool) -> Other
     """The contacts of the foot across; None where it was not recorded."""
     if other_side(side) not in recording.feet:
         return None
-    return OtherFoot(recording, _contacts(recording, other_side(side), stated))
+    return OtherFoot(recording, other_side(side), _contacts(recording, other_side(side), stated))
 
 
 def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Contact]:

@@ -31,6 +31,7 @@ __all__ = [
     "Levels",
     "find_contacts",
     "force_levels",
+    "measured_spans",
     "run_together",
     "smoothed",
     "true_runs",
@@ -241,7 +242,7 @@ def find_contacts(
     if levels is None:
         return []
     contacts: list[Contact] = []
-    for start, stop in _measured_spans(time, force):
+    for start, stop in measured_spans(time, force):
         gap = ~np.isfinite(force[start:stop])
         part = force[start:stop].copy()
         if gap.any():
@@ -250,8 +251,20 @@ def find_contacts(
     return contacts
 
 
-def _measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
-    """Spans of frames without a long gap, in the measurements or in the times."""
+def measured_spans(time: NDArray[np.float64], force: NDArray[np.float64]) -> list[tuple[int, int]]:
+    """Spans of frames without a gap longer than `LONGEST_BRIDGE`, in the measurements or in the times.
+
+    Args:
+        time: Times (n,) in s, increasing.
+        force: Vertical force (n,) in N; NaN where it was not measured.
+
+    Returns:
+        First frame of each span and the frame after its last one; none where nothing was measured.
+
+    Example:
+        >>> measured_spans(np.arange(6) * 0.1, np.array([1.0, 2.0, np.nan, np.nan, np.nan, 0.0]))
+        [(0, 2), (5, 6)]
+    """
     index = np.flatnonzero(np.isfinite(force))
     if len(index) == 0:
         return []

@@ -9,10 +9,11 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from gait.analysis.steps.events import Contact
+from gait.analysis.steps.events import Contact, measured_spans
 from plantar.recordings.pressure_recording import PressureRecording
+from plantar.sides import Side
 
-__all__ = ["OtherFoot", "stride_times", "time_measures"]
+__all__ = ["OtherFoot", "longest_stride", "stride_times", "time_measures"]
 
 PAUSE = 1.75
 """A stride longer than so many times the median of its foot holds a pause or a step that was not recorded."""
@@ -33,12 +34,27 @@ def stride_times(contacts: Sequence[Contact]) -> list[float]:
     Returns:
         The time in s of each complete one's stride.
     """
-    raw = _strides(contacts, whole=True)
-    if not np.isfinite(raw).any():
-        raw = _strides(contacts, whole=False)
-    known = [s for s in raw if np.isfinite(s)]
-    limit = PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
+    raw, limit = _raw_strides(contacts), longest_stride(contacts)
     return [s if s <= limit else np.nan for s in raw]
+
+
+def longest_stride(contacts: Sequence[Contact]) -> float:
+    """The time in s from which a stride holds a pause or a step that was not recorded; inf of fewer than three strides.
+
+    Args:
+        contacts: All contacts of the foot, in order.
+
+    Returns:
+        The time in s.
+    """
+    known = [s for s in _raw_strides(contacts) if np.isfinite(s)]
+    return PAUSE * float(np.median(known)) if len(known) >= 3 else np.inf
+
+
+def _raw_strides(contacts: Sequence[Contact]) -> list[float]:
+    """Time in s from each complete contact to the next, pauses and all."""
+    raw = _strides(contacts, whole=True)
+    return raw if np.isfinite(raw).any() else _strides(contacts, whole=False)
 
 
 def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
@@ -55,14 +71,15 @@ def _strides(contacts: Sequence[Contact], whole: bool) -> list[float]:
 
 
 def time_measures(
-    contact: Contact, previous: Contact | None, stride: float, others: OtherFoot | None
+    contact: Contact, previous: Contact | None, stride: float, longest: float, others: OtherFoot | None
 ) -> dict[str, float]:
-    """Measures of time of one complete contact.
+    """Measures of time of one complete contact. What takes both feet is NaN where the other one was not measured.
 
     Args:
         contact: The contact.
         previous: The contact of the same foot before it.
         stride: Its stride time in s; NaN where it is not known.
+        longest: Time in s from the contact before it that holds a pause, see `longest_stride`.
         others: The contacts of the other foot, None where it was not recorded.
 
     Returns:
@@ -80,9 +97,10 @@ def time_measures(
     }
     if others is not None:
         last = None if previous is None else previous.heel_strike
-        between = others.strikes_between(strike if last is None else last, strike)
-        if len(between) == 1:
-            out["step_time_s"] = strike - float(between[0])
+        if last is not None and strike - last <= longest and others.was_measured(last, strike):
+            between = others.strikes_between(last, strike)
+            if len(between) == 1:
+                out["step_time_s"] = strike - float(between[0])
         both = 100.0 * others.overlap(strike, lift) / stride
         out["flight_time_s"] = others.flight(lift)
         out["double_support_percent"] = both
@@ -91,14 +109,34 @@ def time_measures(
 
 
 class OtherFoot:
-    """The contacts of the other foot, as arrays that are searched quickly."""
+    """The contacts of the other foot, as arrays that are searched quickly.
 
-    def __init__(self, recording: PressureRecording, contacts: Sequence[Contact]) -> None:
+    Args:
+        recording: The recording.
+        side: Which foot that is.
+        contacts: Its contacts, in order.
+    """
+
+    def __init__(self, recording: PressureRecording, side: Side, contacts: Sequence[Contact]) -> None:
         time = recording.time
         self.strikes = np.array([c.heel_strike for c in contacts if c.heel_strike is not None])
+        spans = measured_spans(time, recording.feet[side].vertical_force)
+        self._measured = [(float(time[first]), float(time[after - 1])) for first, after in spans]
         begin = [float(time[c.begin]) if c.heel_strike is None else c.heel_strike for c in contacts]
         end = [float(time[c.end - 1]) if c.toe_off is None else c.toe_off for c in contacts]
         self._begin, self._end = np.array(begin), np.array(end)
+
+    def was_measured(self, begin: float, end: float) -> bool:
+        """Whether the foot was measured all the time: where it was not, it is not in the air.
+
+        Args:
+            begin: Begin of the time in s.
+            end: Its end in s.
+
+        Returns:
+            False where a gap that is too long to bridge falls into it.
+        """
+        return any(first <= begin and end <= last for first, last in self._measured)
 
     def strikes_between(self, begin: float, end: float) -> NDArray[np.float64]:
         """Heel strikes after one time and before another.
@@ -120,12 +158,14 @@ class OtherFoot:
             lift: Its toe off in s.
 
         Returns:
-            The time in s to the other foot's heel strike, 0 where that foot is on the ground; NaN where none follows.
+            The time in s to the other foot's heel strike, 0 where that foot is on the ground; NaN where none follows,
+            or where it was not measured.
         """
         if ((self._begin <= lift) & (self._end > lift)).any():
             return 0.0
         after = self.strikes[self.strikes > lift]
-        return float(after[0]) - lift if len(after) and after[0] - lift < _LONGEST_FLIGHT else float("nan")
+        follows = len(after) > 0 and after[0] - lift < _LONGEST_FLIGHT and self.was_measured(lift, float(after[0]))
+        return float(after[0]) - lift if follows else float("nan")
 
     def overlap(self, strike: float, lift: float) -> float:
         """How long of a contact the other foot is on the ground too.
@@ -135,8 +175,10 @@ class OtherFoot:
             lift: Its end in s.
 
         Returns:
-            The time in s.
+            The time in s; NaN where that foot was not measured all the time.
         """
+        if not self.was_measured(strike, lift):
+            return float("nan")
         first, last = np.searchsorted(self._end, strike, "right"), np.searchsorted(self._begin, lift, "left")
         begin, end = self._begin[first:last], self._end[first:last]
         return float((np.minimum(end, lift) - np.maximum(begin, strike)).clip(0.0).sum())
