@@ -41,6 +41,13 @@ of a forefoot gait."""
 _CHI2 = -2.0 * math.log(0.05)
 """95 % quantile of the chi-squared distribution with two degrees of freedom."""
 
+_LIFTS = 3
+"""How often a foot that does not stand is lifted at least: one that is put elsewhere once is lifted once or twice."""
+
+_LOADED, _FREE, _CARRIES = 0.3, 0.1, 0.3
+"""Shares of a foot's peak above which it is on the ground and below which it is off it, and the share of both feet's
+usual load that its peak is above: of the foot in the air of somebody who stands on one leg it is noise."""
+
 _SHORTEST = 5.0
 """Time in s of standing under which sway means nothing: its slow part has periods of seconds."""
 
@@ -170,8 +177,8 @@ def _without_heel_strike(feet: Mapping[Side, FootGait], landing: float) -> Activ
 
 
 def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Activity:
-    """Walking, running or standing, by how long the feet are on the ground."""
-    steps = [step for gait in feet.values() for step in gait.used]
+    """Walking, running or standing, by how long the feet are on the ground; by all steps where none is in the means."""
+    steps = [step for gait in feet.values() for step in gait.used or gait.steps]
     flights = [v for step in steps if np.isfinite(v := step["flight_time_s"])]
     stances = [v for step in steps if np.isfinite(v := step["stance_percent"])]
     if flights:
@@ -187,9 +194,24 @@ def _by_times(recording: PressureRecording, feet: Mapping[Side, FootGait]) -> Ac
         return Activity("unknown", "single steps tell walking and running not apart")
     load = np.sum([np.nan_to_num(foot.vertical_force) for foot in recording.feet.values()], axis=0)
     usual = float(np.median(load)) if len(load) else 0.0
+    if any(_is_lifted(gait.foot.vertical_force, usual) for gait in feet.values()):
+        return Activity("unknown", "feet are lifted and set down again, but no step is complete")
     if usual > 0.0 and float(np.percentile(load, 2.0)) > _STEADY * usual:
         return Activity("standing", "the load stays on the ground and no foot is lifted")
     return Activity("unknown", "no foot is lifted and set down again")
+
+
+def _is_lifted(force: NDArray[np.float64], usual: float) -> bool:
+    """Whether a foot of a force (n,) in N is on the ground and off it again and again, beside a usual load in N.
+
+    By shares of its own peak with a wide gap between them: where no step was found, neither are levels to be trusted.
+    """
+    known = force[np.isfinite(force)]
+    peak = float(np.percentile(known, 99.0)) if len(known) else 0.0
+    if not peak > _CARRIES * usual:
+        return False
+    sure = known[(known > _LOADED * peak) | (known < _FREE * peak)]
+    return int((np.diff((sure > _LOADED * peak).astype(int)) < 0).sum()) >= _LIFTS
 
 
 def sway_measures(time: NDArray[np.float64], points: NDArray[np.float64]) -> dict[str, float]:

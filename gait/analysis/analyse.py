@@ -32,6 +32,7 @@ from gait.analysis.parameters import analyse_feet
 from gait.analysis.prints.platform import told_apart
 from gait.analysis.spread import Spread
 from gait.analysis.steps.baseline import without_baselines
+from gait.analysis.steps.events import MINIMUM_STANCE, find_contacts
 from gait.analysis.steps.foot_gait import FootGait, Step
 from gait.analysis.steps.force_curve import landing_impact
 from gait.analysis.steps.gaps import without_gaps
@@ -177,6 +178,14 @@ def analyse(
     return Analysis(recording, feet, metrics_of(recording, feet, subject))
 
 
+def _why_no_contact(recording: PressureRecording, gait: FootGait) -> str:
+    """Why no contact of a foot was found."""
+    force, levels = gait.foot.vertical_force, gait.levels
+    if levels is not None and find_contacts(recording.time, force, levels, minimum_stance=0.0):
+        return f"has no contact of {MINIMUM_STANCE:g} s or longer"
+    return "carries no load above its noise"
+
+
 def write_analysis(analysis: Analysis, folder: Path, progress: Callable[[float, str], None] | None = None) -> None:
     """Write the tables, figures and report of an analysis.
 
@@ -240,8 +249,10 @@ def metrics_of(
     for side, gait in feet.items():
         if standing:
             continue
-        if not gait.contacts:
-            warnings.append(f"the {side} foot carries no load above its noise: no steps")
+        if not np.isfinite(gait.foot.vertical_force).any():
+            warnings.append(f"no frame of the {side} foot was measured: no steps")
+        elif not gait.contacts:
+            warnings.append(f"the {side} foot {_why_no_contact(recording, gait)}: no steps")
         elif not gait.steps:
             warnings.append(
                 f"the {side} foot has no complete step: each contact is cut by the recording{_lowest(gait)}"

@@ -21,7 +21,7 @@ from gait.analysis.steps.steady import with_used_steps
 from gait.analysis.steps.step_footprint import footprint_of_step, print_of_contact, with_picture
 from gait.analysis.steps.step_load import StepLoad, StepLoads, cell_threshold
 from gait.analysis.steps.step_measures import step_measures
-from gait.analysis.steps.step_times import OtherFoot, stride_times, time_measures
+from gait.analysis.steps.step_times import OtherFoot, longest_stride, stride_times, time_measures
 from gait.analysis.steps.walk_geometry import Place, step_geometry
 from plantar.errors import InputError
 from plantar.recordings.pressure_recording import Kind, PressureRecording

@@ -10,9 +10,12 @@ import pytest
 
 from gait.analysis.activity import activity_of, progression_doubts, sway_measures
 from gait.analysis.analyse import metrics_of
+from gait.analysis.options import AnalysisOptions
 from gait.analysis.parameters import analyse_feet
+from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording
+from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents
+from plantar.sides import SIDES
 
 from .walks import made_walk
 
@@ -143,6 +146,36 @@ def test_standing_is_named_and_its_sway_measured() -> None:
         assert sway["sway_velocity_m_s"] == pytest.approx(sway["sway_path_m"] / 20.0, rel=0.01)
     walk = made_walk().recording
     assert metrics_of(walk, analyse_feet(walk))["feet"]["left"]["sway"] is None
+
+
+@pytest.mark.parametrize("steps", [(40, 50), (1, 2)])
+def test_steps_that_nobody_asked_for_are_a_walk_all_the_same(steps: tuple[int, int]) -> None:
+    recording = made_walk(strides=7).recording
+    feet = analyse_feet(recording, options=AnalysisOptions(steps=steps))
+    metrics = metrics_of(recording, feet)
+    assert metrics["activity"]["name"] == "walking"
+    asked = [w for w in metrics["warnings"] if "among those that were asked for" in w]
+    assert len(asked) == (2 if steps[0] > 7 else 0)
+
+
+@pytest.mark.parametrize("walk", [{"stride": 0.4, "stance": 0.2}, {"stride": 1.1, "rate": 10.0}])
+def test_feet_that_are_lifted_do_not_stand_though_no_step_is_found(walk: dict[str, float]) -> None:
+    """A sprint whose contacts are all shorter than 0.1 s, and ten frames a second."""
+    recording = made_walk(strides=30, **walk).recording  # type: ignore[arg-type]
+    feet = analyse_feet(recording)
+    assert not any(gait.steps for gait in feet.values())
+    found = activity_of(recording, feet)
+    assert found.name == "unknown"
+    assert "lifted and set down" in found.why
+
+
+def test_events_by_another_clock_are_refused() -> None:
+    """In ms, a walk would be called standing."""
+    made = made_walk(strides=7)
+    for factor, offset in ((1000.0, 0.0), (1.0, 1.7e9)):
+        events = {s: StatedEvents(made.strikes[s] * factor + offset, made.lifts[s] * factor + offset) for s in SIDES}
+        with pytest.raises(InputError, match=r"events of the left foot are stated from .* by the recording's clock"):
+            analyse_feet(replace(made.recording, events=events), options=AnalysisOptions(events="vendor"))
 
 
 def test_the_ellipse_holds_95_of_100_points() -> None:
