@@ -27,6 +27,10 @@ OFFSET = 0.10
 _TOLD = 0.03
 """A level in swing of more than so much of the range is told, though it is not taken off."""
 
+_PULL = 0.01
+"""A level in swing of so much of the range below zero is an offset, too: no shoe pulls, and cells below zero take the
+centre of pressure out of the sole."""
+
 HOT = 0.5
 """A cell that reads more in swing than this share of what it reads under load does not measure the foot."""
 
@@ -184,7 +188,8 @@ def without_baselines(recording: PressureRecording) -> PressureRecording:
             continue
         offset = float(np.median(rest.level))
         drift = float(np.ptp(rest.level))
-        if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span:
+        pulls = rest.level.min() < -_PULL * rest.span
+        if drift > FOLLOWED * rest.span or np.abs(rest.level).max() > OFFSET * rest.span or pulls:
             feet[side] = _without_offset(foot, rest)
             unit = "counts" if recording.raw else "N"
             moving = f", and drifts by {drift:.3g} {unit}" if drift > 0.05 * rest.span else ""

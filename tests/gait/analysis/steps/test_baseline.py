@@ -61,6 +61,20 @@ def test_weight_that_is_shifted_shows_no_offset(ramp: float) -> None:
     assert resting_level(350.0 + 350.0 * shift, 100.0) is None
 
 
+@pytest.mark.parametrize("offset", [-15.0, -40.0, -75.0])
+def test_no_shoe_pulls(offset: float) -> None:
+    """However little it is: cells below zero take the CoP out of the sole."""
+    truth = analyse_feet(made_walk(strides=7).recording)["left"].steps[3]
+    pulled = made_walk(strides=7).recording
+    left = pulled.feet["left"]
+    even = replace(left, force=left.force + offset / left.force.shape[1])
+    mended = without_baselines(replace(pulled, feet={**pulled.feet, "left": even}))
+    assert any("of the left foot" in w or "the left foot's sensor reads -" in w for w in mended.warnings)
+    step = analyse_feet(mended)["left"].steps[3]
+    for key in ("impulse_Ns", "cop_path_m", "contact_time_s"):
+        assert step[key] == pytest.approx(truth[key], rel=0.01), key
+
+
 def test_what_a_shoe_presses_in_swing_stays_in_the_forces() -> None:
     """Vendors leave it there, too; 5 % of the force is within what shoes do."""
     made = made_walk(offset=35.0)
