@@ -10,13 +10,16 @@ from numpy.typing import NDArray
 
 from plantar.errors import FormatError
 from plantar.formats.side import side_of
-from plantar.sides import SIDES, Side
+from plantar.sides import SIDES, Side, other_side
 
 __all__ = ["is_side_column", "on_one_time", "rows_of_sides", "with_numbers"]
 
 _NAME = re.compile(
     r"\W*(?:side|foot|sole|insole|shoe|leg|limb|fu(?:ss|ß)|seite|pied|pie)(?:[ _-]?(?:side|id))?\W*", re.IGNORECASE
 )
+LONGEST_GAP = 0.1
+"""Longest gap in s between a foot's rows over which its values are interpolated: longer ones were not measured."""
+
 _MARK: dict[Side, str] = {"left": "0", "right": "1"}
 
 
@@ -95,8 +98,11 @@ def on_one_time(
         columns: Columns (n,) of values.
 
     Returns:
-        Times (m,); values (m, k) of each foot; and whether the feet's times differed, so that the right foot's values
-        were interpolated at the left one's.
+        Times (m,); values (m, k) of each foot, NaN where it has no rows for longer than `LONGEST_GAP`; and whether the
+        feet's times differed, so that values were interpolated, the right foot's at the left one's times.
+
+    Raises:
+        FormatError: If a foot has no time.
     """
     if len(rows) == 1:
         ((side, own),) = rows.items()
@@ -104,14 +110,46 @@ def on_one_time(
     left, right = rows["left"], rows["right"]
     if len(left) == len(right) and np.array_equal(time[left], time[right], equal_nan=True):
         return time[left], {side: np.column_stack([c[own] for c in columns]) for side, own in rows.items()}, False
-    right = right[np.isfinite(time[right])]
-    right = right[np.argsort(time[right], kind="stable")]
-    begin, end = time[right[0]], time[right[-1]]
-    left = left[(time[left] >= begin) & (time[left] <= end)]
-    if len(left) < 2:
-        raise FormatError("the rows of the two feet share no time")
-    feet: dict[Side, NDArray[np.float64]] = {
-        "left": np.column_stack([c[left] for c in columns]),
-        "right": np.column_stack([np.interp(time[left], time[right], c[right]) for c in columns]),
-    }
-    return time[left], feet, True
+    times: dict[Side, NDArray[np.float64]] = {}
+    for side, own in (("left", left), ("right", right)):
+        known = own[np.isfinite(time[own])]
+        if len(known) == 0:
+            raise FormatError(f"no row of the {side} foot has a time")
+        rows[side] = known[np.argsort(time[known], kind="stable")]
+        times[side] = time[rows[side]]
+    # The left foot's times, and the right one's where the left foot has no rows; what one has more at the ends is left
+    # out where it is no more than the rows' shift.
+    alone = {side: times[side][~_covered(times[side], times[other_side(side)])] for side in SIDES}
+    mine, more = (_without_ends(times[s], alone[s], times[other_side(s)]) for s in SIDES)
+    base = np.union1d(mine, more[np.isin(more, alone["right"])])
+    feet = {side: _at(base, times[side], np.column_stack([c[rows[side]] for c in columns])) for side in SIDES}
+    return base, feet, True
+
+
+def _without_ends(
+    time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Times (n,) of a foot without those that it has alone at either end, where they are before or after the other
+    foot's by `LONGEST_GAP` at most."""
+    low = others[0] if 0.0 < others[0] - time[0] <= LONGEST_GAP else -np.inf
+    high = others[-1] if 0.0 < time[-1] - others[-1] <= LONGEST_GAP else np.inf
+    return time[~np.isin(time, alone) | ((time >= low) & (time <= high))]
+
+
+def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether wanted times (m,) lie between two of some times (n,), in order, that are no gap apart."""
+    after = np.searchsorted(time, wanted, side="left")
+    on = time[np.minimum(after, len(time) - 1)] == wanted
+    inside = (after > 0) & (after < len(time))
+    at = np.clip(after, 1, max(1, len(time) - 1))
+    steps = np.diff(time)
+    longest = LONGEST_GAP + 1.5 * (float(np.median(steps)) if len(steps) else 0.0)
+    near = steps[at - 1] <= longest if len(steps) else np.zeros(len(wanted), dtype=bool)
+    return np.asarray(on | (inside & near))
+
+
+def _at(wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Values (m, k) at wanted times (m,) by straight lines between those (n, k) of times (n,); NaN in a gap."""
+    out = np.column_stack([np.interp(wanted, time, column) for column in values.T])
+    out[~_covered(wanted, time)] = np.nan
+    return out

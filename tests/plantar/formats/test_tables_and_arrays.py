@@ -270,6 +270,29 @@ def test_a_table_with_a_column_of_sides_is_two_feet(
     assert any("smaller is taken as the left" in w for w in recording.warnings) == (words == ("1", "2"))
 
 
+@pytest.mark.parametrize("lost", ["left", "right"])
+@pytest.mark.parametrize("shift", [0.0, 0.004])
+@pytest.mark.parametrize("span", [(0.0, 0.2), (0.15, 0.3), (0.3, 0.6)])
+def test_rows_that_a_foot_lacks_are_not_drawn_and_cost_the_other_none(
+    tmp_path: Path, layout: SoleLayout, lost: str, shift: float, span: tuple[float, float]
+) -> None:
+    """One foot's connection breaks, at the begin, in between, or at the end."""
+    path, rows = tmp_path / "soles.csv", ["time [s],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
+    for k in range(50):
+        for side, late in (("left", 0.0), ("right", shift)):
+            if side != lost or not span[0] <= k / 100 < span[1]:
+                rows.append(f"{k / 100 + late:.3f},{side}," + ",".join(f"{k + 1}" for _ in layout.ids))
+    path.write_text("\n".join(rows) + "\n")
+    recording = read_recording(path, layout=layout)
+    kept = recording.feet["right" if lost == "left" else "left"].force
+    assert np.isfinite(kept).sum(axis=0).min() >= 49  # but for a shift at the ends
+    force = recording.feet[lost].force
+    at = recording.time - recording.time[0] + (0.0 if len(recording.time) == 50 else shift)
+    gone = (at > span[0] + 0.02) & (at < span[1] - 0.02)
+    assert np.isnan(force[gone]).all()
+    assert np.isfinite(force[(at < span[0] - 0.02) | (at > span[1] + 0.02)]).all()
+
+
 def clock(seconds: float, form: str) -> str:
     """A time after 23:59:59.8 on the last day of a year, so that midnight passes."""
     hours, rest = divmod(86399.8 + seconds, 3600.0)
