@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gait.analysis.steps.events import LONGEST_BRIDGE
+
 __all__ = ["force_measures", "landing_impact"]
 
 IMPACT_WINDOW = 0.05
@@ -122,6 +124,9 @@ def _loading(time: NDArray[np.float64], force: NDArray[np.float64], strike: floa
 def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike: float) -> float:
     """Largest vertical force in N within 50 ms of a heel strike; NaN where none was measured.
 
+    The force at the window's end counts, by a straight line between its frames: without it a window that begins between
+    frames holds now two of them and now three at 50 Hz, and the same steps differ by a third.
+
     Args:
         time: Times (n,) in s.
         force: Vertical force (n,) in N.
@@ -130,6 +135,10 @@ def landing_impact(time: NDArray[np.float64], force: NDArray[np.float64], strike
     Returns:
         The force in N.
     """
-    window = force[np.searchsorted(time, strike) : np.searchsorted(time, strike + IMPACT_WINDOW, side="right")]
+    end = strike + IMPACT_WINDOW
+    after = int(np.searchsorted(time, end, side="right"))
+    window = force[np.searchsorted(time, strike) : after]
+    if 0 < after < len(time) and time[after] - time[after - 1] <= LONGEST_BRIDGE:
+        window = np.append(window, np.interp(end, time[after - 1 : after + 1], force[after - 1 : after + 1]))
     window = window[np.isfinite(window)]
     return float(window.max()) if len(window) else float("nan")
