@@ -117,6 +117,7 @@ def _sidecar(analysis: Analysis, target: Path) -> dict[str, Any]:
 def _write_npz(analysis: Analysis, path: Path) -> None:
     recording = analysis.recording
     arrays: dict[str, Any] = {"time": recording.time, "rate_hz": recording.rate_hz, "unit": _unit(analysis)}
+    arrays["kind"] = recording.kind
     for side, foot in recording.feet.items():
         arrays[side] = foot.force
         if foot.layout is not None:

@@ -33,7 +33,9 @@ _MODULES = (
     "array_file",
     "csv_table",
 )
-_HEAD = 65536
+_HEADS = (1 << 16, 1 << 22)
+"""How many bytes of a file are looked at, and how many where those tell nothing: a platform's table has a row of names
+of a hundred kilobytes."""
 
 
 def formats() -> dict[str, Format]:
@@ -99,12 +101,17 @@ def detect_format(path: str | os.PathLike[str]) -> Format:
                 return candidate
         raise FormatError(f"{path}: cannot be read (a folder that is no ROS 2 bag); known: {names}")
     with open_input(path, FormatError) as stream:
-        head = stream.read(_HEAD)
-    if not head:
-        raise FormatError(f"{path}: the file is empty")
-    for candidate in known.values():
-        if candidate.recognises(head):
-            return candidate
+        head = b""
+        for size in _HEADS:
+            more = stream.read(size - len(head))
+            if not head + more:
+                raise FormatError(f"{path}: the file is empty")
+            if not more:
+                break
+            head += more
+            for candidate in known.values():
+                if candidate.recognises(head):
+                    return candidate
     raise FormatError(f"{path}: not a recording of a known format; known: {names}")
 
 

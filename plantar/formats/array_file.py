@@ -1,8 +1,8 @@
 """Arrays in numpy's own files (.npz, .npy): a frame a row, a cell a column, and the times beside them.
 
 In an NPZ the arrays are found by their names: "time" (s), "left" and "right" or one array whose name names no foot;
-"unit", "rate_hz", "side" and "layout_left" (JSON of a layout file) are read where they are there. `Recording.to_npz`
-writes such a file.
+"unit", "rate_hz", "side", "kind" ("insole", "platform", "robot") and "layout_left" (JSON of a layout file) are read
+where they are there. `Recording.to_npz` writes such a file.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import zipfile
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ from plantar.formats.side import side_of
 from plantar.layouts.layout import Side, SoleLayout
 from plantar.layouts.layout_file import layout_from_dict
 from plantar.recordings.frame_table import MOST_VALUES
-from plantar.recordings.pressure_recording import FootRecording, PressureRecording, possible_rate, sampling
+from plantar.recordings.pressure_recording import FootRecording, Kind, PressureRecording, possible_rate, sampling
 from plantar.sides import SIDES
 
 __all__ = ["FORMAT"]
@@ -126,7 +126,10 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
             feet[side] = cells_of_foot(side, values, unit, options, warnings, own=_layout(arrays, side, warnings))
         frames, prefix = len(table), ""
     time, rate, notes = _times(path, arrays, prefix, frames, options, warnings)
-    if len(feet) == 1:
+    kind = "robot" if own_export else _kind(arrays)
+    if kind == "platform":
+        feet = _one_platform(feet)
+    elif len(feet) == 1:
         warnings.append(f"the file holds the {next(iter(feet))} foot only")
     return PressureRecording(
         path=path,
@@ -137,8 +140,21 @@ def _recording(path: Path, arrays: dict[str, _Array], options: ReadOptions) -> P
         metadata={"unit": unit.name},
         warnings=(*warnings, *notes),
         raw=unit.kind == "raw",
-        kind="robot" if own_export else "insole",
+        kind=kind,
     )
+
+
+def _kind(arrays: dict[str, _Array]) -> Kind:
+    """What measured, as the file states it; insoles where it does not."""
+    stated = _text(arrays, "kind")
+    return next((kind for kind in get_args(Kind) if kind == stated), "insole")
+
+
+def _one_platform(feet: dict[Side, FootRecording]) -> dict[Side, FootRecording]:
+    """A platform as it measured, of what its feet carried: no cell carries both at once."""
+    if len(feet) < 2 or feet["left"].force.shape != feet["right"].force.shape:
+        return feet
+    return {"left": replace(feet["left"], force=feet["left"].force + feet["right"].force)}
 
 
 @contextmanager

@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gait.analysis.analyse import metrics_of
+from gait.analysis.analyse import Analysis, analyse, metrics_of
+from gait.analysis.exports import export_analysis
 from gait.analysis.pages.player import player_data
 from gait.analysis.parameters import analyse_feet
 from gait.analysis.prints.platform import told_apart
+from plantar.formats import detect_format
 from plantar.formats.grid_cells import grid_cells
 from plantar.layouts.layout import Side
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording
@@ -122,6 +124,22 @@ def test_a_platform_that_records_from_the_first_load_has_a_whole_step() -> None:
     (gait,) = analyse_feet(told, prints).values()
     assert len(gait.steps) == 1
     assert any("unloaded just before and after" in w for w in told.warnings)
+
+
+@pytest.mark.parametrize("steps", [1, 6])
+def test_a_platform_that_was_exported_is_a_platform_again(tmp_path: Path, steps: int) -> None:
+    recording, _ = walkway(steps)
+    told, prints = told_apart(recording)
+    feet = analyse_feet(told, prints)
+    export_analysis(Analysis(told, feet, metrics_of(told, feet)), tmp_path / "way.npz")
+    again = analyse(tmp_path / "way.npz")
+    assert again.recording.kind == "platform"
+    for side, gait in feet.items():
+        for one, other in zip(gait.steps, again.feet[side].steps, strict=True):
+            assert other.measures == pytest.approx(one.measures, nan_ok=True)
+    export_analysis(again, tmp_path / "way.csv")  # its row of names alone is longer than what files are told by
+    assert (tmp_path / "way.csv").read_text().index("\n") > (50_000 if steps > 1 else 0)
+    assert detect_format(tmp_path / "way.csv").name == "csv"
 
 
 def test_an_empty_platform_and_a_sole() -> None:
