@@ -18,7 +18,7 @@ from plantar.console.command import Json, Output, end_command, file_lines, run_c
 from plantar.console.ending import Terminated, ignore_further_interrupts, run
 from plantar.console.option_group import with_option_groups
 from plantar.console.progress import part_of, progress_bar
-from plantar.errors import InputError
+from plantar.errors import InputError, RobotError
 from plantar.optional_library import need_libraries
 from plantar.sides import SIDES
 from shoes.order import FootSource, ShoeOrder
@@ -100,15 +100,16 @@ def shoe(
         raise InputError(f"--side is '{order.side}'; allowed: left, right, both")
     used = (ShoeParameters() if parameters is None else read_parameters(parameters)).changed(settings or [])
     shape, taxels = read_foot(replace(source, file=foot), sole_band=used.sole_band)
+    read = (foot, parameters)
     if preview:
         from shoes.papers.preview import draw_preview
 
-        with output_folder(output) as folder:
+        with output_folder(output, read) as folder:
             draw_preview(shape, folder / "preview.png")
         drawn = {"notes": list(shape.notes), "files": [str(output / "preview.png")]}
         end_command(drawn, as_json, "\n".join(f"  {line}" for line in (*drawn["notes"], *drawn["files"])))
         return
-    with output_folder(output) as folder, progress_bar() as tell:
+    with output_folder(output, read) as folder, progress_bar() as tell:
         build = build_ordered(shape, order, used, taxels, part_of(tell, 0.0, 0.6))
         if order.coupon:
             made = write_ordered_coupons(build, folder, part_of(tell, 0.6, 0.4))
@@ -314,10 +315,11 @@ def robot(
         end_command(checked.as_dict(), as_json, checked.text(), checked.failures, not checked.holds)
         return
     from plantar.atomic import output_folder
+    from plantar.files.model_files import files_of_model
     from shoes.found_foot import shoe_for_surface
     from sim.survey.introduce import introduce
 
-    with output_folder(output) as folder, progress_bar() as tell:
+    with output_folder(output, files_of_model(model, RobotError)) as folder, progress_bar() as tell:
         made = introduce(model, folder, partial(shoe_for_surface, solid=solid, progress=part_of(tell, 0.1, 0.5)), tell)
     end_command(made.as_dict(output), as_json, made.text(output))
 

@@ -12,7 +12,7 @@ import re
 import shutil
 import tempfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -83,21 +83,23 @@ def write_text(path: str | os.PathLike[str], text: str) -> Path:
 
 
 @contextmanager
-def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
+def output_folder(path: str | os.PathLike[str], inputs: Iterable[str | os.PathLike[str] | None] = ()) -> Iterator[Path]:
     """Give a temporary folder; on success its files move into `path` (made if needed), on an error nothing is left.
 
     Files of `path` that the run does not write stay as they are.
 
     Args:
         path: The output folder, which may exist.
+        inputs: Files that what is written is made of, or None; none of them is overwritten.
 
     Yields:
         The temporary folder to write to.
 
     Raises:
-        InputError: If the folder cannot be made or written to.
+        InputError: If the folder cannot be made or written to, or a file would take the place of an input.
     """
     final = Path(path)
+    kept = {os.path.realpath(source) for source in inputs if source is not None}
     made: list[Path] = []
     done = False
     try:
@@ -116,6 +118,8 @@ def output_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
         for _, target in moves:  # before the first move, so that all files appear or none
             if target.is_dir():
                 raise InputError(f"cannot write {target}: a folder of this name is in the way; choose another with -o")
+            if os.path.realpath(target) in kept:
+                raise InputError(f"cannot write {target}: it is what this is made of; choose another folder with -o")
         try:
             for source, target in moves:
                 target.parent.mkdir(parents=True, exist_ok=True)

@@ -109,7 +109,7 @@ def analyse_recording(
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:
         raise InputError(f"--export is for recordings; {path} is a footprint image")
-    with output_folder(out) as folder:
+    with output_folder(out, (path, layout, (choices or AnalysisOptions()).events)) as folder:
         if image:
             metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject)
         else:

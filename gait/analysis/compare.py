@@ -83,7 +83,7 @@ def compare_recordings(
         if named_format(path, format).read is None:
             raise InputError(f"{path} is a footprint image; --compare takes two recordings over time")
     analyses: dict[str, Analysis] = {}
-    with output_folder(out) as folder:
+    with output_folder(out, (a, b, layout)) as folder:
         for i, (key, path) in enumerate((("a", a), ("b", b))):
             tell(0.4 * i, f"reading {key}")
             analyses[key] = analyse(path, format, known, choices=choices, subject=subject)

@@ -22,7 +22,15 @@ from plantar.errors import PlantarError
 from plantar.files.input_file import read_input
 from plantar.files.xml_file import XML_MOST, parse_xml
 
-__all__ = ["VARIABLE", "check_model", "folders_of_model", "mesh_of_urdf", "named_file", "parsed_model"]
+__all__ = [
+    "VARIABLE",
+    "check_model",
+    "files_of_model",
+    "folders_of_model",
+    "mesh_of_urdf",
+    "named_file",
+    "parsed_model",
+]
 
 VARIABLE = "PLANTAR_MODEL_FOLDERS"
 """Environment variable with folders from which models may take files, too."""
@@ -146,6 +154,24 @@ def parsed_model(file: Path, error: type[PlantarError]) -> Element:
         plantar.errors.PlantarError: none.xml: cannot be read (No such file or directory)
     """
     return _included(file, file, set(), error)
+
+
+def files_of_model(file: Path, error: type[PlantarError]) -> set[Path]:
+    """An MJCF or URDF and the files that it includes.
+
+    Args:
+        file: The model.
+        error: What is raised.
+
+    Returns:
+        Their full paths.
+
+    Raises:
+        PlantarError: As `parsed_model`.
+    """
+    seen: set[Path] = set()
+    _included(file, file, seen, error)
+    return seen
 
 
 def _included(file: Path, main: Path, seen: set[Path], error: type[PlantarError]) -> Element:

@@ -93,8 +93,8 @@ def test_a_file_system_that_takes_no_files():
 # --- output_folder ------------------------------------------------------------------------------------------------
 
 
-def write_files(folder, *names, error=None):
-    with output_folder(folder) as temporary:
+def write_files(folder, *names, error=None, inputs=()):
+    with output_folder(folder, inputs) as temporary:
         for name in names:
             (temporary / name).parent.mkdir(exist_ok=True)
             (temporary / name).write_text(name)
@@ -114,6 +114,20 @@ def test_files_appear_together_and_others_stay(tmp_path):
         assert (out / "metrics.json").read_text() == "old"
     assert (out / "metrics.json").read_text() == "new"
     assert everything(out) == ["figures", "figures/cop.png", "metrics.json", "mine.txt"]
+
+
+def test_no_input_is_overwritten(tmp_path, monkeypatch):
+    (tmp_path / "model.xml").write_text("the author's")
+    (tmp_path / "link.xml").symlink_to(tmp_path / "model.xml")
+    monkeypatch.chdir(tmp_path)
+    for given in ("model.xml", tmp_path / "model.xml", "link.xml"):
+        with pytest.raises(InputError, match=r"cannot write .*model\.xml: it is what this is made of; choose another"):
+            write_files(".", "a.toml", "model.xml", inputs=[None, given])
+    assert (tmp_path / "model.xml").read_text() == "the author's"
+    assert everything(tmp_path) == ["link.xml", "model.xml"]
+    with output_folder("out", ["model.xml"]) as temporary:
+        (temporary / "model.xml").write_text("new")
+    assert (tmp_path / "out" / "model.xml").read_text() == "new"
 
 
 @pytest.mark.parametrize("error", [Stop, KeyboardInterrupt])
