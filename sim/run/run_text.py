@@ -82,7 +82,7 @@ def _shares(summary: Summary) -> list[str]:
     shares = {name: share for name, share in summary["shares"].items() if name.startswith(_TOLD)}
     told = [f"{name} {x['value']:.3g} {x['unit']} ({x['share']})" for name, x in shares.items()]
     body = summary["body"]
-    size = f"{body['mass_kg']:.3g} kg, legs of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
+    size = f"{body['mass_kg']:.3g} kg, paced as a leg of {body['leg_m']:.3g} m, soles of {body['sole_m']:.3g} m"
     return textwrap.wrap(f"on {size}: {', '.join(told)}", 118, initial_indent="  ", subsequent_indent="    ")
 
 

@@ -114,7 +114,7 @@ class Introduced:
         size = f"{1e3 * body.sole:.0f} x {1e3 * body.sole_width:.0f} mm"
         return "\n".join(
             [
-                f"{robot.name}: {body.mass:.3g} kg, legs of {body.leg:.3f} m with {len(joints)} joints",
+                f"{robot.name}: {body.mass:.3g} kg, {len(joints)} joints a leg; paced as a leg of {body.leg:.3f} m",
                 *(f"  {s} leg: {' '.join(robot.legs[s].joints)}, foot {robot.legs[s].foot_body}" for s in SIDES),
                 f"  soles: {size}, {taxels} taxels each; turned in their bodies by {turns} degrees",
                 f"  walks with its CoM at {robot.com_height:.3f} m, feet {robot.stance_width:.3f} m apart, "

@@ -99,6 +99,7 @@ def read_model(file: Path, folder: Path) -> ModelSource:
     except Exception as error:  # MuJoCo's parser raises ValueError, OSError and its own errors
         raise RobotError(f"{file}: cannot be read: {' '.join(str(error).split())}") from None
     _name_all(spec)
+    _drop_other_things(spec, said.notes)
     _drop_unreadable(spec, file, folder, said.notes)
     keyframe = _first_keyframe(spec)
     loops = [(e.name1, e.name2) for e in spec.equalities if e.type in _LOOPS]
@@ -137,6 +138,12 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said)
                 mesh.set("filename", str(found.resolve()))
     for own in root.findall("mujoco"):
         root.remove(own)
+    locked = [name for joint in root.findall("joint") if (name := _locked(joint, file))]
+    if locked:
+        said.notes.append(
+            f"held, as their limits leave no range (lower and upper are 0 where a URDF leaves them out): "
+            f"{', '.join(locked)}"
+        )
     for joint in root.findall("joint"):
         name, limit, mimic = joint.get("name", ""), joint.find("limit"), joint.find("mimic")
         if mimic is not None:
@@ -147,6 +154,29 @@ def _urdf_text(root: ElementTree.Element, file: Path, folder: Path, said: _Said)
                 found_limits[name] = value
     ElementTree.SubElement(ElementTree.SubElement(root, "mujoco"), "compiler", _URDF_COMPILER)
     return ElementTree.tostring(root, encoding="unicode")
+
+
+def _locked(joint: ElementTree.Element, file: Path) -> str:
+    """Name of a joint whose limits leave no range, which is fixed then; empty for any other.
+
+    MuJoCo would take it as one without limits.
+
+    Raises:
+        RobotError: If the limits contradict each other, or hold it at another angle than 0.
+    """
+    name, limit = joint.get("name", ""), joint.find("limit")
+    if joint.get("type") not in ("revolute", "prismatic") or limit is None:
+        return ""
+    lower, upper = _number(limit.get("lower")), _number(limit.get("upper"))
+    if lower < upper:
+        return ""
+    if lower > upper or lower != 0.0:
+        raise RobotError(
+            f"{file}: joint '{name}' has limits from {lower:g} to {upper:g}; allowed: lower below upper, "
+            "or a joint of type fixed"
+        )
+    joint.set("type", "fixed")
+    return name
 
 
 def _number(text: str | None) -> float:
@@ -166,6 +196,25 @@ def _name_all(spec: Any) -> None:
             if not element.name:
                 name = f"{kind}_{i}"
                 element.name = name if name not in taken else f"{name}_of_the_model"
+
+
+def _drop_other_things(spec: Any, notes: list[str]) -> None:
+    """Take out what a scene holds beside the robot, tables and balls: of what stands in the world the robot has most
+    hinges."""
+    things = list(spec.worldbody.bodies)
+    if len(things) < 2:
+        return
+    hinges = [sum(j.type == mujoco.mjtJoint.mjJNT_HINGE for j in _joints_below(thing)) for thing in things]
+    robot = things[hinges.index(max(hinges))]
+    others = [thing for thing in things if thing is not robot]
+    notes.append(f"left out, as they are no part of the robot: {', '.join(thing.name for thing in others)}")
+    for thing in others:
+        spec.delete(thing)
+
+
+def _joints_below(body: Any) -> list[Any]:
+    """Joints of a body and of all that hangs on it."""
+    return [*body.joints, *(joint for child in body.bodies for joint in _joints_below(child))]
 
 
 def _drop_unreadable(spec: Any, file: Path, folder: Path, notes: list[str]) -> None:

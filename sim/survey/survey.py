@@ -78,7 +78,10 @@ def survey_model(file: Path, folder: Path) -> Survey:
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
-    legs = find_legs(model, data, str(file))
+    try:
+        legs = find_legs(model, data, str(file))
+    except RobotError as error:
+        raise RobotError("; ".join([str(error), *(n for n in source.notes if n.startswith("held, "))])) from None
     _refuse_odd_legs(source, legs)
     soles = {s: find_sole(model, data, legs.by_side[s], legs.rotation, str(file)) for s in SIDES}
     held, told = _held(source, legs)

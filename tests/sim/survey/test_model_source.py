@@ -1,0 +1,68 @@
+"""What a model's file holds beside the robot, and joints of a URDF that cannot turn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from plantar import RobotError
+from sim.survey.model_source import read_model
+from sim.survey.survey import survey_model
+
+from .random_biped import random_biped
+
+THINGS = """
+<body name="table" pos="1 0 0.2"><geom type="box" size="0.2 0.2 0.2" mass="50"/></body>
+<body name="ball" pos="0 0 -3"><freejoint/><geom size="0.05" mass="2"/><site name="inside"/></body>
+<body name="door" pos="2 0 0"><joint type="hinge" axis="0 0 1"/><geom type="box" size="0.4 0.02 1" mass="20"/></body>
+"""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_else_is_in_a_scene_is_no_part_of_the_robot(seed: int, tmp_path: Path) -> None:
+    truth = random_biped(seed, tmp_path)
+    alone = survey_model(truth.file, tmp_path)
+    text = truth.file.read_text().replace("</worldbody>", f"{THINGS}</worldbody>")
+    truth.file.write_text(text.replace("</mujoco>", '<sensor><gyro site="inside"/></sensor></mujoco>'))
+    found = survey_model(truth.file, tmp_path)
+    assert found.mass == pytest.approx(alone.mass, rel=1e-12)
+    assert found.joint_names("left") == alone.joint_names("left")
+    assert (found.legs.rotation == alone.legs.rotation).all()
+    assert found.imu == alone.imu
+    assert any("no part of the robot: table, ball, door" in note for note in found.notes)
+
+
+def urdf(limit: str, kind: str = "revolute") -> str:
+    inertia = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    links = "".join(f'<link name="{name}">{inertia}</link>' for name in ("base", "arm"))
+    joint = f'<joint name="elbow" type="{kind}"><parent link="base"/><child link="arm"/>{limit}</joint>'
+    return f'<robot name="r">{links}{joint}</robot>'
+
+
+@pytest.mark.parametrize("limit", ['<limit effort="5" velocity="1"/>', '<limit lower="0" upper="0" effort="5"/>'])
+def test_a_joint_whose_limits_leave_no_range_is_held_and_told(tmp_path: Path, limit: str) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(urdf(limit))
+    source = read_model(file, tmp_path)
+    assert source.model.njnt == 0
+    assert any(note.startswith("held, as their limits leave no range") for note in source.notes)
+    with pytest.raises(RobotError, match=r"no chain of 5 hinges.*; held, as their limits leave no range.*: elbow"):
+        survey_model(file, tmp_path)
+
+
+@pytest.mark.parametrize("limit", ['<limit lower="-1" upper="1" effort="5"/>', ""])
+def test_a_joint_with_a_range_or_without_limits_turns(tmp_path: Path, limit: str) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(urdf(limit, "revolute" if limit else "continuous"))
+    source = read_model(file, tmp_path)
+    assert source.model.njnt == 1
+    assert bool(source.model.jnt_limited[0]) == bool(limit)
+
+
+@pytest.mark.parametrize("limit", ['<limit lower="1" upper="-1"/>', '<limit lower="0.3" upper="0.3"/>'])
+def test_limits_that_contradict_each_other_are_refused(tmp_path: Path, limit: str) -> None:
+    file = tmp_path / "robot.urdf"
+    file.write_text(urdf(limit))
+    with pytest.raises(RobotError, match=r"joint 'elbow' has limits from .*; allowed: lower below upper, or"):
+        read_model(file, tmp_path)
