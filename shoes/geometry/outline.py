@@ -76,7 +76,8 @@ def grown(shape: Any, distance: float) -> Any:
 
 def ring(polygon: Any) -> NDArray[np.float64]:
     """Corners (k, 2) of a polygon in mm, counter-clockwise, without the repeated last point."""
-    return np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
+    corners = np.array(polygon.exterior.coords, dtype=float)[:-1, :2]
+    return corners if polygon.exterior.is_ccw else corners[::-1].copy()
 
 
 def apart(outer: Any, inner: Any) -> Any:

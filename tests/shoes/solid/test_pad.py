@@ -7,8 +7,9 @@ import shapely
 import trimesh
 
 from shoes import Foot, ShoeParameters, build_shoe
+from shoes.foot.foot import foot_from_dimensions
 from shoes.plan.pad_outline import pad_rim
-from shoes.solid.pad import mould_surface, pad_surface, volume_of
+from shoes.solid.pad import mould_surface, pad_surface, taxel_surfaces, volume_of
 
 
 @pytest.mark.parametrize("side", [0, 1])
@@ -29,6 +30,19 @@ def test_the_pad_is_closed_and_encloses_the_taxels(small_foot: Foot, side: int, 
     cells = shapely.union_all(plan.cells)
     assert rim.is_empty or rim.distance(cells) == pytest.approx(0.3, abs=0.01)
     assert rim.is_empty or plan.contact.buffer(2e-3).covers(rim)
+
+
+@pytest.mark.parametrize(("length", "width"), [(0.24, 0.08), (0.2, 0.1), (0.11, 0.07)])
+def test_the_taxels_of_a_fine_rim_are_solids_of_their_volumes(length: float, width: float) -> None:
+    """Cut cells with an edge that vanishes where the rib is taken off came out inside out."""
+    foot = foot_from_dimensions("foot", length=length, width=width, corner_radius=0.0)
+    build = build_shoe(foot, side="left", rim="fine", layout_only=True)
+    p, plan = build.parameters, build.shoes[0].plan
+    for cell, pocket, surface in zip(plan.cells, plan.pockets, taxel_surfaces(plan, p), strict=True):
+        mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(surface))
+        assert mesh.is_winding_consistent
+        true = cell.area * p.taxel_protrusion + pocket.area * p.pocket_depth
+        assert volume_of(surface) == pytest.approx(true, rel=1e-6)
 
 
 def test_the_mould_is_what_the_pad_leaves_of_a_block(small_foot: Foot) -> None:
