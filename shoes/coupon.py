@@ -17,6 +17,7 @@ from plantar.errors import InputError
 from shoes.build import Progress, ShoeBuild
 from shoes.papers.stl import write_stl
 from shoes.plan.block import Block, Step
+from shoes.plan.shoe_plan import ShoePlan
 from shoes.solid.body import insole_steps, shoe_steps
 from shoes.solid.retention import Retention, choose_retention
 from shoes.solid.tray import build_solid, surface_of
@@ -24,6 +25,7 @@ from shoes.solid.tray import build_solid, surface_of
 __all__ = ["Coupon", "build_coupons", "write_coupons"]
 
 _FLANGE = 2.0  # mm of plate around the cell's ribs
+_SHEET = 15.0  # mm of a sheet's recess to each side of a point of its edge, and forward of it
 _BESIDE, _INWARDS, _OUTWARDS = 10.0, 16.0, 30.0  # mm of shoe beside, within and outside of what holds it
 _MORE = 2.0  # mm that blocks reach beyond what is kept
 _NAMES = {"clips": "clip", "straps": "lug", "screws": "screw"}
@@ -69,7 +71,7 @@ def build_coupons(build: ShoeBuild, *, progress: Progress | None = None) -> tupl
     else:
         retention = choose_retention(build.foot, plan, p)
         steps = shoe_steps(build.foot, plan, retention, p)
-    windows = [("cell", _cell_text(plan, build), _cell_window(plan, build))]
+    windows = [("cell", _cell_text(plan), _cell_window(plan, build))]
     if retention.places:
         name = _NAMES[retention.kind]
         windows.append((name, f"the foot's edge, with its {name}: {_place_text(retention)}", _holder(plan, retention)))
@@ -87,13 +89,30 @@ def _cell(plan: Any) -> int:
     return min(joined, key=lambda i: (-round(plan.cells[i].area, 1), plan.cells[i].centroid.distance(middle)))
 
 
-def _cell_text(plan: Any, build: ShoeBuild) -> str:
+def _cell_text(plan: ShoePlan) -> str:
     cell = int(plan.layout.ids[_cell(plan)])
+    kind = "tile" if plan.cell is None else plan.cell.kind
+    if kind == "sheet":
+        return "a piece of the sheet's recess with its edge: the sheet lies flat in it, level with the print around it"
+    if kind == "film":
+        return f"one sensor, id {cell}, with its pocket and ports: the film lies flat in it, its tail in the slot"
     return f"one cell, id {cell}, with its ribs and ports: its base goes in by hand and its head meets the groove"
 
 
-def _cell_window(plan: Any, build: ShoeBuild) -> Any:
-    return plan.cells[_cell(plan)].buffer(0.5 * build.parameters.rib + _FLANGE, join_style="mitre")
+def _cell_window(plan: ShoePlan, build: ShoeBuild) -> Any:
+    """A cell and its pocket with the ribs around them; of a sheet what lies around the recess's rearmost point."""
+    import shapely
+
+    rib = build.parameters.rib
+    if plan.cell is not None and plan.cell.kind == "sheet":
+        recess = plan.pockets[0]
+        x, y = min(shapely.get_coordinates(recess.exterior).tolist())
+        return shapely.box(x - rib - _FLANGE, y - _SHEET, x + _SHEET, y + _SHEET).intersection(
+            recess.buffer(rib + _FLANGE, join_style="mitre")
+        )
+    at = _cell(plan)
+    wider = [plan.cells[at].buffer(0.5 * rib, join_style="mitre"), plan.pockets[at].buffer(rib, join_style="mitre")]
+    return shapely.union_all(wider).buffer(_FLANGE, join_style="mitre")
 
 
 def _place_text(retention: Retention) -> str:

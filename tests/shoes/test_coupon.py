@@ -11,7 +11,9 @@ import trimesh
 
 from plantar.errors import InputError
 from shoes import Foot, ShoeReport, build_shoe
+from shoes.cells.cell_file import read_cell
 from shoes.coupon import build_coupons, write_coupons
+from shoes.foot.foot import foot_from_dimensions
 
 from .shoe_witness import hits
 
@@ -45,3 +47,27 @@ def test_coupons_are_what_rays_meet_in_the_shoe(exported: tuple[ShoeReport, Path
 def test_a_coupon_is_of_the_left_shoe(small_foot: Foot) -> None:
     with pytest.raises(InputError, match="a coupon is a piece of the left shoe"):
         build_coupons(build_shoe(small_foot, side="right", layout_only=True))
+
+
+@pytest.mark.parametrize("cell", ["fsr_402", "square", "sheet"])
+def test_a_coupon_of_other_cells_has_their_pocket_and_walls_around_it(cell: str) -> None:
+    foot = foot_from_dimensions("foot", length=0.2, width=0.09, corner_radius=0.01)
+    build = build_shoe(foot, side="left", cell=read_cell(cell), layout_only=True)
+    coupon = build_coupons(build)[0]
+    plan, p = build.shoes[0].plan, build.parameters
+    touched = [pocket for pocket in plan.pockets if coupon.window.contains(pocket.centroid)]
+    if cell == "sheet":
+        assert 100.0 < coupon.window.intersection(plan.pockets[0]).area < 0.5 * plan.pockets[0].area
+        assert coupon.window.difference(plan.pockets[0]).area > 50.0
+        assert "sheet" in coupon.text
+    else:
+        assert coupon.window.buffer(1e-3).covers(touched[0].buffer(p.rib, join_style="mitre"))
+        assert ("tail" in coupon.text) == (cell == "fsr_402")
+    mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(coupon.surface))
+    assert mesh.is_watertight
+    if cell == "square":
+        return  # its ribs end in grooves below
+    # Just above where the pocket begins there is print around it that a nozzle can lay.
+    lines = trimesh.intersections.mesh_plane(mesh, [0.0, 0.0, 1.0], [0.0, 0.0, mesh.bounds[0][2] + 0.2])
+    walls = shapely.union_all(list(shapely.polygonize([shapely.LineString(s) for s in lines[:, :, :2].round(6)]).geoms))
+    assert walls.buffer(-0.5 * p.wall_min).area > 10.0
