@@ -112,13 +112,16 @@ def _text_stl(data: bytes) -> Triangles:
 
 
 def _collada(path: Path) -> Triangles:
-    """Triangles of a Collada file in m, z up, its nodes put where they are."""
+    """Triangles of a Collada file in m, its nodes put where they are.
+
+    Which of its axes the file says is up is passed over: RViz and Gazebo do, so that authors of URDFs have set their
+    meshes by what they saw there (github.com/ros-visualization/rviz/issues/1045).
+    """
     root = parse_xml(read_input(path, RobotError, _MOST_BYTES), RobotError, str(path))
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
     unit = root.find("asset/unit")
     scale = 1.0 if unit is None else float(unit.get("meter", "1"))
-    axis = root.findtext("asset/up_axis", "Y_UP").strip()
     shapes = {f"#{g.get('id', '')}": _collada_shape(g) for g in root.iter("geometry")}
     nodes = {f"#{n.get('id', '')}": n for n in root.iter("node")}
     found: list[Triangles] = []
@@ -138,9 +141,8 @@ def _collada(path: Path) -> Triangles:
             walk(node, np.eye(4), 0)
     if not found:
         found = [shape for shape in shapes.values() if len(shape)]
-    turn = {"Y_UP": [[1, 0, 0], [0, 0, -1], [0, 1, 0]], "X_UP": [[0, -1, 0], [1, 0, 0], [0, 0, 1]]}
     whole = np.concatenate(found) if found else np.zeros((0, 3, 3))
-    return np.asarray(scale * whole @ np.array(turn.get(axis, np.eye(3)), dtype=float).T)
+    return np.asarray(scale * whole)
 
 
 def _collada_matrix(node: Element) -> NDArray[np.float64]:
