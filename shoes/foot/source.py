@@ -56,6 +56,11 @@ def read_foot(source: FootSource, *, sole_band: float) -> tuple[Foot, int | None
         value = getattr(source, name)
         if value is not None and value not in allowed:
             raise InputError(f"--{name.replace('_', '-')} is '{value}'; allowed: {', '.join(allowed)}")
+    if source.file is None:
+        for name in ("body", "sole_z", "up", "forward", "unit", "mesh_side"):
+            if getattr(source, name) is not None:
+                given = "--robot" if source.robot is not None else "--dimensions"
+                raise InputError(f"--{name.replace('_', '-')} is for a file of the foot; {given} needs none")
     if source.robot is not None:
         return foot_of_robot(source.robot)
     if source.dimensions is not None:
@@ -100,6 +105,8 @@ def _box_foot(text: str) -> Foot:
         values = []
     if len(values) not in (2, 3):
         raise InputError(f"--dimensions is '{text}'; allowed: LENGTHxWIDTH or LENGTHxWIDTHxRADIUS in mm, as 241x138x20")
+    if 0.0 < values[0] < values[1]:
+        raise InputError(f"--dimensions is '{text}', wider than long; allowed: LENGTHxWIDTH in mm, as 241x138")
     radius = values[2] if len(values) == 3 else min(0.010, 0.25 * abs(values[1]))
     return foot_from_dimensions("foot", length=values[0], width=values[1], corner_radius=radius)
 

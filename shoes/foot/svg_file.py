@@ -28,7 +28,14 @@ MOST_POINTS = 20_000
 _LONGEST_PATH, _LONGEST_TRANSFORM = 1_000_000, 10_000  # characters
 _MOST_USES = 20  # of each other
 _LINK = "{http://www.w3.org/1999/xlink}href"
-_SVG_UNITS: dict[str, tuple[Unit, float]] = {"mm": ("mm", 1.0), "cm": ("cm", 1.0), "in": ("in", 1.0)}
+_SVG_UNITS: dict[str, tuple[Unit, float]] = {
+    "mm": ("mm", 1.0),
+    "cm": ("cm", 1.0),
+    "in": ("in", 1.0),
+    "px": ("in", 1.0 / 96.0),  # as SVG has it; a number without a unit says nothing
+}
+
+_PER_PX: dict[Unit, float] = {"mm": 25.4 / 96.0, "cm": 2.54 / 96.0, "in": 1.0 / 96.0}
 
 
 def lines_of_svg(file: Path) -> tuple[Lines, Unit | None, float]:
@@ -113,13 +120,8 @@ def _svg_unit(root: ElementTree.Element) -> tuple[Unit | None, float, NDArray[np
     size, name = float(match[1]), match[2]
     if name in _SVG_UNITS:
         unit, factor = _SVG_UNITS[name]
-        return unit, factor * (size / box[2] if len(box) == 4 and box[2] > 0.0 else _per_px(name)), upright
+        return unit, factor * size / box[2] if len(box) == 4 and box[2] > 0.0 else _PER_PX[unit], upright
     return None, 1.0, upright
-
-
-def _per_px(name: str) -> float:
-    """How many of a unit a px is: 96 px are an inch."""
-    return {"mm": 25.4, "cm": 2.54, "in": 1.0}[name] / 96.0
 
 
 def _svg_transform(text: str | None) -> NDArray[np.float64]:

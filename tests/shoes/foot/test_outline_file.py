@@ -52,6 +52,10 @@ def test_every_kind_gives_the_same_outline(tmp_path: Path) -> None:
         (dxf(tmp_path / "none.dxf", 0, 1e-3), "unit m, detected"),
         (svg(tmp_path / "a.svg", pieces), "unit mm as the file states"),
         (svg(tmp_path / "half.svg", f'<polygon points="{up}"/>', 'width="20cm" viewBox="0 0 200 100"'), "unit cm as"),
+        (
+            svg(tmp_path / "px.svg", f'<polygon points="{up}"/>', f'width="{20 / 2.54 * 96}px" viewBox="0 0 200 100"'),
+            "unit in as the file states",
+        ),
         (svg(tmp_path / "plain.svg", f'<path d="M {up} z"/>', ""), "unit mm, detected"),
         (geojson(tmp_path / "a.geojson"), "unit mm, detected"),
         (geojson(tmp_path / "m.json", 1e-3), "unit m, detected"),

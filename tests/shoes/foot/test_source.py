@@ -32,6 +32,20 @@ def test_a_word_that_an_option_does_not_know_is_refused_whatever_the_source(opti
         read(**{source: SOURCES[source], option: "sideways"})
 
 
+@pytest.mark.parametrize("option", ["body", "sole_z", "up", "forward", "unit", "mesh_side"])
+@pytest.mark.parametrize("source", ["robot", "dimensions"])
+def test_an_option_of_files_is_refused_where_there_is_none(option, source):
+    value = {"body": "foot", "sole_z": 5.0, "up": "x", "forward": "y", "unit": "in", "mesh_side": "right"}[option]
+    name = option.replace("_", "-")
+    with pytest.raises(InputError, match=f"--{name} is for a file of the foot; --{source} needs none"):
+        read(**{source: SOURCES[source], option: value})
+
+
+def test_a_box_that_is_wider_than_long_is_refused():
+    with pytest.raises(InputError, match="--dimensions is '95x240', wider than long"):
+        read(dimensions="95x240")
+
+
 def test_a_box_has_the_size_that_is_written():
     foot, taxels = read(dimensions="240x95X10")
     low_x, low_y, high_x, high_y = foot.sole.bounds
