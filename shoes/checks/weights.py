@@ -68,4 +68,5 @@ def _skin(shoe: Shoe, p: ShoeParameters) -> float:
     plan = shoe.plan
     if plan.cell is not None and plan.lands:
         return float(sum(q.area for q in plan.pockets)) * plan.cell.thickness
-    return float(shoe.layout.areas.sum()) * 1e6 * (p.taxel_protrusion + p.pocket_depth)
+    heads, bases = sum(c.area for c in plan.cells), sum(q.area for q in plan.pockets)
+    return float(heads) * p.taxel_protrusion + float(bases) * p.pocket_depth
