@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gait.analysis.options import AnalysisOptions
 from gait.analysis.prints.platform import PlatformPrint
 from gait.analysis.prints.regions import REGIONS
+from gait.analysis.steps.baseline import resting_level
 from gait.analysis.steps.cop_path import averaged_path
 from gait.analysis.steps.events import EVENT_LEVELS, Contact, Levels, find_contacts, force_levels, run_together
 from gait.analysis.steps.foot_gait import FootGait, Step
@@ -31,6 +32,9 @@ __all__ = ["analyse_feet", "analyse_foot"]
 
 COP_WINDOW = 0.05
 """Time in s over which the centre of pressure is averaged, weighted by force: a path of noise has no length."""
+
+_CARRIED = 0.2
+"""Share of a foot's peak that shoes and creases do not press in swing."""
 
 _RAISED = 1.4
 """How many times its usual height the level of heel strikes is from which events move by more than 20 and 35 ms."""
@@ -135,7 +139,7 @@ def _with_events(recording: PressureRecording, side: Side, stated: bool) -> Foot
     """One foot with its contacts and its CoP; no step is measured yet."""
     foot = recording.feet[side]
     force = foot.vertical_force
-    levels = force_levels(force, recording.kind)
+    levels = _levels(recording, side)
     contacts = _contacts(recording, side, stated)
     cop = foot.center_of_pressure(levels.release if levels is not None else np.inf)
     if cop is not None:
@@ -154,9 +158,18 @@ def _contacts(recording: PressureRecording, side: Side, stated: bool) -> list[Co
     """The contacts of a foot: found in its force, or those that the file states."""
     if stated:
         return stated_contacts(recording.time, recording.events[side])
+    levels = _levels(recording, side)
+    return [] if levels is None else find_contacts(recording.time, recording.feet[side].vertical_force, levels)
+
+
+def _levels(recording: PressureRecording, side: Side) -> Levels | None:
+    """Levels of a foot's force. Where the least that it carries is much, and no flat level of a sensor, the weight goes
+    from foot to foot and none is lifted."""
     force = recording.feet[side].vertical_force
     levels = force_levels(force, recording.kind)
-    return [] if levels is None else find_contacts(recording.time, force, levels)
+    if levels is None or levels.rest <= _CARRIED * levels.peak or resting_level(force, recording.rate_hz) is not None:
+        return levels
+    return force_levels(force, recording.kind, lifted=False)
 
 
 def _regions(load: StepLoad, region: NDArray[np.int64] | None, duration: float) -> dict[str, dict[str, float]]:

@@ -138,12 +138,13 @@ class Contact:
         return self.heel_strike is not None and self.toe_off is not None
 
 
-def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | None:
+def force_levels(force: NDArray[np.float64], kind: Kind = "robot", lifted: bool = True) -> Levels | None:
     """Levels of one foot's vertical force.
 
     Args:
         force: Vertical force (n,) in N; NaN where it was not measured.
         kind: What measured it.
+        lifted: Whether the least that it carries is what it carries in swing; else it is never off the ground.
 
     Returns:
         The levels, or None where the foot never carries anything above its noise.
@@ -156,7 +157,7 @@ def force_levels(force: NDArray[np.float64], kind: Kind = "robot") -> Levels | N
     if peak is None:
         return None
     share = EVENT_LEVELS[kind]
-    rest, noise = _rest_and_noise(force, smooth, peak, share.contact, kind)
+    rest, noise = _rest_and_noise(force, smooth, peak, share.contact, kind) if lifted else (0.0, 0.0)
     span = peak - rest
     if span <= 2.0 * _NOISE_CONTACT * noise or span <= 0.0:
         return None

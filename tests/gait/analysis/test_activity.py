@@ -12,6 +12,7 @@ from gait.analysis.activity import activity_of, progression_doubts, sway_measure
 from gait.analysis.analyse import metrics_of
 from gait.analysis.options import AnalysisOptions
 from gait.analysis.parameters import analyse_feet
+from gait.analysis.steps.baseline import without_baselines
 from plantar.errors import InputError
 from plantar.formats.nominal_insole import nominal_insole
 from plantar.recordings.pressure_recording import FootRecording, PressureRecording, StatedEvents
@@ -176,6 +177,23 @@ def test_events_by_another_clock_are_refused() -> None:
         events = {s: StatedEvents(made.strikes[s] * factor + offset, made.lifts[s] * factor + offset) for s in SIDES}
         with pytest.raises(InputError, match=r"events of the left foot are stated from .* by the recording's clock"):
             analyse_feet(replace(made.recording, events=events), options=AnalysisOptions(events="vendor"))
+
+
+@pytest.mark.parametrize("period", [2.5, 4.0, 8.0])
+@pytest.mark.parametrize("depth", [0.3, 0.6])
+def test_weight_that_goes_from_foot_to_foot_is_no_walk(period: float, depth: float) -> None:
+    """No foot is lifted: each carries a fifth of a body weight or more at any time."""
+    layout = nominal_insole("x", "left")
+    time = np.arange(0.0, 30.0, 0.01)
+    feet = {}
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        load = 350.0 * (1.0 + sign * depth * np.sin(2.0 * np.pi * time / period))
+        feet[side] = FootRecording(side, np.outer(load, np.full(len(layout), 1.0 / len(layout))), None)  # type: ignore[arg-type]
+    recording = PressureRecording(Path("x"), "x", 100.0, time, feet, kind="insole")  # type: ignore[arg-type]
+    for given in (recording, without_baselines(recording)):
+        found = analyse_feet(given)
+        assert not any(gait.steps for gait in found.values())
+        assert activity_of(given, found).name == "standing"
 
 
 def test_the_ellipse_holds_95_of_100_points() -> None:
