@@ -107,7 +107,8 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
         if share > _WELL:
             break
     _, span, found = max(tried, key=lambda one: one[:2])
-    if not found:
+    found = _measured(found, force, rate)
+    if len(found) < _FEWEST:
         return None
     places, spans = _known_places(force, course, found, span)
     level = np.interp(np.arange(len(force)), places, [np.median(course[a:b]) for a, b in spans])
@@ -115,6 +116,16 @@ def swing_levels(force: NDArray[np.float64], rate: float) -> SwingLevels | None:
     for a, b in found:
         swing[a:b] = True
     return SwingLevels(places, spans, level, swing & np.isfinite(force), span)
+
+
+def _measured(found: Sequence[tuple[int, int]], force: NDArray[np.float64], rate: float) -> list[tuple[int, int]]:
+    """What of the swings was measured: elsewhere the course goes on flat or straight, and is no swing."""
+    out = []
+    for a, b in found:
+        known = a + np.flatnonzero(np.isfinite(force[a:b]))
+        if len(known) >= max(3, round(MINIMUM_SWING * rate)):
+            out.append((int(known[0]), int(known[-1]) + 1))
+    return out
 
 
 def _known_places(

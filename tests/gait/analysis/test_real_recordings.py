@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 from gait.analysis.analyse import analyse
+from gait.analysis.steps.swing_levels import swing_levels
 from plantar import PlantarError
+from plantar.formats import read_recording
 from plantar.sides import Side
 
 EXAMPLES = ("pedar_walk.asc", "emed_step.lst", "fscan_walk_left.asf", "xsensor_walk.csv", "moticon_walk_a.txt")
@@ -185,3 +187,17 @@ def test_a_long_recording_is_quick_and_small(tmp_path: Path) -> None:
     _, seconds, kilobytes = done.stdout.splitlines()[-1].split()
     assert float(seconds) < 30.0 / 5.0 + 6.0  # imports and figures do not grow with the recording
     assert float(kilobytes) < 1e6 / 5.0 + 2.5e5
+
+
+@pytest.mark.parametrize("end", [6.0, 8.0, 9.0, 11.0, 13.0])
+def test_an_insole_that_stops_in_mid_load_changes_nothing_before(real_data: Path, end: float) -> None:
+    """What is drawn on from its last value is flat, and was taken for a swing at 74 N."""
+    recording = read_recording(real_data / "recordings" / "moticon_walk_a.txt")
+    right = recording.feet["right"]
+    total = right.vertical_force.copy()
+    total[recording.time > end] = np.nan
+    stopped = swing_levels(total, recording.rate_hz)
+    cut = swing_levels(total[recording.time <= end], recording.rate_hz)
+    assert (stopped is None) == (cut is None)
+    if stopped is not None and cut is not None:
+        assert stopped.level[: len(cut.level)] == pytest.approx(cut.level, abs=2.0)
