@@ -17,8 +17,12 @@ __all__ = ["is_side_column", "on_one_time", "rows_of_sides", "with_numbers"]
 _NAME = re.compile(
     r"\W*(?:side|foot|sole|insole|shoe|leg|limb|fu(?:ss|ß)|seite|pied|pie)(?:[ _-]?(?:side|id))?\W*", re.IGNORECASE
 )
-LONGEST_GAP = 0.1
-"""Longest gap in s between a foot's rows over which its values are interpolated: longer ones were not measured."""
+_GAP = 2.5
+"""Usual distances between a foot's rows over which its values are interpolated, whatever the unit of the times: more
+was not measured, and is filled or not as in any recording."""
+
+_SHIFT = 1.5
+"""Usual distances by which one foot's rows may begin or end before the other's for no more than their shift."""
 
 _MARK: dict[Side, str] = {"left": "0", "right": "1"}
 
@@ -98,8 +102,8 @@ def on_one_time(
         columns: Columns (n,) of values.
 
     Returns:
-        Times (m,); values (m, k) of each foot, NaN where it has no rows for longer than `LONGEST_GAP`; and whether the
-        feet's times differed, so that values were interpolated, the right foot's at the left one's times.
+        Times (m,); values (m, k) of each foot, NaN where it has no rows for a while; and whether the feet's
+        times differed, so that values were interpolated, the right foot's at the left one's times.
 
     Raises:
         FormatError: If a foot has no time.
@@ -110,42 +114,45 @@ def on_one_time(
     left, right = rows["left"], rows["right"]
     if len(left) == len(right) and np.array_equal(time[left], time[right], equal_nan=True):
         return time[left], {side: np.column_stack([c[own] for c in columns]) for side, own in rows.items()}, False
-    times: dict[Side, NDArray[np.float64]] = {}
-    for side, own in (("left", left), ("right", right)):
-        known = own[np.isfinite(time[own])]
+    timed: dict[Side, NDArray[np.int64]] = {}
+    for side in SIDES:
+        known = rows[side][np.isfinite(time[rows[side]])]
         if len(known) == 0:
             raise FormatError(f"no row of the {side} foot has a time")
-        rows[side] = known[np.argsort(time[known], kind="stable")]
-        times[side] = time[rows[side]]
+        timed[side] = known[np.argsort(time[known], kind="stable")]
+    times = {side: time[timed[side]] for side in SIDES}
     # The left foot's times, and the right one's where the left foot has no rows; what one has more at the ends is left
     # out where it is no more than the rows' shift.
     alone = {side: times[side][~_covered(times[side], times[other_side(side)])] for side in SIDES}
     mine, more = (_without_ends(times[s], alone[s], times[other_side(s)]) for s in SIDES)
     base = np.union1d(mine, more[np.isin(more, alone["right"])])
-    feet = {side: _at(base, times[side], np.column_stack([c[rows[side]] for c in columns])) for side in SIDES}
+    feet = {side: _at(base, times[side], np.column_stack([c[timed[side]] for c in columns])) for side in SIDES}
     return base, feet, True
+
+
+def _usual(time: NDArray[np.float64]) -> float:
+    """Usual distance between times (n,); 0 of a single one."""
+    return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
 
 
 def _without_ends(
     time: NDArray[np.float64], alone: NDArray[np.float64], others: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Times (n,) of a foot without those that it has alone at either end, where they are before or after the other
-    foot's by `LONGEST_GAP` at most."""
-    low = others[0] if 0.0 < others[0] - time[0] <= LONGEST_GAP else -np.inf
-    high = others[-1] if 0.0 < time[-1] - others[-1] <= LONGEST_GAP else np.inf
+    foot's by a shift at most."""
+    most = _SHIFT * _usual(time)
+    low = others[0] if 0.0 < others[0] - time[0] <= most else -np.inf
+    high = others[-1] if 0.0 < time[-1] - others[-1] <= most else np.inf
     return time[~np.isin(time, alone) | ((time >= low) & (time <= high))]
 
 
 def _covered(wanted: NDArray[np.float64], time: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Whether wanted times (m,) lie between two of some times (n,), in order, that are no gap apart."""
     after = np.searchsorted(time, wanted, side="left")
-    on = time[np.minimum(after, len(time) - 1)] == wanted
+    covered = time[np.minimum(after, len(time) - 1)] == wanted
     inside = (after > 0) & (after < len(time))
-    at = np.clip(after, 1, max(1, len(time) - 1))
-    steps = np.diff(time)
-    longest = LONGEST_GAP + 1.5 * (float(np.median(steps)) if len(steps) else 0.0)
-    near = steps[at - 1] <= longest if len(steps) else np.zeros(len(wanted), dtype=bool)
-    return np.asarray(on | (inside & near))
+    covered[inside] |= (time[after[inside]] - time[after[inside] - 1]) <= _GAP * _usual(time)
+    return np.asarray(covered)
 
 
 def _at(wanted: NDArray[np.float64], time: NDArray[np.float64], values: NDArray[np.float64]) -> NDArray[np.float64]:

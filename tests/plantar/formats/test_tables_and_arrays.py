@@ -273,15 +273,19 @@ def test_a_table_with_a_column_of_sides_is_two_feet(
 @pytest.mark.parametrize("lost", ["left", "right"])
 @pytest.mark.parametrize("shift", [0.0, 0.004])
 @pytest.mark.parametrize("span", [(0.0, 0.2), (0.15, 0.3), (0.3, 0.6)])
+@pytest.mark.parametrize("unit", ["s", "ms"])
 def test_rows_that_a_foot_lacks_are_not_drawn_and_cost_the_other_none(
-    tmp_path: Path, layout: SoleLayout, lost: str, shift: float, span: tuple[float, float]
+    tmp_path: Path, layout: SoleLayout, lost: str, shift: float, span: tuple[float, float], unit: str
 ) -> None:
     """One foot's connection breaks, at the begin, in between, or at the end."""
-    path, rows = tmp_path / "soles.csv", ["time [s],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
+    path, rows = tmp_path / "soles.csv", [f"time [{unit}],sole," + ",".join(f"cell {i} [N]" for i in layout.ids)]
     for k in range(50):
         for side, late in (("left", 0.0), ("right", shift)):
             if side != lost or not span[0] <= k / 100 < span[1]:
-                rows.append(f"{k / 100 + late:.3f},{side}," + ",".join(f"{k + 1}" for _ in layout.ids))
+                rows.append(
+                    f"{(k / 100 + late) * {'s': 1, 'ms': 1000}[unit]:.3f},{side},"
+                    + ",".join(f"{k + 1}" for _ in layout.ids)
+                )
     path.write_text("\n".join(rows) + "\n")
     recording = read_recording(path, layout=layout)
     kept = recording.feet["right" if lost == "left" else "left"].force
