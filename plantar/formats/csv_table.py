@@ -261,7 +261,10 @@ def _times(
         warnings.append(f"the times state no unit: {'s' if factor == 1.0 else f'{factor:g} s'} is assumed")
     time = table[:, at] * factor
     known = time[np.isfinite(time)]
-    return sampling(time - (known[0] if len(known) and abs(known[0]) > 1e5 else 0.0), stated)
+    if len(known) and abs(known[0]) > 1e5:
+        warnings.append(f"the times begin at {known[0]:.10g} s: here they count from the first frame")
+        time = time - known[0]
+    return sampling(time, stated)
 
 
 def _name_and_unit(text: str) -> tuple[str, str | None]:

@@ -411,3 +411,12 @@ def test_stated_raw_counts_are_told(tmp_path: Path, layout: SoleLayout, values: 
     recording = read_recording(path, layout=layout)
     assert recording.raw
     assert sum("raw counts" in warning for warning in recording.warnings) == 1
+
+
+def test_times_of_a_clock_count_from_the_first_frame_and_it_is_told(tmp_path: Path, layout: SoleLayout) -> None:
+    rows = ["time [s]," + ",".join(f"left {i} [N]" for i in layout.ids)]
+    rows += [f"{1.7e9 + k / 100:.2f}," + ",".join("1" for _ in layout.ids) for k in range(50)]
+    (tmp_path / "clock.csv").write_text("\n".join(rows) + "\n")
+    recording = read_recording(tmp_path / "clock.csv", layout=layout)
+    assert recording.time == pytest.approx(np.arange(50) / 100, abs=1e-6)
+    assert "the times begin at 1700000000 s: here they count from the first frame" in recording.warnings
