@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from plantar.geometry.polygon import area, centroid, signed_margin
+from plantar.kernels.gait.carried_load import mark_carried, take_in
 from plantar.layouts.layout import SoleLayout
 from plantar.sensing.partial_contact import PartialContact
 from plantar.sensing.proximity import cells_polygon
@@ -164,20 +165,15 @@ class StanceContact:
         self._time = reading.time
         if slope is not None:
             self._slope = self._slope + (s.smoothing if self._count else 1.0) * (slope - self._slope)
-        # A dead taxel is a taxel without load, not a fault of the foothold.
-        force = np.where(np.isfinite(reading.force), reading.force, 0.0)
         self._count += 1
-        self._sum = s.forgetting * self._sum + force
         # The sum of the weights, for a mean that is right from the first reading on.
         self._weight = s.forgetting * self._weight + 1.0
-        # The first reading begins the mean; from zero it would take long to rise.
-        share = s.smoothing if self._count > 1 else 1.0
-        self._mean += share * (force - self._mean)
+        # The first reading begins the mean; from zero it would take long to rise. A dead taxel is a taxel without load,
+        # not a fault of the foothold.
+        take_in(reading.force, s.forgetting, s.smoothing if self._count > 1 else 1.0, self._sum, self._mean)
         if self._count >= s.settle_readings:
-            around = np.where(self._near >= 0, self._mean[self._near], 0.0).max(axis=1, initial=0.0)
-            # Ground that was seen needs no such doubt.
-            beside = 0.0 if self.seen else s.least_beside
-            self._carried |= self._mean > np.maximum(s.least_force, beside * around)
+            # Ground that was seen needs no doubt of what lies beside.
+            mark_carried(self._mean, self._near, s.least_force, 0.0 if self.seen else s.least_beside, self._carried)
         if self._count < s.settle_readings or (self.settled and self._count % s.fit_every):
             return False
         return self._find()
