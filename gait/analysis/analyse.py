@@ -109,7 +109,7 @@ def analyse_recording(
         raise InputError(f"--mm-per-pixel is for footprint images; {path} is a recording")
     if also is not None and image:
         raise InputError(f"--export is for recordings; {path} is a footprint image")
-    with output_folder(out, (path, layout, (choices or AnalysisOptions()).events)) as folder:
+    with output_folder(out, (path, layout, (choices or AnalysisOptions()).events_file)) as folder:
         if image:
             metrics = analyse_image(Path(path), folder, mm_per_pixel, known.side, subject)
         else:
@@ -167,8 +167,8 @@ def analyse(
     tell = progress or (lambda fraction, text: None)
     recording, prints = told_apart(read_recording(path, format, options=options))
     chosen = choices or AnalysisOptions()
-    if chosen.events not in ("own", "vendor"):
-        recording = dataclasses.replace(recording, events=read_events(chosen.events))
+    if chosen.events_file is not None:
+        recording = dataclasses.replace(recording, events=read_events(chosen.events_file))
     recording = without_gaps(recording)
     if chosen.baseline == "auto":
         recording = without_baselines(recording)

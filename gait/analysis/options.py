@@ -38,6 +38,11 @@ class AnalysisOptions:
         if self.begin is not None and self.end is not None and not self.begin < self.end:
             raise InputError(f"--from {self.begin:g} is not before --to {self.end:g}")
 
+    @property
+    def events_file(self) -> str | None:
+        """Path of the file of events; None where they are found in the force, or stated by the recording."""
+        return None if self.events in ("own", "vendor") else self.events
+
     def of_several(self, what: str) -> None:
         """Refuse what can hold of one recording alone: a file of events has the times of one walk.
 
@@ -47,7 +52,7 @@ class AnalysisOptions:
         Raises:
             InputError: If the events are those of a file.
         """
-        if self.events not in ("own", "vendor"):
+        if self.events_file is not None:
             text = f"a file of events is of one recording, and {what} several; allowed: own, vendor"
             raise InputError(f"--events {self.events}: {text}")
 
